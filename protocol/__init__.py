@@ -1,0 +1,1 @@
+"""What crosses the wire: messages, topics, queries, codec, key expressions, quality of service."""

@@ -1,0 +1,101 @@
+"""Messages to bytes and back, with size bounds; nothing malformed passes."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any, TypeVar
+
+import msgspec
+
+from protocol.exceptions import MalformedMessage, OversizedMessage, WrongVersion
+from protocol.messages import Message
+from protocol.queries import Query, Refused
+from protocol.topics import Topic
+
+M = TypeVar("M", bound=Message)
+Req = TypeVar("Req", bound=msgspec.Struct)
+Rep = TypeVar("Rep", bound=msgspec.Struct)
+
+_ENCODER = msgspec.msgpack.Encoder()
+
+
+@cache
+def _decoder(type_: Any) -> msgspec.msgpack.Decoder[Any]:
+    return msgspec.msgpack.Decoder(type_)
+
+
+def encode(topic: Topic[M], message: M) -> bytes:
+    """The message as a MessagePack map.
+
+    Raises:
+        OversizedMessage: it is larger than the topic allows.
+    """
+    return _bounded(topic.name, _ENCODER.encode(message), topic.max_bytes)
+
+
+def decode(topic: Topic[M], payload: bytes, schema: str = "") -> M:
+    """The message in the payload.
+
+    Args:
+        topic: that it came on.
+        payload: as received.
+        schema: as announced by the sender; empty where a foreign sender announced none.
+
+    Raises:
+        OversizedMessage: before anything is decoded.
+        WrongVersion: the sender announced another schema.
+        MalformedMessage: the payload is no such message.
+    """
+    _check_schema(topic.name, schema, topic.schema)
+    message: M = _decode(topic.name, payload, topic.max_bytes, topic.type)
+    return message
+
+
+def encode_request(query: Query[Req, Rep], request: Req) -> bytes:
+    """The request as a MessagePack map.
+
+    Raises:
+        OversizedMessage: it is larger than the query allows.
+    """
+    return _bounded(query.name, _ENCODER.encode(request), query.max_bytes)
+
+
+def decode_request(query: Query[Req, Rep], payload: bytes, schema: str = "") -> Req:
+    """The request in the payload; raises as `decode`."""
+    _check_schema(query.name, schema, query.schema)
+    request: Req = _decode(query.name, payload, query.max_bytes, query.request)
+    return request
+
+
+def encode_reply(query: Query[Req, Rep], reply: Rep | Refused) -> bytes:
+    """The reply as a MessagePack map whose field `reply` says which one it is.
+
+    Raises:
+        OversizedMessage: it is larger than the query allows.
+    """
+    return _bounded(query.name, _ENCODER.encode(reply), query.max_bytes)
+
+
+def decode_reply(query: Query[Req, Rep], payload: bytes) -> Rep | Refused:
+    """The reply in the payload; raises as `decode`."""
+    reply: Rep | Refused = _decode(query.name, payload, query.max_bytes, query.reply | Refused)
+    return reply
+
+
+def _bounded(subject: str, payload: bytes, bound: int) -> bytes:
+    if len(payload) > bound:
+        raise OversizedMessage(subject, len(payload), bound)
+    return payload
+
+
+def _check_schema(subject: str, announced: str, expected: str) -> None:
+    if announced and announced != expected:
+        raise WrongVersion(subject, announced, expected)
+
+
+def _decode(subject: str, payload: bytes, bound: int, type_: Any) -> Any:
+    _bounded(subject, payload, bound)
+    try:
+        return _decoder(type_).decode(payload)
+    except (msgspec.DecodeError, RecursionError) as error:
+        raise MalformedMessage(subject, str(error)) from None

@@ -1,0 +1,200 @@
+"""The query registry: requests that a process answers, once, as data."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any, Generic, TypeVar
+
+import msgspec
+
+from protocol.messages import Count, Mode, ModelState, Motion, Name, Pose, Prediction, Text, Vector3
+from protocol.topics import VERSION, checked_name
+
+Req = TypeVar("Req", bound=msgspec.Struct)
+Rep = TypeVar("Rep", bound=msgspec.Struct)
+
+
+class Refused(msgspec.Struct, frozen=True, tag_field="reply", tag="refused"):
+    """The answer to a request that was understood and not carried out."""
+
+    reason: Text
+
+
+class Accepted(msgspec.Struct, frozen=True, tag_field="reply", tag="accepted"):
+    """The request is carried out."""
+
+
+class AcquireAuthority(msgspec.Struct, frozen=True):
+    """Ask for the authority to command; `take_over` ends another holder's lease."""
+
+    holder: Name
+    take_over: bool = False
+
+
+class AuthorityGranted(msgspec.Struct, frozen=True, tag_field="reply", tag="granted"):
+    """The lease: renew it on its topic, put the epoch into every command."""
+
+    epoch: Count
+    lease_s: float
+
+
+class ReleaseAuthority(msgspec.Struct, frozen=True):
+    """Give the authority back."""
+
+    holder: Name
+    epoch: Count
+
+
+class Adapt(Enum):
+    """Which way-point the displacement moves: the next one (eq. 15-17) or the current one (eq. B.7)."""
+
+    NEXT = "next"
+    CURRENT = "current"
+
+
+class Execute(msgspec.Struct, frozen=True):
+    """Execute a prediction; its end is announced on the topic state/episode_result.
+
+    Attributes:
+        epoch: of the authority.
+        request: a number by which the asker knows the episode again.
+        mode: autonomous, or with the operator's correction.
+        prediction: in the base frame; its duration is the episode's.
+        adapt: which way-point the correction moves.
+    """
+
+    epoch: Count
+    request: Count
+    mode: Mode
+    prediction: Motion
+    adapt: Adapt = Adapt.NEXT
+
+
+class EpisodeStarted(msgspec.Struct, frozen=True, tag_field="reply", tag="started"):
+    """The episode's number."""
+
+    episode: Count
+
+
+class Finish(msgspec.Struct, frozen=True):
+    """End the running episode here: the operator is satisfied, or gives up."""
+
+    epoch: Count
+
+
+class Reset(msgspec.Struct, frozen=True):
+    """Back to the start pose. In simulation the object is put to `object_position` and the scene into `variant`.
+
+    Where they are left out, the object returns to where it was put last and the variant stays.
+    """
+
+    epoch: Count
+    variant: Name | None = None
+    object_position: Vector3 | None = None
+
+
+class ReleaseStop(msgspec.Struct, frozen=True):
+    """Release the latched emergency stop; moving again needs a new authority."""
+
+    by: Name
+
+
+class Predict(msgspec.Struct, frozen=True):
+    """Predict a motion to the object from the start pose."""
+
+    object_position: Vector3
+    start: Pose
+
+
+class Predicted(msgspec.Struct, frozen=True, tag_field="reply", tag="predicted"):
+    """The prediction."""
+
+    prediction: Prediction
+
+
+class Kind(Enum):
+    """What a demonstration is to the model: part of what it starts from, or an update."""
+
+    INITIAL = "initial"
+    UPDATE = "update"
+
+
+class AddDemonstration(msgspec.Struct, frozen=True):
+    """Learn from a motion that reached the object."""
+
+    kind: Kind
+    motion: Motion
+    object_position: Vector3
+    scene: Name
+
+
+class Undo(msgspec.Struct, frozen=True):
+    """Take the newest update back."""
+
+
+class Describe(msgspec.Struct, frozen=True):
+    """Ask for the model's state."""
+
+
+class Learnt(msgspec.Struct, frozen=True, tag_field="reply", tag="learnt"):
+    """The change is on disk."""
+
+    state: ModelState
+
+
+@dataclass(frozen=True)
+class Query(Generic[Req, Rep]):
+    """A request that one process answers.
+
+    Attributes:
+        name: "<class>/<subject>".
+        request: its type.
+        reply: the type of a positive answer; the negative one is always `Refused`.
+        server: the process that answers.
+        max_bytes: of a request or a reply.
+        about: one line for people.
+    """
+
+    name: str
+    request: type[Req]
+    reply: type[Rep]
+    server: str
+    max_bytes: int
+    about: str
+
+    @property
+    def schema(self) -> str:
+        """Announced with every request."""
+        return f"{self.request.__name__}/1"
+
+    def key(self, robot: str) -> str:
+        """The key expression at which the robot's server answers."""
+        return f"retouch/{VERSION}/{checked_name(robot)}/{self.name}/{self.server}"
+
+
+ACQUIRE = Query("authority/acquire", AcquireAuthority, AuthorityGranted, "robot", 4_096, "ask for the authority")
+RELEASE = Query("authority/release", ReleaseAuthority, Accepted, "robot", 4_096, "give the authority back")
+EXECUTE = Query("cmd/execute", Execute, EpisodeStarted, "robot", 1_048_576, "execute a prediction")
+FINISH = Query("cmd/finish", Finish, Accepted, "robot", 4_096, "end the episode here")
+RESET = Query("cmd/reset", Reset, Accepted, "robot", 4_096, "back to the start")
+RELEASE_STOP = Query("safety/release_stop", ReleaseStop, Accepted, "robot", 4_096, "release the emergency stop")
+PREDICT = Query("model/predict", Predict, Predicted, "model", 1_048_576, "predict a motion")
+ADD_DEMONSTRATION = Query(
+    "model/add_demonstration", AddDemonstration, Learnt, "model", 4_194_304, "learn; answered when it is on disk"
+)
+UNDO = Query("model/undo", Undo, Learnt, "model", 4_096, "take the newest update back")
+DESCRIBE = Query("model/describe", Describe, Learnt, "model", 4_096, "the model as it lies on disk")
+
+QUERIES: tuple[Query[Any, Any], ...] = (
+    ACQUIRE,
+    RELEASE,
+    EXECUTE,
+    FINISH,
+    RESET,
+    RELEASE_STOP,
+    PREDICT,
+    ADD_DEMONSTRATION,
+    UNDO,
+    DESCRIBE,
+)

@@ -1,0 +1,176 @@
+"""The topic registry: every channel, once, as data. Everything else is derived from it."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any, Generic, TypeVar
+
+from protocol import messages
+from protocol.exceptions import InvalidName
+
+M = TypeVar("M", bound=messages.Message)
+
+VERSION = "@v1"
+"""The verbatim chunk keeps versions apart: no wildcard of one version matches another."""
+
+_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
+
+
+class QoS(Enum):
+    """How a topic travels, named by stance; the bus translates it.
+
+    REALTIME: the newest sample only, at once, rather lost than late.
+    STATE: the newest sample only, ahead of pictures.
+    PICTURE: large, the newest only, behind everything that moves.
+    EVENT: every message counts, however late; its publisher repeats what must not be lost.
+    """
+
+    REALTIME = "realtime"
+    STATE = "state"
+    PICTURE = "picture"
+    EVENT = "event"
+
+
+@dataclass(frozen=True)
+class Topic(Generic[M]):
+    """A channel of one message type.
+
+    Attributes:
+        name: "<class>/<subject>"; access rules name the class: cmd, state, model, cam, safety, authority, health.
+        type: of its messages.
+        rate_hz: at which it is published in operation; timeouts are multiples of its period.
+        qos: how it travels.
+        publisher: the process that publishes it; "any" where every process may.
+        max_bytes: of an encoded message.
+        about: one line for people.
+        kept: messages that a receiver keeps until it takes them; 1 where only the newest counts.
+    """
+
+    name: str
+    type: type[M]
+    rate_hz: float
+    qos: QoS
+    publisher: str
+    max_bytes: int
+    about: str
+    kept: int = 1
+
+    @property
+    def schema(self) -> str:
+        """Announced with every message, so that a reader can refuse another version before it decodes."""
+        return f"{self.type.__name__}/1"
+
+    @property
+    def stale_after_ns(self) -> int | None:
+        """Age at which a sample counts as lost: ten periods, at least 100 ms; events never."""
+        if self.qos is QoS.EVENT:
+            return None
+        return int(max(0.1, 10.0 / self.rate_hz) * 1e9)
+
+    def key(self, robot: str, source: str) -> str:
+        """The key expression on which `source` publishes for `robot`."""
+        return (
+            f"retouch/{VERSION}/{checked_name(robot)}/{self.name}/{source if source == '*' else checked_name(source)}"
+        )
+
+
+def checked_name(name: str) -> str:
+    """The name itself.
+
+    Raises:
+        InvalidName: it cannot stand in a key expression.
+    """
+    if not _NAME.fullmatch(name):
+        raise InvalidName(name)
+    return name
+
+
+OPERATOR_INPUT = Topic(
+    "cmd/operator_input", messages.OperatorInput, 50.0, QoS.REALTIME, "station", 4_096, "keys and axes held on the page"
+)
+MASTER_STATE = Topic(  # kept: between two steps of the robot a master without authority must not hide the holder's
+    "cmd/master_state", messages.MasterState, 100.0, QoS.REALTIME, "master", 1_024, "the operator's correction", kept=8
+)
+AUTHORITY_RENEWAL = Topic(
+    "authority/renewal", messages.AuthorityRenewal, 10.0, QoS.STATE, "station", 512, "the holder is alive", kept=8
+)
+AUTHORITY_STATE = Topic("authority/state", messages.AuthorityState, 10.0, QoS.STATE, "robot", 512, "who may command")
+EMERGENCY_STOP = Topic(
+    "safety/emergency_stop",
+    messages.EmergencyStop,
+    10.0,
+    QoS.EVENT,
+    "any",
+    8_192,
+    "stop, repeated while pressed",
+    kept=16,
+)
+SAFETY_STATE = Topic(
+    "safety/state", messages.SafetyState, 10.0, QoS.STATE, "robot", 8_192, "what keeps the robot from moving"
+)
+ROBOT_STATE = Topic(
+    "state/robot", messages.RobotState, 100.0, QoS.STATE, "robot", 16_384, "joints and poses, measured and commanded"
+)
+WORLD_STATE = Topic(
+    "state/world", messages.WorldState, 50.0, QoS.STATE, "robot", 16_384, "the simulated world, to draw"
+)
+SCENE_STATE = Topic(
+    "state/scene", messages.SceneState, 1.0, QoS.STATE, "robot", 262_144, "the scene and its success criteria"
+)
+VERDICT = Topic("state/verdict", messages.Verdict, 30.0, QoS.STATE, "robot", 1_024, "reached, kicked over, collision")
+EXECUTION = Topic(
+    "state/execution", messages.ExecutionState, 10.0, QoS.STATE, "robot", 1_048_576, "the motion under way"
+)
+EPISODE_RESULT = Topic(
+    "state/episode_result",
+    messages.EpisodeResult,
+    1.0,
+    QoS.EVENT,
+    "robot",
+    4_194_304,
+    "what became of an episode",
+    kept=16,
+)
+HEAD_IMAGE = Topic("cam/head", messages.CameraImage, 15.0, QoS.PICTURE, "camera", 1_048_576, "the head camera")
+WRIST_IMAGE = Topic("cam/wrist", messages.CameraImage, 15.0, QoS.PICTURE, "camera", 1_048_576, "the wrist camera")
+OBJECT_POSE = Topic(
+    "state/object_pose", messages.ObjectPose, 15.0, QoS.STATE, "perception", 1_024, "the object as the camera sees it"
+)
+PREDICTION = Topic(
+    "model/prediction", messages.Prediction, 1.0, QoS.EVENT, "model", 1_048_576, "the newest prediction", kept=16
+)
+MODEL_STATE = Topic("model/state", messages.ModelState, 1.0, QoS.STATE, "model", 1_024, "the model as it lies on disk")
+TEACHING_STATE = Topic(
+    "state/teaching", messages.TeachingState, 10.0, QoS.STATE, "station", 524_288, "where the teaching workflow stands"
+)
+RECORDING = Topic(
+    "state/recording", messages.Recording, 1.0, QoS.STATE, "viewer", 16_384, "where to look and what records"
+)
+HEARTBEAT = Topic(
+    "health/heartbeat", messages.Heartbeat, 2.0, QoS.STATE, "any", 65_536, "a process about itself", kept=256
+)
+
+TOPICS: tuple[Topic[Any], ...] = (
+    OPERATOR_INPUT,
+    MASTER_STATE,
+    AUTHORITY_RENEWAL,
+    AUTHORITY_STATE,
+    EMERGENCY_STOP,
+    SAFETY_STATE,
+    ROBOT_STATE,
+    WORLD_STATE,
+    SCENE_STATE,
+    VERDICT,
+    EXECUTION,
+    EPISODE_RESULT,
+    HEAD_IMAGE,
+    WRIST_IMAGE,
+    OBJECT_POSE,
+    PREDICTION,
+    MODEL_STATE,
+    TEACHING_STATE,
+    RECORDING,
+    HEARTBEAT,
+)
