@@ -1,0 +1,1 @@
+"""Learning from demonstration: the mathematics. Arrays in, arrays out; no process, no message, no clock."""

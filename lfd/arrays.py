@@ -1,0 +1,58 @@
+"""Checked, read-only copies of arrays: what every value type of this package is made of."""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from lfd.exceptions import NotFinite, NotUnitQuaternion, WrongShape
+
+Array = NDArray[np.float64]
+
+UNIT_TOLERANCE = 1e-3  # [-] what rounding to a few decimals in a recording does to a unit quaternion
+
+
+def frozen(values: ArrayLike) -> Array:
+    """A read-only copy of `values` as 64-bit floats."""
+    array = np.array(values, dtype=np.float64)
+    array.setflags(write=False)
+    return array
+
+
+def checked(name: str, values: ArrayLike, shape: tuple[int | None, ...]) -> Array:
+    """A read-only copy of `values` that has the shape and is finite.
+
+    Args:
+        name: What the array is called in an error.
+        values: The numbers.
+        shape: The wanted shape; None stands for any length.
+
+    Raises:
+        WrongShape: The shape differs.
+        NotFinite: A number is NaN or infinite.
+    """
+    array = frozen(values)
+    fits = array.ndim == len(shape) and all(
+        want is None or want == have for want, have in zip(shape, array.shape, strict=True)
+    )
+    if not fits:
+        expected = ", ".join("n" if length is None else str(length) for length in shape)
+        raise WrongShape(name, f"({expected})", array.shape)
+    if not np.isfinite(array).all():
+        first = np.argwhere(~np.isfinite(array))[0]
+        raise NotFinite(name, tuple(int(i) for i in first))
+    return array
+
+
+def checked_quaternions(name: str, values: ArrayLike, shape: tuple[int | None, ...]) -> Array:
+    """Quaternions (wxyz, in the last axis), checked to be unit and normalised to full precision.
+
+    Raises:
+        WrongShape: The shape differs.
+        NotFinite: A number is NaN or infinite.
+        NotUnitQuaternion: A norm differs from one by more than rounding does.
+    """
+    array = checked(name, values, shape)
+    norms = np.linalg.norm(array, axis=-1, keepdims=True)
+    wrong = np.flatnonzero(np.abs(norms - 1.0) > UNIT_TOLERANCE)
+    if wrong.size:
+        raise NotUnitQuaternion(name, int(wrong[0]), float(norms.flat[wrong[0]]))
+    return frozen(array / norms)

@@ -1,0 +1,49 @@
+"""Normalised Gaussian basis functions and least-squares weights."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lfd.arrays import Array
+from lfd.exceptions import OutOfRange
+
+
+@dataclass(frozen=True)
+class GaussianBasis:
+    """N Gaussian bumps, evenly centred on the phases 0 to 1, that sum to one at every phase.
+
+    Attributes:
+        count: N, at least 2.
+        width: Standard deviation of a bump, as a fraction of the trajectory.
+
+    Raises:
+        OutOfRange: There are fewer than two functions, or the width is not positive.
+    """
+
+    count: int = 10
+    width: float = 0.1
+
+    def __post_init__(self) -> None:
+        if self.count < 2:
+            raise OutOfRange("number of basis functions", self.count, "at least 2")
+        if not self.width > 0.0:
+            raise OutOfRange("width of the basis functions", self.width, "positive")
+
+    def matrix(self, phases: Array) -> Array:
+        """Phi of equation (2): the functions at the phases (T,), shape (T, N); each row sums to one."""
+        centres = np.linspace(0.0, 1.0, self.count)
+        bumps = np.exp(-0.5 * ((phases[:, None] - centres) / self.width) ** 2)
+        Phi: Array = bumps / bumps.sum(axis=1, keepdims=True)
+        return Phi
+
+
+def weights(Phi: Array, values: Array) -> Array:
+    """Equation (3): the w that brings Phi w nearest to `values` in least squares, shape (N, d).
+
+    Solved by singular values, not by the normal equations: with fewer samples than functions it is the smallest w.
+
+    Args:
+        Phi: Basis matrix, shape (T, N).
+        values: Shape (T, d).
+    """
+    return np.asarray(np.linalg.lstsq(Phi, values, rcond=None)[0], dtype=np.float64)

@@ -1,0 +1,86 @@
+"""How a demonstration becomes a vector of weights, and weights become a trajectory again."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lfd.arrays import Array, checked_quaternions
+from lfd.basis import GaussianBasis, weights
+from lfd.demonstration import Demonstration, relative_to_object
+from lfd.resampling import resample
+from lfd.rotations import conjugate, exp_map, log_map, mean_rotation, multiply, sign_continuous
+from lfd.trajectory import Trajectory
+
+
+def reference_rotation(demonstrations: Sequence[Demonstration]) -> Array:
+    """The mean rotation (4,) of all points of all demonstrations, about which orientations are linearised."""
+    return mean_rotation(np.concatenate([d.trajectory.orientations for d in demonstrations]))
+
+
+@dataclass(frozen=True, eq=False)
+class Encoding:
+    """Weights of positions relative to the object, of orientations, and the duration, in one vector.
+
+    Orientations enter as rotation vectors about one reference rotation (log map), not as the quaternion components
+    of the thesis: those lose their unit norm when averaged and mix up q with -q. Durations enter as logarithms, so
+    that no prediction is negative.
+
+    Attributes:
+        basis: Of all six outputs.
+        samples: Number of points at which a trajectory is encoded.
+        rotation: The reference rotation, unit quaternion (w, x, y, z).
+        anchored: Encode what remains after a straight blend-out of the start pose, and put the known start pose back
+            at decoding: a prediction then begins exactly where the robot is.
+    """
+
+    basis: GaussianBasis
+    samples: int
+    rotation: Array
+    anchored: bool
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "rotation", checked_quaternions("rotation", self.rotation, (4,)))
+
+    def encode(self, demonstration: Demonstration) -> Array:
+        """The vector of a demonstration, shape (6 N + 1,): N x 6 weights row by row, then ln(duration / s)."""
+        trajectory = resample(demonstration.trajectory, self.samples)
+        relative = relative_to_object(trajectory, demonstration.object_position)
+        outputs = np.hstack([relative.positions, self._rotation_vectors(relative.orientations)])
+        if self.anchored:
+            outputs = outputs - np.outer(1.0 - trajectory.phases, outputs[0])
+        w = weights(self.rows(trajectory.phases), outputs)
+        return np.append(w.ravel(), np.log(trajectory.duration))
+
+    def decode(self, x: Array, start_pose: tuple[Array, Array], object_position: Array, n: int) -> Trajectory:
+        """The trajectory of n points in the base frame that the vector x (6 N + 1,) stands for.
+
+        Args:
+            x: As of `encode`.
+            start_pose: Position (3,) [m] and orientation (4,) at t = 0 in the base frame; used if anchored.
+            object_position: In the base frame, shape (3,) [m].
+            n: Number of points.
+        """
+        phases = np.linspace(0.0, 1.0, n)
+        outputs = self.rows(phases) @ x[:-1].reshape(self.basis.count, 6)
+        if self.anchored:
+            position, orientation = start_pose
+            start = np.concatenate([position - object_position, self._rotation_vectors(orientation[None])[0]])
+            outputs = outputs + np.outer(1.0 - phases, start)
+        return Trajectory(
+            positions=outputs[:, :3] + object_position,
+            orientations=multiply(self.rotation, exp_map(outputs[:, 3:])),
+            duration=float(np.exp(x[-1])),
+        )
+
+    def rows(self, phases: Array) -> Array:
+        """The basis at phases (T,), shape (T, N); if anchored, with the value at phase 0 blended out to zero."""
+        Phi = self.basis.matrix(phases)
+        if not self.anchored:
+            return Phi
+        return Phi - np.outer(1.0 - phases, self.basis.matrix(np.zeros(1))[0])
+
+    def _rotation_vectors(self, orientations: Array) -> Array:
+        relative = multiply(conjugate(self.rotation), orientations)
+        first = -1.0 if relative[0, 0] < 0.0 else 1.0
+        return log_map(sign_continuous(first * relative), shortest=False)

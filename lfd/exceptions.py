@@ -1,0 +1,111 @@
+"""What can go wrong in learning from demonstration.
+
+LfdError
+├── WrongShape              an array has not the shape it must have
+├── NotFinite               an array or number contains NaN or infinity
+├── TooFewPoints            a trajectory needs at least two points
+├── TooFewDemonstrations    a model needs at least one demonstration
+├── InvalidDuration         a duration is not positive
+├── NotUnitQuaternion       an orientation is not a unit quaternion
+├── TimesNotIncreasing      the times of samples do not increase strictly
+├── OutOfRange              a number lies outside its range
+└── StorageError            the store's file cannot be used
+    └── NothingToUndo       the store holds no active demonstration
+"""
+
+from pathlib import Path
+
+
+class LfdError(Exception):
+    """Base of all errors of the package `lfd`."""
+
+
+class WrongShape(LfdError):
+    """An array has not the shape it must have."""
+
+    def __init__(self, name: str, expected: str, actual: tuple[int, ...]) -> None:
+        self.name = name
+        self.expected = expected
+        self.actual = actual
+        super().__init__(f"{name} has shape {actual}: give an array of shape {expected}")
+
+
+class NotFinite(LfdError):
+    """An array or number contains NaN or infinity."""
+
+    def __init__(self, name: str, index: tuple[int, ...]) -> None:
+        self.name = name
+        self.index = index
+        where = f" at index {index}" if index else ""
+        super().__init__(f"{name} is not a finite number{where}: drop or repair the sample")
+
+
+class TooFewPoints(LfdError):
+    """A trajectory needs at least two points."""
+
+    def __init__(self, name: str, count: int) -> None:
+        self.name = name
+        self.count = count
+        super().__init__(f"{name} has {count} point(s): a trajectory needs at least 2")
+
+
+class TooFewDemonstrations(LfdError):
+    """A model needs at least one demonstration."""
+
+    def __init__(self) -> None:
+        super().__init__("no demonstration: a model needs at least one")
+
+
+class InvalidDuration(LfdError):
+    """A duration is not positive."""
+
+    def __init__(self, duration: float) -> None:
+        self.duration = duration
+        super().__init__(f"duration is {duration:g} s: it must be positive")
+
+
+class NotUnitQuaternion(LfdError):
+    """An orientation is not a unit quaternion."""
+
+    def __init__(self, name: str, index: int, norm: float) -> None:
+        self.name = name
+        self.index = index
+        self.norm = norm
+        super().__init__(f"{name}[{index}] has norm {norm:g}: give unit quaternions (w, x, y, z)")
+
+
+class TimesNotIncreasing(LfdError):
+    """The times of samples do not increase strictly."""
+
+    def __init__(self, index: int, previous: float, time: float) -> None:
+        self.index = index
+        self.previous = previous
+        self.time = time
+        super().__init__(f"times[{index}] = {time:g} s follows {previous:g} s: order the samples, one a time")
+
+
+class OutOfRange(LfdError):
+    """A number lies outside its range."""
+
+    def __init__(self, name: str, value: float, allowed: str) -> None:
+        self.name = name
+        self.value = value
+        self.allowed = allowed
+        super().__init__(f"{name} is {value:g}: it must be {allowed}")
+
+
+class StorageError(LfdError):
+    """The file of a demonstration store cannot be used."""
+
+    def __init__(self, path: Path, reason: str, remedy: str) -> None:
+        self.path = path
+        self.reason = reason
+        self.remedy = remedy
+        super().__init__(f"{path}: {reason}; {remedy}")
+
+
+class NothingToUndo(StorageError):
+    """The store holds no active demonstration."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(path, "no active demonstration to undo", "add one first")

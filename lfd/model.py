@@ -1,0 +1,69 @@
+"""The seam between a movement model and whoever uses it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol, Self
+
+from lfd.arrays import Array, checked
+from lfd.demonstration import Demonstration
+from lfd.exceptions import OutOfRange
+from lfd.trajectory import Trajectory
+
+PREDICTION_POINTS = 75  # the thesis' number of way-points in a prediction
+
+
+@dataclass(frozen=True, eq=False)
+class Prediction:
+    """A motion that the model expects to reach the object, and how sure it is.
+
+    Attributes:
+        trajectory: In the base frame, n points.
+        position_covariances: Of each point in the base frame, shape (n, 3, 3) [m^2].
+        duration_std: Standard deviation of the duration [s].
+    """
+
+    trajectory: Trajectory
+    position_covariances: Array
+    duration_std: float
+
+    def __post_init__(self) -> None:
+        shape = (self.trajectory.n_points, 3, 3)
+        covariances = checked("position_covariances", self.position_covariances, shape)
+        object.__setattr__(self, "position_covariances", covariances)
+        if not self.duration_std >= 0.0:
+            raise OutOfRange("duration_std", self.duration_std, "zero or more")
+
+
+class MovementModel(Protocol):
+    """A model of reaching motions. A value: an update returns a new model and leaves the old one as it was."""
+
+    @classmethod
+    def fit(cls, demonstrations: Sequence[Demonstration]) -> Self:
+        """A model of demonstrations, at least one.
+
+        Raises:
+            TooFewDemonstrations: There is none.
+        """
+        ...
+
+    def updated(self, demonstration: Demonstration) -> Self:
+        """The model that has also learnt `demonstration`, the motion that a refinement led to."""
+        ...
+
+    def predict(
+        self, object_position: Array, start_position: Array, start_orientation: Array, n: int = PREDICTION_POINTS
+    ) -> Prediction:
+        """The motion from a start pose to an object.
+
+        Args:
+            object_position: In the base frame, shape (3,) [m].
+            start_position: Of the end effector in the base frame, shape (3,) [m].
+            start_orientation: Of the end effector in the base frame, unit quaternion (w, x, y, z).
+            n: Number of points.
+
+        Raises:
+            WrongShape: An array has the wrong shape.
+            NotFinite: A number is NaN or infinite.
+            NotUnitQuaternion: The orientation is not a unit quaternion.
+        """
+        ...

@@ -1,0 +1,96 @@
+"""The thesis' model: probabilistic movement primitives, conditioned on where the object is."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+
+from lfd.alignment import align
+from lfd.arrays import Array, checked, checked_quaternions
+from lfd.basis import GaussianBasis
+from lfd.demonstration import Demonstration
+from lfd.encoding import Encoding, reference_rotation
+from lfd.exceptions import TooFewDemonstrations
+from lfd.gaussian import JointGaussian, condition, welford
+from lfd.model import PREDICTION_POINTS, Prediction
+
+CONDITION_SCALE = 10.0  # the thesis' factor on the condition
+
+_BASIS = GaussianBasis(count=10, width=0.1)
+
+
+@dataclass(frozen=True)
+class PrompOptions:
+    """The thesis' parameters.
+
+    Attributes:
+        basis: N = 10 functions of width 0.1.
+        samples: n, the number of points to which a demonstration is resampled.
+        conditioning_noise: Diagonal of Sigma_n in equation (10), for the condition times 10. The text says 0.03, its
+            implementation used 0.1.
+        observation_std: sigma of equation (13) [m].
+    """
+
+    basis: GaussianBasis = _BASIS
+    samples: int = 10
+    conditioning_noise: float = 0.03
+    observation_std: float = 0.01
+
+
+@dataclass(frozen=True, eq=False)
+class ConditionedProMP:
+    """Equations (1) to (13), (19) and (20).
+
+    The thesis fits one model per output. Here one Gaussian is joint over all outputs: the mean is the same, as each
+    row of the gain of equation (8) depends on its own output only, and the covariance between x, y and z comes with
+    it. Orientation and duration: see `Encoding`.
+
+    Attributes:
+        encoding: Between demonstrations and weights.
+        joint: Over x = [w, 10 s].
+        options: Parameters.
+    """
+
+    encoding: Encoding
+    joint: JointGaussian
+    options: PrompOptions
+
+    @classmethod
+    def fit(cls, demonstrations: Sequence[Demonstration], options: PrompOptions | None = None) -> Self:
+        """The model of demonstrations, those of one condition aligned in time.
+
+        Raises:
+            TooFewDemonstrations: There is none.
+        """
+        if not demonstrations:
+            raise TooFewDemonstrations
+        options = options or PrompOptions()
+        encoding = Encoding(options.basis, options.samples, reference_rotation(demonstrations), anchored=False)
+        samples = np.array([_sample(encoding, d) for d in align(demonstrations)])
+        return cls(encoding, JointGaussian.fit(samples), options)
+
+    def updated(self, demonstration: Demonstration) -> Self:
+        """The model after one step of Welford's method: the new motion counts as much as each earlier one."""
+        return replace(self, joint=welford(self.joint, _sample(self.encoding, demonstration)))
+
+    def predict(
+        self, object_position: Array, start_position: Array, start_orientation: Array, n: int = PREDICTION_POINTS
+    ) -> Prediction:
+        """Equations (12) and (13), see `MovementModel.predict`; the start orientation is not used."""
+        target = checked("object_position", object_position, (3,))
+        start = checked("start_position", start_position, (3,))
+        orientation = checked_quaternions("start_orientation", start_orientation, (4,))
+        s = CONDITION_SCALE * (target - start)
+        given = condition(self.joint, s, self.options.conditioning_noise)
+        trajectory = self.encoding.decode(given.mean, (start, orientation), target, n)
+        N = self.options.basis.count
+        Sigma_w = given.covariance[:-1, :-1].reshape(N, 6, N, 6)[:, :3, :, :3]
+        Phi = self.encoding.rows(trajectory.phases)
+        covariances = np.einsum("ta,aibj,tb->tij", Phi, Sigma_w, Phi) + self.options.observation_std**2 * np.eye(3)
+        duration_std = trajectory.duration * np.sqrt(given.covariance[-1, -1])
+        return Prediction(trajectory, covariances, float(duration_std))
+
+
+def _sample(encoding: Encoding, demonstration: Demonstration) -> Array:
+    return np.append(encoding.encode(demonstration), CONDITION_SCALE * demonstration.condition)

@@ -1,0 +1,109 @@
+"""Rotations as unit quaternions, scalar first (w, x, y, z); all functions broadcast over leading axes.
+
+A quaternion q and its negative are the same rotation. The log map takes a rotation to the tangent space, where
+averages, weights and covariances make sense; they do not on the components, which is why no model here learns those.
+"""
+
+import numpy as np
+
+from lfd.arrays import Array
+
+IDENTITY: Array = np.array([1.0, 0.0, 0.0, 0.0])
+IDENTITY.setflags(write=False)
+
+_SMALL = 1e-8  # [rad] below it the series replaces sin(x) / x
+
+
+def multiply(p: Array, q: Array) -> Array:
+    """Hamilton product p q: first rotate by q, then by p. Shapes (..., 4)."""
+    pw, pv, qw, qv = p[..., :1], p[..., 1:], q[..., :1], q[..., 1:]
+    scalar = pw * qw - np.sum(pv * qv, axis=-1, keepdims=True)
+    return np.concatenate([scalar, pw * qv + qw * pv + np.cross(pv, qv)], axis=-1)
+
+
+def conjugate(q: Array) -> Array:
+    """The inverse of unit quaternions, shape (..., 4)."""
+    return np.concatenate([q[..., :1], -q[..., 1:]], axis=-1)
+
+
+def exp_map(r: Array) -> Array:
+    """Rotation vectors [rad], shape (..., 3), to unit quaternions, shape (..., 4)."""
+    half = 0.5 * np.linalg.norm(r, axis=-1, keepdims=True)
+    return np.concatenate([np.cos(half), 0.5 * np.sinc(half / np.pi) * r], axis=-1)
+
+
+def log_map(q: Array, *, shortest: bool = True) -> Array:
+    """Unit quaternions, shape (..., 4), to rotation vectors [rad], shape (..., 3); the inverse of `exp_map`.
+
+    Args:
+        q: Unit quaternions.
+        shortest: Take the sign of q that gives an angle of at most pi. Without it a sign-continuous sequence stays
+            continuous when it passes pi.
+    """
+    if shortest:
+        q = np.where(q[..., :1] < 0.0, -q, q)
+    sine = np.linalg.norm(q[..., 1:], axis=-1, keepdims=True)
+    half = np.arctan2(sine, q[..., :1])
+    near_identity = np.where(q[..., :1] < 0.0, -2.0, 2.0)
+    scale = np.where(sine > _SMALL, 2.0 * half / np.maximum(sine, _SMALL), near_identity)
+    r: Array = scale * q[..., 1:]
+    return r
+
+
+def sign_continuous(q: Array) -> Array:
+    """The same rotations, shape (n, 4), with signs such that neighbours lie in one hemisphere; the first is kept."""
+    flips = np.where(np.sum(q[1:] * q[:-1], axis=-1) < 0.0, -1.0, 1.0)
+    signs = np.concatenate([[1.0], np.cumprod(flips)])
+    continuous: Array = q * signs[:, None]
+    return continuous
+
+
+def slerp(p: Array, q: Array, fraction: Array) -> Array:
+    """Spherical linear interpolation from p (fraction 0) to q (fraction 1) along the shorter way.
+
+    Args:
+        p: Unit quaternions, shape (..., 4).
+        q: Unit quaternions, shape (..., 4).
+        fraction: Numbers, shape (...,).
+    """
+    step = log_map(multiply(conjugate(p), q))
+    return multiply(p, exp_map(np.asarray(fraction)[..., None] * step))
+
+
+def mean_rotation(q: Array) -> Array:
+    """The mean of rotations, shape (n, 4) to (4,): the largest eigenvector of sum q q^T (Markley et al., 2007).
+
+    The signs of the q do not matter. The result has w >= 0.
+    """
+    _, vectors = np.linalg.eigh(q.T @ q)
+    mean: Array = vectors[:, -1]
+    return -mean if mean[0] < 0.0 else mean
+
+
+def rotate(q: Array, v: Array) -> Array:
+    """Vectors v, shape (..., 3), rotated by q, shape (..., 4)."""
+    t = 2.0 * np.cross(q[..., 1:], v)
+    rotated: Array = v + q[..., :1] * t + np.cross(q[..., 1:], t)
+    return rotated
+
+
+def matrix_from_quaternion(q: Array) -> Array:
+    """Rotation matrices, shape (..., 3, 3), from quaternions, shape (..., 4)."""
+    columns = [rotate(q, axis) for axis in np.eye(3)]
+    return np.stack(columns, axis=-1)
+
+
+def quaternion_from_matrix(R: Array) -> Array:
+    """Unit quaternion (4,), w >= 0, of one rotation matrix (3, 3).
+
+    The quaternion is the largest eigenvector of a symmetric matrix made of R (Bar-Itzhack, 2000), which has no
+    singular case and projects a slightly non-orthogonal R.
+    """
+    k = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+    K = np.empty((4, 4))
+    K[0, 0] = np.trace(R)
+    K[0, 1:] = K[1:, 0] = k
+    K[1:, 1:] = R + R.T - np.trace(R) * np.eye(3)
+    _, vectors = np.linalg.eigh(K)
+    q: Array = vectors[:, -1]
+    return -q if q[0] < 0.0 else q

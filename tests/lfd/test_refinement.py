@@ -1,0 +1,57 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lfd.exceptions import OutOfRange
+from lfd.refinement import refine
+from lfd.resampling import resample
+from lfd.trajectory import Trajectory
+
+
+def line(end, duration):
+    return Trajectory(np.linspace(0.0, 1.0, 40)[:, None] * end, np.tile([1.0, 0, 0, 0], (40, 1)), duration)
+
+
+@pytest.fixture
+def prediction(reach):
+    return reach([0.9, 0.2, 0.6], duration=5.0, n=75).trajectory
+
+
+@pytest.fixture
+def refinement(reach):
+    return reach([0.9, 0.3, 0.7], bend=0.2, duration=8.0, n=140).trajectory
+
+
+def test_alpha_one_is_the_refinement(prediction, refinement):
+    refined, expected = refine(prediction, refinement), resample(refinement, 75)
+    np.testing.assert_allclose(refined.positions, expected.positions, atol=1e-12)
+    np.testing.assert_allclose(refined.orientations, expected.orientations, atol=1e-9)
+    assert refined.duration == pytest.approx(8.0)
+
+
+def test_alpha_zero_is_the_prediction(prediction, refinement):
+    refined = refine(prediction, refinement, alpha=0.0)
+    np.testing.assert_allclose(refined.positions, prediction.positions, atol=2e-4)
+    assert refined.duration == pytest.approx(5.0)
+
+
+@pytest.mark.parametrize("alpha", [0.0, 0.3, 1.0])
+def test_a_satisfied_operator_changes_nothing(prediction, alpha):
+    """tau_hr = tau_d is the fixed point at which the refinement loop of the thesis ends."""
+    refined = refine(prediction, prediction, alpha)
+    np.testing.assert_allclose(refined.positions, prediction.positions, atol=1e-12)
+
+
+@given(alpha=st.floats(0.0, 1.0))
+def test_the_end_points_and_the_duration_move_by_alpha(alpha):
+    old, new = line(np.array([1.0, 0.0, 0.0]), 2.0), line(np.array([1.0, 1.0, 0.0]), 4.0)
+    refined = refine(old, new, alpha)
+    np.testing.assert_allclose(refined.positions[-1], [1.0, alpha, 0.0], atol=1e-12)
+    assert refined.duration == pytest.approx(2.0 + 2.0 * alpha)
+    assert refined.n_points == 75
+
+
+def test_alpha_outside_its_range_is_refused(prediction):
+    with pytest.raises(OutOfRange):
+        refine(prediction, prediction, alpha=1.5)
