@@ -1,0 +1,203 @@
+"""The command line: `retouch`."""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NoReturn
+
+import msgspec
+
+from lfd.exceptions import LfdError
+from protocol.exceptions import ProtocolError
+from protocol.table import query_table, topic_table
+from protocol.topics import checked_name
+from services.child import EXIT_BAD_INPUT
+from services.config import Configuration, Scripted, load
+from services.exceptions import ServiceError
+from services.processes import PROCESS_NAMES, PROCESSES, process
+from sim.exceptions import SimError
+
+log = logging.getLogger(__name__)
+
+EXIT_FAILED = 1
+EXIT_INTERRUPTED = 130
+
+EXAMPLES = """\
+examples:
+  retouch up                                  everything on this machine, and a page in the browser
+  retouch up --headless --once                the same with a scripted operator; says what happened
+  retouch up --listen tcp/0.0.0.0:7447 --only robot,camera,perception,model
+                                              the robot's side, for operators on other machines
+  retouch up --connect tcp/ROBOT:7447 --only master,viewer,station
+                                              the operator's side
+  retouch top                                 what lives on the network, with rates, ages and drops
+"""
+
+
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong in one line instead of printing the usage."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(EXIT_BAD_INPUT, f"{self.prog}: {message}; see '{self.prog} --help'\n")
+
+
+def _common() -> _Parser:
+    common = _Parser(add_help=False)
+    common.add_argument("--config", type=Path, metavar="FILE", help="a TOML file; see README for its keys")
+    common.add_argument("--robot", metavar="NAME", help="the robot's name on the network (default: robot1)")
+    common.add_argument("--connect", metavar="ENDPOINT", help="of a router, such as tcp/192.0.2.1:7447")
+    common.add_argument("--debug", action="store_true", help="log more, and tracebacks")
+    return common
+
+
+def parser() -> argparse.ArgumentParser:
+    """The parser of all commands."""
+    root = _Parser(
+        prog="retouch",
+        description="Teleoperation that learns while it is corrected.",
+        epilog=EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    root.add_argument("--supervised", action="store_true", help=argparse.SUPPRESS)
+    commands = root.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=_Parser)
+    common = _common()
+    _add_up(commands, common)
+    for one in PROCESSES:
+        commands.add_parser(one.name, parents=[common], help=f"the process that has to {one.about}")
+    router = commands.add_parser("router", parents=[common], help="where the processes of a site meet")
+    router.add_argument("--listen", metavar="ENDPOINT", help="default: tcp/127.0.0.1:7447")
+    _add_scene(commands.add_parser("teach", parents=[common], help="teach an empty model its first demonstrations"))
+    echo = commands.add_parser("echo", parents=[common], help="print what passes on a key expression")
+    echo.add_argument("key", metavar="KEY", help="such as 'retouch/@v1/robot1/state/**'")
+    echo.add_argument("--count", type=int, metavar="N", help="end after N messages")
+    top = commands.add_parser("top", parents=[common], help="the live processes of a network")
+    top.add_argument("--once", action="store_true", help="print one table and end")
+    stop = commands.add_parser("stop", parents=[common], help="emergency stop of a robot")
+    stop.add_argument("--release", action="store_true", help="release the stop instead")
+    replay = commands.add_parser("replay", help="open a recording in Rerun")
+    replay.add_argument("file", type=Path, metavar="FILE")
+    replay.add_argument("--debug", action="store_true", help=argparse.SUPPRESS)
+    commands.add_parser("topics", help="print the table of topics and queries")
+    return root
+
+
+def _add_scene(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--scene", metavar="S", help="dishwasher (default) or table")
+    command.add_argument("--seed", type=int, metavar="N", help="of the object's position and the scripted hand")
+
+
+def _add_up(commands: argparse._SubParsersAction[_Parser], common: _Parser) -> None:
+    up = commands.add_parser("up", parents=[common], help="start everything and watch over it")
+    _add_scene(up)
+    up.add_argument("--headless", action="store_true", help="a scripted operator instead of the page")
+    up.add_argument("--once", action="store_true", help="end when the loop has closed")
+    up.add_argument("--fresh", action="store_true", help="start from an empty model, kept in the run's folder")
+    up.add_argument("--json", type=Path, metavar="FILE", help="write what happened")
+    up.add_argument("--listen", metavar="ENDPOINT", help="where other machines may join (default: this machine only)")
+    up.add_argument("--only", metavar="A,B", help=f"start only some of: {', '.join(PROCESS_NAMES)}")
+    up.add_argument("--no-browser", action="store_true", help="do not open the page")
+
+
+def configuration(arguments: argparse.Namespace) -> Configuration:
+    """The configuration file, where one was given, with the flags on top.
+
+    Raises:
+        ConfigurationError: the file cannot be used.
+        ProtocolError: the robot's name cannot stand in a key.
+    """
+    result = load(arguments.config) if arguments.config else Configuration()
+    changes: dict[str, object] = {
+        key: getattr(arguments, flag)
+        for key, flag in (("name", "robot"), ("connect", "connect"), ("listen", "listen"), ("seed", "seed"))
+        if getattr(arguments, flag, None) is not None
+    }
+    if getattr(arguments, "listen", None) and not arguments.connect:
+        changes["connect"] = reachable(arguments.listen)
+    if getattr(arguments, "scene", None):
+        changes["robot"] = msgspec.structs.replace(result.robot, scene=arguments.scene)
+    if getattr(arguments, "headless", False):
+        changes["master"] = msgspec.structs.replace(result.master, device=Scripted())
+    if arguments.command == "up":
+        changes["station"] = msgspec.structs.replace(result.station, scripted=arguments.headless, once=arguments.once)
+    result = msgspec.structs.replace(result, **changes)
+    checked_name(result.name)
+    return result
+
+
+def reachable(listen: str) -> str:
+    """The endpoint by which this machine reaches its own router that listens on all addresses."""
+    return listen.replace("/0.0.0.0:", "/127.0.0.1:").replace("/[::]:", "/[::1]:")
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run a command; errors that a person can mend are one line and exit code 2."""
+    arguments = parser().parse_args(argv)
+    debug = getattr(arguments, "debug", False)
+    logging.basicConfig(
+        level=logging.DEBUG if debug else logging.INFO, format="%(levelname)s %(message)s", stream=sys.stderr
+    )
+    for noisy in ("httpx", "httpcore", "asyncio", "uvicorn", "websockets", "matplotlib", "OpenGL"):
+        logging.getLogger(noisy).setLevel(logging.WARNING)
+    try:
+        return _dispatch(arguments)
+    except (ServiceError, ProtocolError, SimError, LfdError) as error:
+        log.debug("traceback", exc_info=True)
+        sys.stderr.write(f"retouch: {error}\n")
+        return EXIT_BAD_INPUT
+    except KeyboardInterrupt:
+        return EXIT_INTERRUPTED
+    except Exception as error:
+        log.debug("traceback", exc_info=True)
+        sys.stderr.write(f"retouch: failed by {type(error).__name__}: {error}; --debug shows where\n")
+        return EXIT_FAILED
+
+
+def _dispatch(arguments: argparse.Namespace) -> int:
+    # Each command imports what it needs: a robot's computer has no page, a station no physics.
+    if arguments.command == "topics":
+        sys.stdout.write(f"{topic_table()}\n\n{query_table()}\n")
+        return 0
+    if arguments.command == "replay":
+        from services.viewer.replay import replay  # noqa: PLC0415
+
+        replay(arguments.file)
+        return 0
+    settings = configuration(arguments)
+    if arguments.supervised:
+        from services.worker import die_with_parent  # noqa: PLC0415
+
+        die_with_parent()
+    match arguments.command:
+        case "up":
+            from services.launch import Launch, launch  # noqa: PLC0415
+
+            return launch(settings, Launch.from_arguments(arguments))
+        case "router":
+            from services.router import run_router  # noqa: PLC0415
+
+            run_router(settings, arguments.connect)
+        case "teach":
+            from services.teach import teach  # noqa: PLC0415
+
+            teach(settings)
+        case "echo":
+            from services.echo import echo  # noqa: PLC0415
+
+            echo(settings.connect, arguments.key, arguments.count)
+        case "top":
+            from services.top import top  # noqa: PLC0415
+
+            top(settings.connect, once=arguments.once)
+        case "stop":
+            from services.stop import release, stop  # noqa: PLC0415
+
+            (release if arguments.release else stop)(settings)
+        case name:
+            from services.worker import run_process  # noqa: PLC0415
+
+            run_process(process(name), settings)
+    return 0

@@ -1,0 +1,1 @@
+"""The model process: owns the learnt model; what it has acknowledged is on disk."""

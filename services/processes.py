@@ -1,0 +1,44 @@
+"""The processes, as data."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Process:
+    """One role of the system.
+
+    Attributes:
+        name: of the command that starts it, and the last chunk of the keys that it publishes on.
+        module: whose `build(bus, clock, configuration)` makes the service.
+        about: one line for `--help`.
+        beside: where it usually runs.
+    """
+
+    name: str
+    module: str
+    about: str
+    beside: str
+
+
+PROCESSES: tuple[Process, ...] = (
+    Process("robot", "services.robot.service", "own the arm: execute, correct, judge, keep safe", "robot"),
+    Process("camera", "services.camera.service", "draw the head and wrist pictures", "robot"),
+    Process("perception", "services.perception.service", "find the object in the pictures", "robot"),
+    Process("model", "services.model.service", "own the learnt model and its database", "anywhere"),
+    Process("master", "services.master.service", "own the operator's input device", "operator"),
+    Process("viewer", "services.viewer.service", "show and record with Rerun", "operator"),
+    Process("station", "services.station.service", "serve the operator's page, run the teaching workflow", "operator"),
+)
+
+PROCESS_NAMES = tuple(process.name for process in PROCESSES)
+
+
+def process(name: str) -> Process:
+    """The process of this name.
+
+    Raises:
+        KeyError: there is none.
+    """
+    return {p.name: p for p in PROCESSES}[name]

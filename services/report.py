@@ -1,0 +1,97 @@
+"""What happened in a teaching run, for people and for programs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import msgspec
+
+from protocol.messages import Attempt, Mode, TeachingState, Vector3
+
+
+class VerdictReport(msgspec.Struct, frozen=True):
+    """The three criteria."""
+
+    reached: bool
+    kicked_over: bool
+    collision: bool
+
+
+class AttemptReport(msgspec.Struct, frozen=True):
+    """One episode."""
+
+    scene: str
+    variant: str
+    object_position: Vector3
+    model_version: int
+    mode: str
+    operator_input: bool
+    verdict: VerdictReport
+    duration_s: float
+
+
+class Report(msgspec.Struct, frozen=True):
+    """One run of `retouch up`.
+
+    Attributes:
+        loop_closed: a prediction collided, was refined, learnt, and a later one succeeded by itself.
+        reason: why not; empty where it did.
+        processes: name to process id, as they ran last.
+        restarts: of each process.
+        recording: the .rrd file.
+        attempts: every episode in order.
+        first_motion_s: from the command to the robot's first motion; negative where it never moved.
+    """
+
+    loop_closed: bool
+    reason: str
+    processes: dict[str, int]
+    restarts: dict[str, int]
+    recording: str
+    attempts: list[AttemptReport]
+    first_motion_s: float
+
+
+def attempt_reports(teaching: TeachingState | None) -> list[AttemptReport]:
+    """The attempts of a run, as they go into the report."""
+    return [
+        AttemptReport(
+            scene=a.scene,
+            variant=a.variant,
+            object_position=a.object_position,
+            model_version=a.model_version,
+            mode=a.mode.value,
+            operator_input=a.operator_input,
+            verdict=VerdictReport(a.verdict.reached, a.verdict.kicked_over, a.verdict.collision),
+            duration_s=a.duration_s,
+        )
+        for a in (teaching.attempts if teaching is not None else ())
+    ]
+
+
+def write(report: Report, path: Path) -> None:
+    """Write the report as JSON, whole or not at all."""
+    beside = path.with_name(f".{path.name}.part")
+    beside.write_bytes(msgspec.json.format(msgspec.json.encode(report)) + b"\n")
+    beside.replace(path)
+
+
+def attempt_line(number: int, attempt: Attempt) -> str:
+    """An episode in one line."""
+    who = "refinement" if attempt.mode is Mode.REFINE else "prediction"
+    x, y, z = attempt.object_position
+    faults = [
+        word
+        for word, happened in (
+            ("collision", attempt.verdict.collision),
+            ("kicked over", attempt.verdict.kicked_over),
+            ("not reached", not attempt.verdict.reached),
+        )
+        if happened
+    ]
+    what = ", ".join(faults) or "reached"
+    place = f"{attempt.scene} {attempt.variant}".strip()
+    return (
+        f"{number}. {who} of model version {attempt.model_version} in {place},"
+        f" object at ({x:.3f}, {y:.3f}, {z:.3f}) m: {what}, {attempt.duration_s:.1f} s"
+    )
