@@ -4,11 +4,11 @@ from enum import Enum
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.interpolate import CubicSpline
 
 from lfd.arrays import Array, checked, checked_quaternions
 from lfd.exceptions import TimesNotIncreasing, TooFewPoints, WrongShape
 from lfd.rotations import sign_continuous, slerp
+from lfd.spline import cubic_spline
 from lfd.trajectory import Trajectory
 
 
@@ -80,9 +80,8 @@ def from_samples(times: ArrayLike, positions: ArrayLike, orientations: ArrayLike
 
 
 def _interpolate(x: Array, y: Array, wanted: Array, interpolation: Interpolation) -> Array:
-    if interpolation is Interpolation.CUBIC and len(x) > 2:
-        cubic: Array = CubicSpline(x, y)(wanted)
-        return cubic
+    if interpolation is Interpolation.CUBIC:
+        return cubic_spline(x, y, wanted)
     return np.column_stack([np.interp(wanted, x, column) for column in y.T])
 
 

@@ -1,0 +1,1 @@
+"""What stands in for the world: robot and scene in MuJoCo, cameras, haptic stylus, the operator's hand."""

@@ -1,0 +1,79 @@
+"""What an operator means to change in a motion: planned once, from what stands in the way."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.interpolation import through
+
+Array = NDArray[np.float64]
+
+_FINENESS = 20  # points between two way-points by which lengths are measured
+
+
+@dataclass(frozen=True, eq=False)
+class Correction:
+    """A displacement for every progress of a prediction.
+
+    Attributes:
+        prediction: What the robot would do, at equal steps of progress, shape (n, 3) [m].
+        displacements: From it to where the operator wants the robot, shape (n, 3) [m].
+    """
+
+    prediction: Array
+    displacements: Array
+
+    def displacement(self, progress: float) -> Array:
+        """The displacement wanted at a progress from 0 to 1, shape (3,) [m]."""
+        return _at(self.displacements, progress)
+
+    def position(self, progress: float) -> Array:
+        """Where the operator wants the robot at a progress from 0 to 1, shape (3,) [m]."""
+        return _at(self.prediction, progress) + self.displacement(progress)
+
+
+def plan(prediction: Array, safe: Array, known: Sequence[Array], exaggeration: float = 1.0) -> Correction:
+    """Plan the correction that leads a prediction along a safe way.
+
+    The operator recognises which of the ways that they know the robot means to take, and thereby which
+    way-point it will be at when; there they want it at the safe way's point of the same number. So the
+    orientation, which nobody corrects, still fits the place, and a prediction that takes the safe way
+    already is left alone whatever its timing.
+
+    Args:
+        prediction: Positions of the grasping frame at equal steps of progress, shape (n, 3) [m].
+        safe: Way-points from the start to the object, shape (k, 3) [m].
+        known: Ways that the robot may have learnt, each shape (k, 3) [m]; `safe` is one of them.
+        exaggeration: Of the displacement; 1 is natural.
+    """
+    covered = _covered(prediction)
+
+    def departure(way: Array) -> float:
+        return float(np.sum((through(way, _numbers(way, covered)) - prediction) ** 2))
+
+    recognised = min(known, key=departure)
+    wanted = through(safe, _numbers(recognised, covered))
+    return Correction(prediction, exaggeration * (wanted - prediction))
+
+
+def _numbers(way: Array, covered: Array) -> Array:
+    """Which fractional way-point is reached when a share of the way's length is covered."""
+    fine = np.linspace(0.0, len(way) - 1.0, _FINENESS * (len(way) - 1) + 1)
+    return np.interp(covered, _covered(through(way, fine)), fine)
+
+
+def _covered(points: Array) -> Array:
+    """The share of its length that a line has covered at each of its points, shape (n,), from 0 to 1."""
+    lengths = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    if lengths[-1] == 0.0:
+        return np.linspace(0.0, 1.0, len(points))
+    return np.asarray(lengths / lengths[-1], dtype=np.float64)
+
+
+def _at(points: Array, progress: float) -> Array:
+    place = min(max(progress, 0.0), 1.0) * (len(points) - 1)
+    before = min(int(place), len(points) - 2)
+    share = place - before
+    return np.asarray((1.0 - share) * points[before] + share * points[before + 1], dtype=np.float64)

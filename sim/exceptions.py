@@ -1,0 +1,61 @@
+"""What can go wrong in the simulated world.
+
+SimError
+├── UnknownScene            no scene of that name
+├── UnknownVariant          the scene has no variant of that name
+├── DescriptionMissing      the robot's meshes are not installed
+├── DescriptionInvalid      a mesh or link of the robot cannot be used
+└── DrawingLibraryMissing   neither EGL nor OSMesa is there
+"""
+
+from collections.abc import Iterable
+
+
+class SimError(Exception):
+    """Base of all errors of the package `sim`."""
+
+
+class UnknownScene(SimError):
+    """There is no scene of that name."""
+
+    def __init__(self, name: str, known: Iterable[str]) -> None:
+        self.name = name
+        self.known = tuple(known)
+        super().__init__(f"unknown scene {name!r}: use one of {', '.join(self.known)}")
+
+
+class UnknownVariant(SimError):
+    """The scene has no variant of that name."""
+
+    def __init__(self, scene: str, name: str, known: Iterable[str]) -> None:
+        self.scene = scene
+        self.name = name
+        self.known = tuple(known)
+        super().__init__(f"scene {scene!r} has no variant {name!r}: use one of {', '.join(self.known)}")
+
+
+class DescriptionMissing(SimError):
+    """The package that holds the robot's links and meshes is not installed."""
+
+    def __init__(self, package: str) -> None:
+        self.package = package
+        super().__init__(f"the robot description {package!r} is not installed: pip install 'retouch[robot]'")
+
+
+class DescriptionInvalid(SimError):
+    """A part of the robot description is not what its format promises."""
+
+    def __init__(self, part: str, reason: str) -> None:
+        self.part = part
+        self.reason = reason
+        super().__init__(f"robot description: {part}: {reason}; reinstall the package example-robot-data")
+
+
+class DrawingLibraryMissing(SimError):
+    """No library that draws without a display could be loaded."""
+
+    def __init__(self, reason: str) -> None:
+        self.reason = reason
+        super().__init__(
+            f"cannot draw without a display ({reason}): apt install libegl1 libgl1, or apt install libosmesa6"
+        )

@@ -1,0 +1,47 @@
+"""Lines through way-points that do not swing out between them."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+def through(points: Array, numbers: Array) -> Array:
+    """A C1 line through points, at fractional point numbers; monotone wherever the points are.
+
+    Piecewise cubic Hermite interpolation with the slopes of Fritsch and Butland (1984), as SciPy's PCHIP on even
+    knots; loading that takes a second of every process' start.
+
+    Args:
+        points: Shape (n, d), n at least 2.
+        numbers: From 0 to n - 1, shape (k,).
+
+    Returns:
+        Shape (k, d).
+    """
+    steps = np.diff(points, axis=0)
+    slopes = _slopes(steps)
+    i = np.clip(numbers.astype(int), 0, len(points) - 2)
+    t = (numbers - i)[:, None]
+    hermite = points[i] + t * (
+        slopes[i]
+        + t * (3.0 * steps[i] - 2.0 * slopes[i] - slopes[i + 1] + t * (slopes[i] + slopes[i + 1] - 2.0 * steps[i]))
+    )
+    return np.asarray(hermite, dtype=np.float64)
+
+
+def _slopes(steps: Array) -> Array:
+    """The harmonic mean of two steps of one sign, else zero; at the ends one-sided, kept monotone."""
+    if len(steps) == 1:
+        return np.repeat(steps, 2, axis=0)
+    before, after = steps[:-1], steps[1:]
+    product, total = before * after, before + after
+    inner = np.where(product > 0.0, 2.0 * product / np.where(total == 0.0, 1.0, total), 0.0)
+    return np.vstack([_end(steps[0], steps[1]), inner, _end(steps[-1], steps[-2])])
+
+
+def _end(outer: Array, inner: Array) -> Array:
+    slope = 1.5 * outer - 0.5 * inner
+    slope = np.where(np.sign(slope) != np.sign(outer), 0.0, slope)
+    turns = (np.sign(outer) != np.sign(inner)) & (np.abs(slope) > 3.0 * np.abs(outer))
+    return np.where(turns, 3.0 * outer, slope)

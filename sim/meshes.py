@@ -1,0 +1,114 @@
+"""Triangle meshes of the robot: reading, thinning and writing them."""
+
+from pathlib import Path
+
+import coal
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.exceptions import DescriptionInvalid
+
+Triangles = NDArray[np.float32]
+
+_HEADER_BYTES = 80
+_RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+_LEAST_GROWTH = 1.05  # of the cell, until few enough triangles are left
+
+
+def read_stl(path: Path) -> Triangles:
+    """Read a binary STL file.
+
+    Args:
+        path: The file.
+
+    Returns:
+        Corners of the triangles, shape (n, 3, 3) [m].
+
+    Raises:
+        DescriptionInvalid: The file is cut short.
+    """
+    raw = path.read_bytes()
+    count = int(np.frombuffer(raw, "<u4", 1, _HEADER_BYTES)[0])
+    if len(raw) < _HEADER_BYTES + 4 + count * _RECORD.itemsize:
+        raise DescriptionInvalid(str(path), "the file is cut short")
+    corners: Triangles = np.frombuffer(raw, _RECORD, count, _HEADER_BYTES + 4)["corners"].astype(np.float32)
+    return corners
+
+
+def read_mesh(path: Path) -> Triangles:
+    """Read a mesh of any format that Coal's loader knows, COLLADA among them.
+
+    Args:
+        path: The file.
+
+    Returns:
+        Corners of the triangles, shape (n, 3, 3) [m].
+    """
+    mesh = coal.MeshLoader().load(str(path), np.ones(3))
+    vertices = np.asarray(mesh.vertices(), dtype=np.float32)
+    corners = [mesh.tri_indices(i) for i in range(mesh.num_tris)]
+    triangles: Triangles = vertices[np.array([(t[0], t[1], t[2]) for t in corners])]
+    return triangles
+
+
+def write_stl(path: Path, triangles: Triangles) -> None:
+    """Write a binary STL file.
+
+    Args:
+        path: Where to.
+        triangles: Corners, shape (n, 3, 3) [m].
+    """
+    records = np.zeros(len(triangles), _RECORD)
+    records["corners"] = triangles
+    records["normal"] = _normals(triangles)
+    count = np.array([len(triangles)], "<u4").tobytes()
+    path.write_bytes(bytes(_HEADER_BYTES) + count + records.tobytes())
+
+
+def _normals(triangles: Triangles) -> NDArray[np.float32]:
+    """Return each triangle's unit normal, shape (n, 3); zero where it has no area."""
+    first, second = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    normals = np.cross(first, second)
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    units: NDArray[np.float32] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0.0)
+    return units
+
+
+def thin(triangles: Triangles, limit: int) -> Triangles:
+    """Merge vertices in the cells of a grid until at most `limit` triangles are left.
+
+    Vertex clustering (Rossignac and Borrel, 1993): the shape is kept to within one cell, which is
+    all that drawing needs.
+
+    Args:
+        triangles: Corners, shape (n, 3, 3) [m].
+        limit: How many triangles may be left.
+
+    Returns:
+        Corners, shape (m, 3, 3) with m <= max(limit, 1) where the mesh allows it.
+    """
+    if len(triangles) <= limit:
+        return triangles
+    vertices = triangles.reshape(-1, 3)
+    extent = float(np.ptp(vertices, axis=0).max())
+    cell = extent / np.sqrt(limit)
+    while True:
+        thinned = _cluster(vertices, cell)
+        if len(thinned) <= limit or cell > extent:
+            return thinned
+        cell *= max(_LEAST_GROWTH, np.sqrt(len(thinned) / limit))
+
+
+def _cluster(vertices: Triangles, cell: float) -> Triangles:
+    _, member = np.unique(np.floor(vertices / cell).astype(np.int64), axis=0, return_inverse=True)
+    member = member.reshape(-1)
+    centres = np.zeros((member.max() + 1, 3), np.float64)
+    np.add.at(centres, member, vertices)
+    centres /= np.bincount(member)[:, None]
+
+    faces = member.reshape(-1, 3)
+    a, b, c = faces.T
+    faces = faces[(a != b) & (b != c) & (c != a)]
+    _, first = np.unique(np.sort(faces, axis=1), axis=0, return_index=True)
+    corners: Triangles = centres[faces[np.sort(first)]].astype(np.float32)
+    return corners

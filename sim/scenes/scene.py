@@ -1,0 +1,172 @@
+"""What a scene is: where the arm starts, what stands around it, and where the object can be.
+
+All positions are in the robot's base frame: x forward, y left, z up, the floor at z = 0.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.exceptions import UnknownVariant
+from sim.pose import Pose
+
+Array = NDArray[np.float64]
+Vector = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]  # scalar first
+
+NO_ROTATION: Quaternion = (1.0, 0.0, 0.0, 0.0)
+
+# The fiducial marker lies on the object's lid; its axes are ArUco's: x right, y up, z out of the print.
+TAG_DICTIONARY = "DICT_4X4_50"
+TAG_ID = 7
+TAG_BITS = ((1, 1, 0, 0), (0, 1, 0, 0), (1, 1, 1, 1), (0, 0, 1, 0))  # 1 is white
+TAG_SIZE = 0.06  # [m] edge of the black square
+TAG_IN_OBJECT = Pose(np.array([0.0, 0.0, 0.05]), np.array([math.sqrt(0.5), 0.0, 0.0, -math.sqrt(0.5)]))
+
+OBJECT_SIZE: Vector = (0.05, 0.05, 0.10)  # [m] body and lid together
+LID_SIZE: Vector = (0.07, 0.07, 0.006)  # [m] a white rim is left around the marker
+OBJECT_MASS = 0.15  # [kg]
+
+
+class Group(Enum):
+    """What a box is there for."""
+
+    SOLID = "solid"  # drawn, and collides
+    PANEL = "panel"  # drawn translucent, and collides: the envelope of what is too fine to collide with
+    DETAIL = "detail"  # drawn only
+
+
+@dataclass(frozen=True)
+class Box:
+    """One box of the environment.
+
+    Attributes:
+        name: Unique in its scene and variant.
+        centre: [m].
+        half_sizes: Half edge lengths [m].
+        quaternion: Orientation, scalar first.
+        rgba: Colour, each in [0, 1].
+        group: What it is there for.
+    """
+
+    name: str
+    centre: Vector
+    half_sizes: Vector
+    rgba: tuple[float, float, float, float]
+    group: Group = Group.SOLID
+    quaternion: Quaternion = NO_ROTATION
+
+
+class Corridor(NamedTuple):
+    """Way-points that a person would steer the grasping frame through.
+
+    Attributes:
+        positions: Shape (k, 3) [m].
+        orientations: Scalar first, shape (k, 4).
+    """
+
+    positions: Array
+    orientations: Array
+
+
+@dataclass(frozen=True)
+class Region:
+    """Box of positions, both ends included.
+
+    Attributes:
+        lower: [m].
+        upper: [m].
+    """
+
+    lower: Vector
+    upper: Vector
+
+    def sample(self, rng: np.random.Generator) -> Array:
+        """Draw a position evenly, shape (3,) [m]."""
+        return rng.uniform(self.lower, self.upper)
+
+    def contains(self, position: Array) -> bool:
+        """Say whether the position, shape (3,) [m], lies inside."""
+        return bool(np.all(position >= self.lower) and np.all(position <= self.upper))
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """A place where a reaching motion is learnt, with one change that breaks it.
+
+    Attributes:
+        name: Of the scene.
+        variants: The first is the one that demonstrations were given in, the second the changed one.
+        start: Pose of the grasping frame before each motion.
+        posture: Joint positions at the start, in the order of `CONTROLLED_JOINTS`, shape (8,) [m, rad].
+        head: Pan and tilt that look at the scene, shape (2,) [rad].
+        region: Where the centre of the object may stand.
+        training_positions: Of the object, in the initial demonstrations, shape (n, 3) [m].
+        reached_radii: Of the ellipsoid around the grasping frame, along its axes, that the object's
+            centre must lie in (thesis, Fig. E.2), shape (3,) [m].
+        kicked_thresholds: Displacement along each axis of the base frame beyond which the object
+            counts as kicked over (thesis, Appendix E), shape (3,) [m].
+        layout: Boxes of a variant; call `boxes` instead.
+        route: Way-points of a variant and an object position; call `corridor` instead.
+    """
+
+    name: str
+    variants: tuple[str, str]
+    start: Pose
+    posture: Array
+    head: Array
+    region: Region
+    training_positions: Array
+    reached_radii: Array
+    kicked_thresholds: Array
+    layout: Callable[[str], tuple[Box, ...]]
+    route: Callable[[str, Array], Corridor]
+
+    def boxes(self, variant: str) -> tuple[Box, ...]:
+        """Return what stands around the robot.
+
+        Args:
+            variant: One of `variants`.
+
+        Raises:
+            UnknownVariant: There is no such variant.
+        """
+        self.check(variant)
+        return self.layout(variant)
+
+    def corridor(self, variant: str, object_position: Array) -> Corridor:
+        """Return the way-points of a motion from the start to the object, clear of the environment.
+
+        The corridors of the two variants pair way-point by way-point, with the same orientations:
+        their difference is the correction that an operator has to give.
+
+        Args:
+            variant: One of `variants`.
+            object_position: Centre of the object, shape (3,) [m].
+
+        Raises:
+            UnknownVariant: There is no such variant.
+        """
+        self.check(variant)
+        return self.route(variant, object_position)
+
+    def check(self, variant: str) -> None:
+        """Raise UnknownVariant unless the scene has the variant."""
+        if variant not in self.variants:
+            raise UnknownVariant(self.name, variant, self.variants)
+
+
+def pitched_down(pitch: float) -> Array:
+    """Return the orientation of a gripper that points forward and down, scalar first, shape (4,).
+
+    The arm's usual roll of 180 degrees is included: the gripper's -z axis points up.
+
+    Args:
+        pitch: Angle below the horizontal [rad].
+    """
+    return np.array([0.0, math.cos(pitch / 2), 0.0, -math.sin(pitch / 2)])

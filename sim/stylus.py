@@ -1,0 +1,56 @@
+"""A haptic stylus without the hardware: a point mass with the device's own damping, in a box."""
+
+from dataclasses import dataclass, field
+
+Vector = tuple[float, float, float]
+
+RATE_HZ = 1000.0
+"""At which a haptic device closes its force loop."""
+
+
+@dataclass(frozen=True, slots=True)
+class StylusState:
+    """Where the tip of the stylus is, relative to the device's neutral position, in base axes.
+
+    Attributes:
+        position: [m].
+        velocity: [m/s].
+    """
+
+    position: Vector = (0.0, 0.0, 0.0)
+    velocity: Vector = (0.0, 0.0, 0.0)
+
+
+@dataclass
+class Stylus:
+    """m dv/dt = F - c v, and no further than `reach` on each axis.
+
+    Integrated with the velocity first and the damping implicit: it never gains energy of its own. Plain floats, since
+    a thousand steps a second in NumPy would cost more than the rest of the process.
+
+    Attributes:
+        mass: what the hand feels at the tip, the fingers on it included [kg].
+        damping: of the device itself [N s/m].
+        reach: half the edge of the workspace [m].
+        state: the newest.
+    """
+
+    mass: float = 0.15
+    damping: float = 0.3
+    reach: float = 0.25
+    state: StylusState = field(default_factory=StylusState)
+
+    def step(self, force: Vector, dt: float) -> StylusState:
+        """Move on by dt [s] under the force of hand and motors together [N]."""
+        (px, vx), (py, vy), (pz, vz) = (
+            self._axis(self.state.position[i], self.state.velocity[i], force[i], dt) for i in (0, 1, 2)
+        )
+        self.state = StylusState((px, py, pz), (vx, vy, vz))
+        return self.state
+
+    def _axis(self, position: float, velocity: float, force: float, dt: float) -> tuple[float, float]:
+        v = (velocity + dt * force / self.mass) / (1.0 + dt * self.damping / self.mass)
+        p = position + dt * v
+        if abs(p) > self.reach:
+            return (self.reach if p > 0.0 else -self.reach), 0.0
+        return p, v
