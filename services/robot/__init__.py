@@ -1,0 +1,1 @@
+"""The robot process: owns one arm, executes trajectories, merges corrections, and is the authority on safety."""

@@ -1,0 +1,91 @@
+"""Which requests are carried out: checks that end in one clear line."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lfd.exceptions import LfdError
+from lfd.rotations import conjugate, log_map, multiply
+from lfd.trajectory import Trajectory
+from services.robot.refusal import Refusal
+from sim.pose import Pose
+from sim.scenes.scene import Scene
+
+Array = NDArray[np.float64]
+
+MOST_POINTS = 1000
+SHORTEST_S, LONGEST_S = 0.5, 120.0
+FASTEST = 1.0  # [m/s] along the prediction
+FASTEST_TURN = 3.0  # [rad/s]
+START_DISTANCE = 0.5  # [m] between the measured pose and the prediction's start
+REGION_MARGIN = 0.05  # [m]
+
+
+def admit_prediction(positions: Array, orientations: Array, duration: float, measured: Pose) -> Trajectory:
+    """The prediction, where it can be executed from the measured pose.
+
+    Args:
+        positions: shape (n, 3) [m].
+        orientations: shape (n, 4).
+        duration: [s].
+        measured: pose of the grasping frame now.
+
+    Raises:
+        Refusal: it is no trajectory, too long, too short, too fast, or starts too far away.
+    """
+    try:
+        prediction = Trajectory(positions, orientations, duration)
+    except LfdError as error:
+        raise Refusal(f"the prediction cannot be executed: {error}") from error
+    if prediction.n_points > MOST_POINTS:
+        raise Refusal(f"the prediction has {prediction.n_points} way-points, at most {MOST_POINTS} are allowed")
+    if not SHORTEST_S <= duration <= LONGEST_S:
+        raise Refusal(f"the prediction takes {duration:.3g} s: give {SHORTEST_S:g} to {LONGEST_S:g} s")
+    interval = duration / (prediction.n_points - 1)
+    speeds = np.linalg.norm(np.diff(prediction.positions, axis=0), axis=1) / interval
+    if np.max(speeds) > FASTEST:
+        point = int(np.argmax(speeds))
+        raise Refusal(
+            f"the prediction moves at {np.max(speeds):.2f} m/s after way-point {point}, at most {FASTEST:g} m/s is"
+            " allowed: give it more time"
+        )
+    turns = log_map(multiply(conjugate(prediction.orientations[:-1]), prediction.orientations[1:]))
+    turn_speeds = np.linalg.norm(turns, axis=1) / interval
+    if np.max(turn_speeds) > FASTEST_TURN:
+        point = int(np.argmax(turn_speeds))
+        raise Refusal(
+            f"the prediction turns at {np.max(turn_speeds):.2f} rad/s after way-point {point}, at most"
+            f" {FASTEST_TURN:g} rad/s is allowed: give it more time"
+        )
+    distance = float(np.linalg.norm(prediction.positions[0] - measured.position))
+    if distance > START_DISTANCE:
+        raise Refusal(
+            f"the prediction starts {distance:.2f} m away from the gripper, at most {START_DISTANCE:g} m is allowed:"
+            " reset the robot first"
+        )
+    return prediction
+
+
+def admit_reset(scene: Scene, variant: str, object_position: Array) -> None:
+    """Let a reset pass that the scene allows.
+
+    Args:
+        scene: that the robot stands in.
+        variant: asked for.
+        object_position: asked for, shape (3,) [m].
+
+    Raises:
+        Refusal: there is no such variant, or the object cannot stand there.
+    """
+    if variant not in scene.variants:
+        raise Refusal(f"scene {scene.name} has no variant {variant!r}: use one of {', '.join(scene.variants)}")
+    lower = np.asarray(scene.region.lower) - REGION_MARGIN
+    upper = np.asarray(scene.region.upper) + REGION_MARGIN
+    if not (np.all(object_position >= lower) and np.all(object_position <= upper)):
+        raise Refusal(
+            f"the object cannot stand at {_point(object_position)} m: give a place from {_point(lower)} to"
+            f" {_point(upper)} m"
+        )
+
+
+def _point(values: Array) -> str:
+    return "(" + ", ".join(f"{value:.3f}" for value in values) + ")"

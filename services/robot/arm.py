@@ -1,0 +1,246 @@
+"""The arm: one command in every control period, whatever happens around it.
+
+The service and the offline rollout both drive this class; here execution, kinematics, limits, backend and verdict meet.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lfd.trajectory import Trajectory
+from protocol.messages import Phase
+from services.robot import safety
+from services.robot.backend import CONTROL_PERIOD, Backend, Observation
+from services.robot.episode import Episode, EpisodeOutcome
+from services.robot.kinematics import InverseFailed, Kinematics
+from services.robot.verdict import Criteria, Judge, Verdict
+from sim.pose import Pose
+
+Array = NDArray[np.float64]
+
+OUT_OF_REACH = 0.005  # [m] between reference and command from which it is reported
+
+
+@dataclass(frozen=True, eq=False)
+class Tick:
+    """What happened in one control period.
+
+    Attributes:
+        observation: at its end.
+        measured: pose of the grasping frame, from the measured joints.
+        reference: pose that the joints were to reach.
+        phase: what the arm did.
+        progress: of the episode, from 0 to 1.
+        offset: the correction as it was applied, shape (3,) [m].
+        hold_reason: why the arm held, empty where it did not.
+        clamped: what was clamped.
+        self_distance: between parts of the robot, where they are nearest [m].
+        verdict: now.
+        outcome: of the episode that ended in this period.
+    """
+
+    observation: Observation
+    measured: Pose
+    reference: Pose
+    phase: Phase
+    progress: float
+    offset: Array
+    hold_reason: str
+    clamped: tuple[str, ...]
+    self_distance: float
+    verdict: Verdict
+    outcome: EpisodeOutcome | None
+
+
+class Arm:
+    """Drives one backend.
+
+    Args:
+        backend: what moves.
+        kinematics: of its torso and arm.
+        criteria: by what episodes are judged.
+        home: joint positions in which episodes start, shape (8,) [m, then rad].
+        velocity_scale: share of the joints' speed limits that may be used.
+        self_distance_stop: distance between the robot's parts at which it stops [m].
+    """
+
+    def __init__(
+        self,
+        backend: Backend,
+        kinematics: Kinematics,
+        criteria: Criteria,
+        home: Array,
+        *,
+        velocity_scale: float = 0.5,
+        self_distance_stop: float = 0.005,
+    ) -> None:
+        self._backend = backend
+        self._kinematics = kinematics
+        self._criteria = criteria
+        self._home = home
+        speed = velocity_scale * kinematics.velocity_limit
+        self._limits = safety.JointLimits(backend.joint_names, kinematics.lower, kinematics.upper, speed)
+        self._velocity_scale = velocity_scale
+        self._self_distance_stop = self_distance_stop
+        self._episode: Episode | None = None
+        self._fault = ""
+        self._self_distance = 0.0
+        self._stand()
+
+    @property
+    def joint_names(self) -> tuple[str, ...]:
+        """Of every joint vector."""
+        return self._backend.joint_names
+
+    @property
+    def variant(self) -> str:
+        """Which arrangement of the scene stands around the robot."""
+        return self._backend.variant
+
+    @property
+    def episode(self) -> Episode | None:
+        """The one that runs."""
+        return self._episode
+
+    def reset(self, object_position: Array, variant: str) -> None:
+        """Back to the start, the object and the scene put in place; the episode that runs is dropped.
+
+        Args:
+            object_position: centre of the object, shape (3,) [m].
+            variant: arrangement of the scene.
+        """
+        self._backend.reset(object_position, variant, self._home)
+        self._episode = None
+        self._stand()
+
+    def begin(self, prediction: Trajectory, look_ahead: float) -> None:
+        """Begin an episode, with a ramp from the measured pose to the prediction's start.
+
+        Args:
+            prediction: to execute, in the base frame.
+            look_ahead: after which the correction is to equal the displacement [s].
+        """
+        self._stand()
+        self._episode = Episode(prediction, self.measured, look_ahead, CONTROL_PERIOD)
+
+    def finish(self, reason: str) -> None:
+        """Let the running episode end here; its outcome follows when the arm has settled."""
+        if self._episode is not None:
+            self._episode.cut_short(reason)
+
+    def stop(self, reason: str = "") -> EpisodeOutcome | None:
+        """Stand still where the arm is measured to be, at once.
+
+        Args:
+            reason: why the episode did not come to its end, empty where it did.
+
+        Returns:
+            The outcome of the episode that ran.
+        """
+        episode, self._episode = self._episode, None
+        self._q = self.observation.q
+        return episode.outcome(self._verdict, self.measured, reason) if episode is not None else None
+
+    def tick(self, displacement: Array, hold_reason: str = "") -> Tick:
+        """Give one command and see what it did.
+
+        Args:
+            displacement: of the master, in base axes, shape (3,) [m].
+            hold_reason: why a running episode may not go on, empty where it may.
+        """
+        episode = self._episode
+        clamped: tuple[str, ...] = ()
+        holding = bool(episode is not None and hold_reason)
+        if episode is not None and holding:
+            if not episode.holding:
+                # A blocked arm's command lies ahead of it: the arm must not creep there while it holds.
+                self._q = self.observation.q
+            episode.hold()
+        previous_q = self._q
+        if episode is not None and not holding:
+            previous_q, clamped = self._follow(episode, displacement)
+        self._backend.command(self._q, (self._q - previous_q) / CONTROL_PERIOD)
+        self._observe()
+        outcome = None
+        if episode is not None and not holding:
+            commanded = self._kinematics.forward(self._q)
+            episode.record(self._reference, commanded, self.measured, clamped=bool(clamped))
+            outcome = self._conclude(episode)
+        return Tick(
+            observation=self.observation,
+            measured=self.measured,
+            reference=self._reference,
+            phase=_phase(episode, holding=holding),
+            progress=episode.execution.progress if episode is not None else 0.0,
+            offset=episode.execution.offset if episode is not None else np.zeros(3),
+            hold_reason=hold_reason if holding else "",
+            clamped=clamped,
+            self_distance=self._self_distance,
+            verdict=self._verdict,
+            outcome=outcome,
+        )
+
+    def _follow(self, episode: Episode, displacement: Array) -> tuple[Array, tuple[str, ...]]:
+        """Command the next reference; the joints that it started from, and what was clamped."""
+        clamped = []
+        displacement, shortened = safety.clamp_length(displacement, safety.DISPLACEMENT_REACH)
+        if shortened:
+            clamped.append("displacement")
+        if episode.holding:
+            self._q, self._reference = self.observation.q, self.measured
+        wanted = episode.advance(displacement, self.measured)
+        self._reference, shortened = safety.clamp_reference(self._reference, wanted, CONTROL_PERIOD)
+        if shortened:
+            clamped.append("reference speed")
+        q, target = self._q, self._reference
+        # The limits allow a shorter step in a shorter period: the solver then keeps to the scaled speeds.
+        period = self._velocity_scale * CONTROL_PERIOD
+        try:
+            solved, _ = self._kinematics.solve_step(q, target.position, target.orientation, period)
+        except InverseFailed as error:
+            return q, (*clamped, str(error))
+        q_next, joints = self._limits.clamp(q, solved, CONTROL_PERIOD)
+        clamped.extend(joints)
+        distance = self._kinematics.self_distance(q_next)
+        if safety.self_collision(distance, self._self_distance, self._self_distance_stop):
+            self._fault = f"the robot comes within {distance * 1e3:.0f} mm of itself"
+            return q, tuple(clamped)
+        self._q, self._self_distance = q_next, distance
+        gap = float(np.linalg.norm(self._kinematics.forward(q_next).position - target.position))
+        if gap > OUT_OF_REACH:
+            clamped.append(f"reach: {gap * 1e3:.0f} mm short")
+        return q, tuple(clamped)
+
+    def _conclude(self, episode: Episode) -> EpisodeOutcome | None:
+        touch = self.observation.touch
+        if touch is not None and safety.too_forceful(touch.force):
+            self._fault = f"{touch.between[0]} pressed against {touch.between[1]} with {touch.force:.0f} N"
+        if self._fault:
+            x, y, z = self.measured.position
+            return self.stop(f"{self._fault}, with the gripper at ({x:.2f}, {y:.2f}, {z:.2f}) m")
+        return self.stop() if episode.over else None
+
+    def _stand(self) -> None:
+        """Start afresh from what is measured."""
+        self.observation = self._backend.observe()
+        self._q = self.observation.q
+        self._fault = ""
+        self._self_distance = self._kinematics.self_distance(self._q)
+        self._judge = Judge(self._criteria, self.observation.object_pose.position)
+        self._observe()
+        self._reference = self.measured
+
+    def _observe(self) -> None:
+        self.observation = self._backend.observe()
+        self.measured = self._kinematics.forward(self.observation.q)
+        seen = self.observation
+        self._verdict: Verdict = self._judge.judge(self.measured, seen.object_pose.position, seen.touch)
+
+
+def _phase(episode: Episode | None, *, holding: bool) -> Phase:
+    if episode is None:
+        return Phase.IDLE
+    if holding:
+        return Phase.HOLD
+    return Phase.RAMP if episode.execution.ramping else Phase.EXECUTE

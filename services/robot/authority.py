@@ -1,0 +1,85 @@
+"""Who may command: a lease with an epoch that fences off whoever held it before."""
+
+from services.robot.refusal import Refusal
+
+NOBODY = ""
+
+
+class Lease:
+    """The authority of at most one holder at a time.
+
+    The epoch grows with every change, losing the authority included, so that a command of an earlier one is known.
+
+    Args:
+        duration_s: how long it lasts without renewal [s].
+        epoch: to start from; above every epoch that an earlier incarnation of the process gave out.
+    """
+
+    def __init__(self, duration_s: float, epoch: int = 0) -> None:
+        self.duration_s = duration_s
+        self.epoch = epoch
+        self.holder = NOBODY
+        self._expires_ns = 0
+
+    def acquire(self, holder: str, now_ns: int, *, take_over: bool = False) -> int:
+        """Give the authority to a holder; its new epoch.
+
+        Raises:
+            Refusal: another one holds it and it is not taken over, or the name is empty.
+        """
+        self.expire(now_ns)
+        if holder == NOBODY:
+            raise Refusal("the authority needs a holder's name: give one")
+        if self.holder not in (NOBODY, holder) and not take_over:
+            raise Refusal(f"{self.holder} holds the authority: wait until it is released, or take over")
+        self._change(holder)
+        self._expires_ns = now_ns + self._duration_ns
+        return self.epoch
+
+    def renew(self, holder: str, epoch: int, received_ns: int) -> None:
+        """Prolong the lease from when its holder was heard; a stranger's renewal does nothing."""
+        if self.holder == holder and self.holder != NOBODY and self.epoch == epoch:
+            self._expires_ns = max(self._expires_ns, received_ns + self._duration_ns)
+
+    def release(self, holder: str, epoch: int) -> None:
+        """Give the authority back.
+
+        Raises:
+            Refusal: it is not this holder's, or not of this epoch.
+        """
+        if self.holder != holder:
+            raise Refusal(f"{holder!r} does not hold the authority: {self.holder or 'nobody'} does")
+        self.check(epoch)
+        self._change(NOBODY)
+
+    def revoke(self) -> None:
+        """Take the authority away from whoever holds it."""
+        self._change(NOBODY)
+
+    def expire(self, now_ns: int) -> None:
+        """Let the lease run out where it was not renewed in time."""
+        if self.holder != NOBODY and now_ns > self._expires_ns:
+            self._change(NOBODY)
+
+    def check(self, epoch: int) -> None:
+        """Let a command of the present epoch pass.
+
+        Raises:
+            Refusal: nobody holds the authority, or the command is of another epoch.
+        """
+        if self.holder == NOBODY:
+            raise Refusal("nobody holds the authority: acquire it first")
+        if epoch != self.epoch:
+            raise Refusal(f"the command is of epoch {epoch}, the authority of epoch {self.epoch} is {self.holder}'s")
+
+    def expires_in_s(self, now_ns: int) -> float:
+        """Until the lease runs out [s]; 0 where nobody holds it."""
+        return max(0, self._expires_ns - now_ns) / 1e9 if self.holder != NOBODY else 0.0
+
+    @property
+    def _duration_ns(self) -> int:
+        return round(self.duration_s * 1e9)
+
+    def _change(self, holder: str) -> None:
+        self.holder = holder
+        self.epoch += 1

@@ -1,0 +1,166 @@
+"""The robot without its transport: authority, emergency stop and watchdog around one arm.
+
+Every method that carries out a request raises `Refusal` where it does not; times are the robot's monotonic clock.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from protocol.messages import MasterState, Mode, Phase
+from protocol.queries import AcquireAuthority, Adapt, Execute, Finish, ReleaseAuthority, ReleaseStop, Reset
+from services.arrays import motion_from_wire
+from services.bus import Received
+from services.exceptions import ServiceError
+from services.robot.admission import admit_prediction, admit_reset
+from services.robot.arm import Arm, Tick
+from services.robot.authority import Lease
+from services.robot.episode import EpisodeOutcome
+from services.robot.execution import look_ahead
+from services.robot.refusal import Refusal
+from services.robot.safety import EmergencyStop, hold_reason
+from sim.scenes.scene import Scene
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Order:
+    """What was asked for, and the number that it got.
+
+    Attributes:
+        episode: counted since the process started.
+        execute: the request.
+    """
+
+    episode: int
+    execute: Execute
+
+
+@dataclass(frozen=True, eq=False)
+class Finished:
+    """An order and what became of it."""
+
+    order: Order
+    outcome: EpisodeOutcome
+
+
+class Control:
+    """Decides in every control period whether the arm may move, and under whose displacement.
+
+    Args:
+        arm: that it commands.
+        scene: that the arm stands in.
+        lease: of the authority.
+        hold_after_s: age of the newest master state at which a refinement holds [s].
+        master_gain: of the master's displacement on the reference.
+    """
+
+    def __init__(self, arm: Arm, scene: Scene, lease: Lease, hold_after_s: float, master_gain: float) -> None:
+        self.arm = arm
+        self.scene = scene
+        self.lease = lease
+        self.stop = EmergencyStop()
+        self.order: Order | None = None
+        self.finished: Finished | None = None
+        self._hold_after_s = hold_after_s
+        self._master_gain = master_gain
+        self._object_position: Array = scene.training_positions[0]
+
+    def acquire(self, request: AcquireAuthority, now_ns: int) -> int:
+        """Give the authority to a holder; the epoch."""
+        self._check_stop()
+        return self.lease.acquire(request.holder, now_ns, take_over=request.take_over)
+
+    def release(self, request: ReleaseAuthority) -> None:
+        """Take the authority back from its holder."""
+        self.lease.release(request.holder, request.epoch)
+
+    def execute(self, request: Execute) -> int:
+        """Begin an episode; its number."""
+        self._check(request.epoch)
+        try:
+            motion = motion_from_wire(request.prediction)
+        except ServiceError as error:
+            raise Refusal(f"the prediction cannot be executed: {error}") from error
+        prediction = admit_prediction(*motion, self.arm.measured)
+        self.order = Order(self.order.episode + 1 if self.order is not None else 1, request)
+        self.finished = None
+        self.arm.begin(prediction, look_ahead(prediction) if request.adapt is Adapt.NEXT else 0.0)
+        return self.order.episode
+
+    def finish(self, request: Finish) -> None:
+        """End the running episode here."""
+        self.lease.check(request.epoch)
+        if self.arm.episode is None:
+            raise Refusal("no episode is running: nothing to finish")
+        share = self.arm.episode.execution.progress
+        self.arm.finish(f"finished by {self.lease.holder} at {share:.0%}")
+
+    def reset(self, request: Reset) -> None:
+        """Put arm, object and scene back."""
+        self._check(request.epoch)
+        variant = self.arm.variant if request.variant is None else request.variant
+        place = self._object_position if request.object_position is None else np.array(request.object_position)
+        admit_reset(self.scene, variant, place)
+        self._object_position = place
+        self.arm.reset(place, variant)
+
+    def press(self, by: str, reason: str) -> None:
+        """Latch the emergency stop; the arm stands still at once."""
+        self.stop = self.stop.pressed(by, reason)
+        self._end(self.arm.stop(str(self.stop)))
+
+    def release_stop(self, request: ReleaseStop) -> None:
+        """Release the latched stop; whoever held the authority has lost it."""
+        if not self.stop.latched:
+            raise Refusal("the emergency stop is not latched: nothing to release")
+        if not request.by:
+            raise Refusal("the release needs a name: say who releases the stop")
+        self.stop = EmergencyStop()
+        self.lease.revoke()
+
+    def tick(self, now_ns: int, sample: Received[MasterState] | None) -> Tick:
+        """One control period.
+
+        Args:
+            now_ns: the time.
+            sample: the newest master state of the authority's epoch, None where there was none.
+        """
+        self.lease.expire(now_ns)
+        reason = hold_reason(
+            holder=self.lease.holder,
+            refining=self.refining,
+            sample_age_s=sample.age_s(now_ns) if sample is not None else None,
+            hold_after_s=self._hold_after_s,
+        )
+        displacement = np.zeros(3)
+        if self.refining and sample is not None and sample.message.engaged:
+            displacement = self._master_gain * np.array(sample.message.displacement)
+        tick = self.arm.tick(displacement, reason)
+        self._end(tick.outcome)
+        return tick
+
+    @property
+    def refining(self) -> bool:
+        """The order that runs, or ran last, is shaped by the operator."""
+        return self.order is not None and self.order.execute.mode is Mode.REFINE
+
+    def phase(self, tick: Tick) -> Phase:
+        """What the robot is doing, the emergency stop before all."""
+        return Phase.STOPPED if self.stop.latched else tick.phase
+
+    def _end(self, outcome: EpisodeOutcome | None) -> None:
+        if outcome is not None and self.order is not None:
+            self.finished = Finished(self.order, outcome)
+
+    def _check(self, epoch: int) -> None:
+        self._check_stop()
+        self.lease.check(epoch)
+        if self.arm.episode is not None:
+            raise Refusal("an episode is running: wait for its end, or finish it")
+
+    def _check_stop(self) -> None:
+        if self.stop.latched:
+            raise Refusal(f"{self.stop}: release it first")

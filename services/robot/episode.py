@@ -1,0 +1,147 @@
+"""One episode: an execution from the first motion to the verdict, and the account of it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lfd.trajectory import Trajectory
+from services.robot.execution import Execution
+from services.robot.recording import Recording
+from services.robot.verdict import Verdict
+from sim.pose import Pose
+
+Array = NDArray[np.float64]
+
+SETTLE_S = 0.5
+"""The arm arrives and a toppling object falls before the verdict is given [s]."""
+
+INPUT_THRESHOLD = 0.0005
+"""A displacement above this counts as the operator's input [m]."""
+
+
+@dataclass(frozen=True, eq=False)
+class EpisodeOutcome:
+    """What became of an episode.
+
+    Attributes:
+        prediction: what was asked for.
+        refined: the reference including the operator's correction, as many way-points, in real moved time.
+        commanded: what the joints were told, as poses of the grasping frame.
+        measured: what the arm did.
+        verdict: at the end.
+        completed: it ran to the prediction's end.
+        reason: why not, empty where it did.
+        operator_input: a displacement took part in it.
+        clamped: control periods in which something was clamped.
+        held: time spent holding [s].
+        duration: from the first motion to the verdict [s].
+    """
+
+    prediction: Trajectory
+    refined: Trajectory
+    commanded: Trajectory
+    measured: Trajectory
+    verdict: Verdict
+    completed: bool
+    reason: str
+    operator_input: bool
+    clamped: int
+    held: float
+    duration: float
+
+
+class Episode:
+    """Counts and records while an execution advances.
+
+    Args:
+        prediction: what is executed.
+        measured: pose of the grasping frame now.
+        look_ahead: after which the correction is to equal the displacement [s].
+        period: of the control [s].
+    """
+
+    def __init__(self, prediction: Trajectory, measured: Pose, look_ahead: float, period: float) -> None:
+        self.prediction = prediction
+        self.execution = Execution(measured, prediction, look_ahead, period)
+        self.recording = Recording()
+        self.holding = False
+        self._period = period
+        self._cut_short = ""
+        self._settled = 0
+        self._ticks = 0
+        self._held = 0
+        self._clamped = 0
+        self._input = False
+
+    @property
+    def settling(self) -> bool:
+        """The reference stands still until the verdict."""
+        return bool(self._cut_short) or self.execution.finished
+
+    @property
+    def over(self) -> bool:
+        """Time for the verdict."""
+        return self._settled * self._period >= SETTLE_S
+
+    def cut_short(self, reason: str) -> None:
+        """Let the reference stand from now on; the verdict follows when the arm has settled."""
+        if not self.settling:
+            self._cut_short = reason
+
+    def hold(self) -> None:
+        """Let a control period pass without going on."""
+        self.holding = True
+        self._ticks += 1
+        self._held += 1
+
+    def advance(self, displacement: Array, measured: Pose) -> Pose:
+        """Go on by one control period.
+
+        Args:
+            displacement: of the master, in base axes, shape (3,) [m].
+            measured: pose of the grasping frame, from where a hold is left.
+
+        Returns:
+            The reference at the end of the period.
+        """
+        if self.holding:
+            self.execution.rejoin(measured)
+            self.holding = False
+        self._ticks += 1
+        if self.settling:
+            self._settled += 1
+            return self.execution.reference
+        if not self.execution.ramping:
+            self._input |= float(np.linalg.norm(displacement)) > INPUT_THRESHOLD
+        return self.execution.advance(displacement)
+
+    def record(self, reference: Pose, commanded: Pose, measured: Pose, *, clamped: bool) -> None:
+        """Keep what this period's command was and did."""
+        self._clamped += clamped
+        if not self.execution.ramping:
+            self.recording.add(self.execution.time, reference, commanded, measured)
+
+    def outcome(self, verdict: Verdict, measured: Pose, stopped: str = "") -> EpisodeOutcome:
+        """The account.
+
+        Args:
+            verdict: at the end.
+            measured: pose of the grasping frame now.
+            stopped: why the arm was stopped before its end, empty where it was not.
+        """
+        reason = stopped or self._cut_short
+        motions = self.recording.motions(self.prediction.n_points, measured, self._period)
+        return EpisodeOutcome(
+            prediction=self.prediction,
+            refined=motions.refined,
+            commanded=motions.commanded,
+            measured=motions.measured,
+            verdict=verdict,
+            completed=not reason,
+            reason=reason,
+            operator_input=self._input,
+            clamped=self._clamped,
+            held=self._held * self._period,
+            duration=self._ticks * self._period,
+        )

@@ -1,0 +1,162 @@
+"""Executes a prediction at the control rate and merges the operator's displacement into it.
+
+Equations (15) to (17) of the thesis move the NEXT way-point by the master's displacement d:
+
+    p_new(i+1) = p(i) + (p(i+1) - p(i)) + d = p(i+1) + d.
+
+Written as a correction o on top of the prediction, that is o(i+1) = d: whatever the correction is now, it is to equal
+the displacement one way-point interval, the look-ahead L = T / (n - 1), later. Between two way-points the thesis' arm
+goes there on a straight line. At the control rate the same rule is applied in every period anew, with the newest
+displacement: the course is set from o so that it would meet d one look-ahead later, a slope of (d - o) / L. The horizon
+recedes with every period, so that
+
+    do/dt = (d - o) / L,    exactly    o(t + h) = o(t) + (1 - exp(-h / L)) (d - o(t))
+
+over a period h in which d stands still. Without input the prediction is tracked exactly, each new sample acts in the
+next period, nothing jumps, and after release the correction returns to zero in the same way. Adapting the CURRENT
+way-point (eq. B.7) is the limit L = 0: o = d at once.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lfd.resampling import Interpolation, at_phases
+from lfd.rotations import conjugate, log_map, multiply, slerp
+from lfd.trajectory import Trajectory
+from sim.pose import Pose
+
+Array = NDArray[np.float64]
+
+RAMP_MIN_S = 0.5  # [s]
+RAMP_SPEED = 0.15  # [m/s] mean
+RAMP_TURN_SPEED = 0.5  # [rad/s] mean
+
+
+def look_ahead(prediction: Trajectory) -> float:
+    """L of the prediction: the time between two of its way-points [s]."""
+    return prediction.duration / (prediction.n_points - 1)
+
+
+class Execution:
+    """One prediction on its way: first a ramp from where the arm is, then the prediction plus the correction.
+
+    Not calling `advance` is a hold: time stands still, the correction is frozen, the reference stays.
+
+    Args:
+        measured: pose of the grasping frame now.
+        prediction: in the base frame, any number of way-points.
+        look_ahead: L, after which the correction is to equal the displacement [s]; 0 moves the current way-point.
+        period: of the control [s].
+    """
+
+    def __init__(self, measured: Pose, prediction: Trajectory, look_ahead: float, period: float) -> None:
+        ticks = math.ceil(prediction.duration / period - 1e-9)
+        self._times = np.minimum(np.arange(ticks + 1) * period, prediction.duration)
+        path = at_phases(prediction, self._times / prediction.duration, Interpolation.CUBIC)
+        self._positions, self._orientations = path.positions, path.orientations
+        self._period = period
+        self._gain = -math.expm1(-period / look_ahead) if look_ahead > 0.0 else 1.0
+        self._tick = 0
+        self.offset: Array = np.zeros(3)
+        self._ramp = Ramp(measured, self.nominal, period, RAMP_MIN_S)
+
+    @property
+    def ramping(self) -> bool:
+        """The prediction's time stands still while the arm goes to where it left off."""
+        return not self._ramp.finished
+
+    @property
+    def finished(self) -> bool:
+        """The last way-point is the reference."""
+        return not self.ramping and self._tick == len(self._times) - 1
+
+    @property
+    def time(self) -> float:
+        """Of the prediction [s]."""
+        return float(self._times[self._tick])
+
+    @property
+    def progress(self) -> float:
+        """Share of the prediction that lies behind."""
+        return self._tick / (len(self._times) - 1)
+
+    @property
+    def nominal(self) -> Pose:
+        """What the prediction alone says now."""
+        return Pose(self._positions[self._tick], self._orientations[self._tick])
+
+    @property
+    def reference(self) -> Pose:
+        """Where the grasping frame should be now."""
+        return self._ramp.pose if self.ramping else self._corrected()
+
+    def advance(self, displacement: Array) -> Pose:
+        """Go on by one control period.
+
+        Args:
+            displacement: of the master, in base axes, shape (3,) [m]; ignored on the ramp.
+
+        Returns:
+            The reference at the end of the period.
+        """
+        if self.ramping:
+            self._ramp.advance()
+        elif not self.finished:
+            self._tick += 1
+            self.offset = self.offset + self._gain * (displacement - self.offset)
+        return self.reference
+
+    def rejoin(self, measured: Pose) -> None:
+        """Ramp from the measured pose to where a hold left off; no time at all where the arm still is there.
+
+        A ramp that the hold interrupted begins anew, with its least duration.
+        """
+        self._ramp = Ramp(measured, self._corrected(), self._period, RAMP_MIN_S if self.ramping else 0.0)
+
+    def _corrected(self) -> Pose:
+        return Pose(self._positions[self._tick] + self.offset, self._orientations[self._tick])
+
+
+class Ramp:
+    """A smooth motion between two poses, at rest on both ends: the minimum-jerk profile (Flash and Hogan, 1985).
+
+    Args:
+        start: where it begins.
+        goal: where it ends.
+        period: of the control [s].
+        least: duration that it has at least [s].
+    """
+
+    def __init__(self, start: Pose, goal: Pose, period: float, least: float) -> None:
+        self.start = start
+        self.goal = goal
+        distance = float(np.linalg.norm(goal.position - start.position))
+        angle = angle_between(start.orientation, goal.orientation)
+        self._ticks = round(max(least, distance / RAMP_SPEED, angle / RAMP_TURN_SPEED) / period)
+        self._tick = 0
+
+    @property
+    def finished(self) -> bool:
+        """The goal is reached."""
+        return self._tick >= self._ticks
+
+    @property
+    def pose(self) -> Pose:
+        """Where it is now."""
+        if self.finished:
+            return self.goal
+        s = self._tick / self._ticks
+        share = s**3 * (10.0 - 15.0 * s + 6.0 * s**2)
+        position = self.start.position + share * (self.goal.position - self.start.position)
+        return Pose(position, slerp(self.start.orientation, self.goal.orientation, np.asarray(share)))
+
+    def advance(self) -> None:
+        """Go on by one control period."""
+        self._tick += 1
+
+
+def angle_between(p: Array, q: Array) -> float:
+    """The angle between two orientations, unit quaternions of shape (4,) [rad]."""
+    return float(np.linalg.norm(log_map(multiply(conjugate(p), q))))

@@ -1,0 +1,127 @@
+"""What the robot tells everybody: each topic at the rate that the registry gives it."""
+
+from typing import Any
+
+from protocol import messages, topics
+from protocol.topics import Topic
+from services.arrays import to_wire, vector3
+from services.bus import Bus
+from services.robot import wire
+from services.robot.arm import Tick
+from services.robot.control import Control, Finished
+
+
+class Schedule:
+    """When each topic is due, in absolute periods, so that rates do not drift."""
+
+    def __init__(self) -> None:
+        self._next_ns: dict[str, int] = {}
+
+    def due(self, topic: Topic[Any], now_ns: int) -> bool:
+        """Whether to publish the topic now; then it is due again one period later."""
+        period = round(1e9 / topic.rate_hz)
+        due_ns = self._next_ns.setdefault(topic.name, now_ns)
+        if now_ns < due_ns:
+            return False
+        behind = (now_ns - due_ns) // period
+        self._next_ns[topic.name] = due_ns + (behind + 1) * period
+        return True
+
+
+class Reports:
+    """Publishes the robot's states.
+
+    Args:
+        bus: to publish on.
+        control: that is reported.
+    """
+
+    def __init__(self, bus: Bus, control: Control) -> None:
+        self._bus = bus
+        self._control = control
+        self._schedule = Schedule()
+        self._epoch = -1
+        self._stop_latched: bool | None = None
+        self._finished: Finished | None = None
+
+    def publish(self, now_ns: int, tick: Tick, applied_sequence: int, applied_latency: float) -> None:
+        """Publish what is due; a change of authority, the emergency stop and a result at once.
+
+        Args:
+            now_ns: the time.
+            tick: the control period that ended.
+            applied_sequence: of the last master state that took effect.
+            applied_latency: from its stamp to its effect [s]; negative where the clocks are not comparable.
+        """
+        control, due = self._control, self._schedule.due
+        self._bus.publish(topics.ROBOT_STATE, self._robot_state(tick, applied_sequence, applied_latency))
+        if due(topics.WORLD_STATE, now_ns):
+            self._bus.publish(topics.WORLD_STATE, _world_state(tick))
+        if due(topics.VERDICT, now_ns):
+            self._bus.publish(topics.VERDICT, wire.verdict(tick.verdict))
+        if due(topics.AUTHORITY_STATE, now_ns) or self._epoch != control.lease.epoch:
+            self._epoch = control.lease.epoch
+            self._bus.publish(topics.AUTHORITY_STATE, self._authority_state(now_ns))
+        if due(topics.SAFETY_STATE, now_ns) or self._stop_latched != control.stop.latched:
+            self._stop_latched = control.stop.latched
+            self._bus.publish(topics.SAFETY_STATE, self._safety_state(tick))
+        if due(topics.SCENE_STATE, now_ns):
+            self._bus.publish(topics.SCENE_STATE, wire.scene_state(control.scene, control.arm.variant))
+        if due(topics.EXECUTION, now_ns):
+            self._publish_execution()
+        self._publish_result(now_ns)
+
+    def _publish_execution(self) -> None:
+        order, episode = self._control.order, self._control.arm.episode
+        if order is None or episode is None:
+            return
+        prediction = episode.prediction
+        state = messages.ExecutionState(
+            episode=order.episode,
+            mode=order.execute.mode,
+            prediction=order.execute.prediction,
+            progress=episode.execution.progress,
+            refined=to_wire(episode.recording.refined_until_now(prediction.n_points, prediction.duration)),
+        )
+        self._bus.publish(topics.EXECUTION, state)
+
+    def _publish_result(self, now_ns: int) -> None:
+        finished = self._control.finished
+        due = self._schedule.due(topics.EPISODE_RESULT, now_ns)
+        if finished is not None and (due or finished is not self._finished):
+            self._bus.publish(topics.EPISODE_RESULT, wire.episode_result(finished))
+        self._finished = finished
+
+    def _robot_state(self, tick: Tick, applied_sequence: int, applied_latency: float) -> messages.RobotState:
+        order = self._control.order
+        return messages.RobotState(
+            joint_names=self._control.arm.joint_names,
+            q=tuple(tick.observation.q.tolist()),
+            qd=tuple(tick.observation.qd.tolist()),
+            measured=wire.pose(tick.measured),
+            reference=wire.pose(tick.reference),
+            phase=self._control.phase(tick),
+            mode=order.execute.mode if order is not None else messages.Mode.AUTONOMOUS,
+            episode=order.episode if order is not None else 0,
+            progress=tick.progress,
+            offset=vector3(tick.offset),
+            hold_reason=tick.hold_reason,
+            clamped=tick.clamped[:16],
+            applied_sequence=applied_sequence,
+            applied_latency=applied_latency,
+        )
+
+    def _authority_state(self, now_ns: int) -> messages.AuthorityState:
+        lease = self._control.lease
+        return messages.AuthorityState(holder=lease.holder, epoch=lease.epoch, expires_in=lease.expires_in_s(now_ns))
+
+    def _safety_state(self, tick: Tick) -> messages.SafetyState:
+        stop = self._control.stop
+        return messages.SafetyState(
+            emergency_stop=stop.latched, by=stop.by, reason=stop.reason, self_distance=tick.self_distance
+        )
+
+
+def _world_state(tick: Tick) -> messages.WorldState:
+    seen = tick.observation
+    return messages.WorldState(time=seen.time, qpos=to_wire(seen.world), object_pose=wire.pose(seen.object_pose))

@@ -1,0 +1,120 @@
+"""Episodes without bus and clock, as fast as they go: to give first demonstrations, and to map success."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lfd.trajectory import Trajectory
+from services.robot.arm import Arm, Tick
+from services.robot.backend import CONTROL_PERIOD
+from services.robot.episode import EpisodeOutcome
+from services.robot.execution import look_ahead
+from services.robot.kinematics import Kinematics
+from services.robot.simulation import Simulation
+from services.robot.verdict import Criteria
+from sim.description import RobotDescription
+from sim.pose import Pose
+from sim.scenes.scene import Scene
+from sim.world import World
+
+Array = NDArray[np.float64]
+
+HOME_SEED = 0
+"""Of the random starts in the search for the start's joint positions: the same in every process."""
+
+
+@dataclass(frozen=True, eq=False)
+class RolloutView:
+    """What an operator, or a script in its place, goes by.
+
+    Attributes:
+        time: since the rollout began [s].
+        progress: of the prediction, from 0 to 1.
+        nominal: what the prediction alone says now.
+        offset: the correction as it is applied now, shape (3,) [m].
+        tick: the last control period.
+    """
+
+    time: float
+    progress: float
+    nominal: Pose
+    offset: Array
+    tick: Tick
+
+
+Displacement = Callable[[RolloutView], Array]
+"""The operator: from what is seen to the master's displacement, in base axes, shape (3,) [m]."""
+
+
+def simulated_arm(
+    scene: Scene,
+    variant: str,
+    description: RobotDescription,
+    *,
+    kinematics: Kinematics | None = None,
+    velocity_scale: float = 0.5,
+    self_distance_stop: float = 0.005,
+) -> Arm:
+    """An arm in a simulated scene, at the scene's start; it takes about a second to make and is used again.
+
+    Args:
+        scene: what it stands in.
+        variant: of the scene.
+        description: of the robot.
+        kinematics: of the robot; made from the description by default.
+        velocity_scale: share of the joints' speed limits that may be used.
+        self_distance_stop: distance between the robot's parts at which it stops [m].
+
+    Raises:
+        UnknownVariant: the scene has no such variant.
+        Unreachable: the arm cannot reach the scene's start.
+    """
+    kinematics = kinematics or Kinematics(description.urdf, scene.posture)
+    rng = np.random.default_rng(HOME_SEED)
+    home = kinematics.solve(scene.start.position, scene.start.orientation, [scene.posture], rng)
+    world = World(scene, variant, description)
+    world.reset(scene.training_positions[0], variant, home)
+    criteria = Criteria(scene.reached_radii, scene.kicked_thresholds)
+    return Arm(
+        Simulation(world),
+        kinematics,
+        criteria,
+        home,
+        velocity_scale=velocity_scale,
+        self_distance_stop=self_distance_stop,
+    )
+
+
+def rollout(
+    arm: Arm,
+    prediction: Trajectory,
+    object_position: Array,
+    *,
+    variant: str | None = None,
+    displacement: Displacement | None = None,
+    after: float | None = None,
+) -> EpisodeOutcome:
+    """Reset the arm and execute a prediction to the end.
+
+    Args:
+        arm: on a simulated backend, as `simulated_arm` makes it.
+        prediction: in the base frame.
+        object_position: centre of the object, shape (3,) [m].
+        variant: of the scene; as it is by default.
+        displacement: the operator; none by default.
+        after: look-ahead of the correction [s]; one way-point interval by default, 0 moves the current way-point.
+    """
+    arm.reset(object_position, arm.variant if variant is None else variant)
+    arm.begin(prediction, look_ahead(prediction) if after is None else after)
+    tick = arm.tick(np.zeros(3))
+    time = CONTROL_PERIOD
+    while tick.outcome is None:
+        wanted = np.zeros(3)
+        if displacement is not None and arm.episode is not None:
+            execution = arm.episode.execution
+            wanted = displacement(RolloutView(time, execution.progress, execution.nominal, execution.offset, tick))
+        tick = arm.tick(wanted)
+        time += CONTROL_PERIOD
+    return tick.outcome

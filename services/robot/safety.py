@@ -1,0 +1,121 @@
+"""What keeps the robot from moving: the emergency stop, the watchdog, and the limits on each command.
+
+Nothing here knows a clock or a bus: ages and requests are passed in, decisions and reasons come out.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.pose import Pose
+
+Array = NDArray[np.float64]
+
+REFERENCE_SPEED = 1.2  # [m/s] that the reference has at most
+DISPLACEMENT_REACH = 0.3  # [m] of the operator's correction
+FORCE_STOP = 300.0  # [N] of a touch, above which the arm stops; running into a wall gives half of it
+
+
+@dataclass(frozen=True)
+class EmergencyStop:
+    """The latched stop.
+
+    Attributes:
+        latched: no motion until it is released.
+        by: who pressed it first.
+        reason: as given with it.
+    """
+
+    latched: bool = False
+    by: str = ""
+    reason: str = ""
+
+    def pressed(self, by: str, reason: str) -> "EmergencyStop":
+        """Latch; the first press keeps its author and reason."""
+        return self if self.latched else EmergencyStop(True, by, reason)
+
+    def __str__(self) -> str:
+        """For people."""
+        return f"emergency stop by {self.by}" + (f": {self.reason}" if self.reason else "")
+
+
+def hold_reason(*, holder: str, refining: bool, sample_age_s: float | None, hold_after_s: float) -> str:
+    """Why a running episode has to hold now; empty where it may go on.
+
+    Args:
+        holder: of the authority, empty for nobody.
+        refining: the operator shapes the motion, so that it must not go on without hearing from the master.
+        sample_age_s: of the newest master state of the authority's epoch, in the robot's clock [s]; None without any.
+        hold_after_s: age that is tolerated [s].
+    """
+    if not holder:
+        return "nobody holds the authority"
+    if refining and sample_age_s is None:
+        return "no master state with the authority's epoch was heard"
+    if refining and sample_age_s is not None and sample_age_s > hold_after_s:
+        return f"the master has not been heard for more than {hold_after_s * 1e3:.0f} ms"
+    return ""
+
+
+@dataclass(frozen=True, eq=False)
+class JointLimits:
+    """What the joints may do.
+
+    Attributes:
+        names: of the joints.
+        lower: least positions, shape (m,).
+        upper: greatest positions, shape (m,).
+        speed: greatest speeds, shape (m,).
+    """
+
+    names: tuple[str, ...]
+    lower: Array
+    upper: Array
+    speed: Array
+
+    def clamp(self, q: Array, wanted: Array, period: float) -> tuple[Array, tuple[str, ...]]:
+        """The furthest step towards the wanted positions that the limits allow.
+
+        A step that is too fast for one joint is shortened for all, so that its direction stays.
+
+        Args:
+            q: positions now, shape (m,).
+            wanted: positions at the end of the period, shape (m,).
+            period: [s].
+
+        Returns:
+            Positions at the end of the period, and what was clamped where.
+        """
+        bounded = np.clip(wanted, self.lower, self.upper)
+        beyond = np.abs(bounded - wanted) > 1e-9
+        step = bounded - q
+        use = np.abs(step) / (self.speed * period)
+        too_fast = use > 1.0 + 1e-9
+        clamped = [f"position {name}" for name in np.array(self.names)[beyond]]
+        clamped += [f"speed {name}" for name in np.array(self.names)[too_fast]]
+        return q + step / max(1.0, float(np.max(use))), tuple(clamped)
+
+
+def clamp_length(vector: Array, longest: float) -> tuple[Array, bool]:
+    """The vector, shape (3,), shortened to at most `longest`, and whether that was necessary."""
+    length = float(np.linalg.norm(vector))
+    if length <= longest * (1.0 + 1e-9):
+        return vector, False
+    return vector * (longest / length), True
+
+
+def clamp_reference(previous: Pose, wanted: Pose, period: float) -> tuple[Pose, bool]:
+    """The wanted reference, no further from the previous one than `REFERENCE_SPEED` allows, and whether it was."""
+    step, clamped = clamp_length(wanted.position - previous.position, REFERENCE_SPEED * period)
+    return (Pose(previous.position + step, wanted.orientation), True) if clamped else (wanted, False)
+
+
+def self_collision(distance: float, previous: float, limit: float) -> bool:
+    """Whether the robot comes too close to itself: under the limit and still closing in, so that it may move away."""
+    return distance < limit and distance < previous
+
+
+def too_forceful(force: float) -> bool:
+    """Whether a touch pushes harder than any motion should [N]."""
+    return force > FORCE_STOP

@@ -1,0 +1,217 @@
+"""The robot process' shell: hears the operator, answers requests, gives one command a step, reports."""
+
+from __future__ import annotations
+
+import logging
+from collections import deque
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from protocol import queries, topics
+from protocol.messages import Figure, MasterState, Phase
+from protocol.queries import Accepted, AuthorityGranted, EpisodeStarted, Refused
+from services.bus import Bus, Received, Rep, Req, Server
+from services.clock import Clock
+from services.config import Configuration
+from services.identity import same_clock
+from services.robot.arm import Tick
+from services.robot.authority import Lease
+from services.robot.backend import CONTROL_PERIOD
+from services.robot.control import Control
+from services.robot.kinematics import Kinematics
+from services.robot.refusal import Refusal
+from services.robot.reports import Reports
+from services.robot.rollout import simulated_arm
+from sim.description import prepare
+from sim.scenes import scene as scene_named
+
+log = logging.getLogger(__name__)
+
+Array = NDArray[np.float64]
+
+FIGURES_KEPT = 4096
+
+
+def build(bus: Bus, clock: Clock, configuration: Configuration) -> RobotService:
+    """The service on a simulated world.
+
+    Raises:
+        SimError: there is no such scene or variant, or the robot's description is not installed.
+        Unreachable: the arm cannot reach the scene's start.
+    """
+    section = configuration.robot
+    description = prepare()
+    scene = scene_named(section.scene)
+    kinematics = TimedKinematics(clock, description.urdf, scene.posture)
+    arm = simulated_arm(
+        scene,
+        section.variant or scene.variants[0],
+        description,
+        kinematics=kinematics,
+        velocity_scale=section.velocity_scale,
+        self_distance_stop=section.self_distance_stop,
+    )
+    # Milliseconds since boot: above every epoch that an earlier incarnation of this process gave out.
+    lease = Lease(section.lease_s, epoch=clock.now_ns() // 1_000_000)
+    return RobotService(bus, clock, Control(arm, scene, lease, section.hold_after_s, section.master_gain), kinematics)
+
+
+class TimedKinematics(Kinematics):
+    """Kinematics that remembers how long each step of the inverse took.
+
+    Args:
+        clock: to measure with.
+        urdf: the robot's description.
+        posture: configuration that the redundant joint is drawn to.
+    """
+
+    def __init__(self, clock: Clock, urdf: Path, posture: Array) -> None:
+        super().__init__(urdf, posture)
+        self._clock = clock
+        self.steps_ns: deque[int] = deque(maxlen=FIGURES_KEPT)
+
+    def solve_step(self, q: Array, position: Array, orientation: Array, dt: float) -> tuple[Array, Array]:
+        """As `Kinematics.solve_step`."""
+        started = self._clock.now_ns()
+        try:
+            return super().solve_step(q, position, orientation, dt)
+        finally:
+            self.steps_ns.append(self._clock.now_ns() - started)
+
+
+class RobotService:
+    """One arm on the bus.
+
+    Args:
+        bus: to hear, answer and report on.
+        clock: when a command has been given.
+        control: that decides.
+        kinematics: whose durations are reported.
+    """
+
+    rate_hz = 1.0 / CONTROL_PERIOD
+
+    def __init__(self, bus: Bus, clock: Clock, control: Control, kinematics: TimedKinematics) -> None:
+        self._bus = bus
+        self._clock = clock
+        self._control = control
+        self._reports = Reports(bus, control)
+        self._kinematics = kinematics
+        self._master = bus.subscribe(topics.MASTER_STATE)
+        self._renewal = bus.subscribe(topics.AUTHORITY_RENEWAL)
+        self._emergency_stop = bus.subscribe(topics.EMERGENCY_STOP)
+        self._acquire = bus.serve(queries.ACQUIRE)
+        self._release = bus.serve(queries.RELEASE)
+        self._execute = bus.serve(queries.EXECUTE)
+        self._finish = bus.serve(queries.FINISH)
+        self._reset = bus.serve(queries.RESET)
+        self._release_stop = bus.serve(queries.RELEASE_STOP)
+        self._sample: Received[MasterState] | None = None
+        self._applied: Received[MasterState] | None = None
+        self._applied_latency = -1.0
+        self._latencies: deque[float] = deque(maxlen=FIGURES_KEPT)
+        self._first_ns: int | None = None
+        self._ticks = self._touching = self._clamped = self._refused = 0
+
+    def step(self, now_ns: int) -> None:
+        """Hear, answer, command, report."""
+        self._first_ns = now_ns if self._first_ns is None else self._first_ns
+        self._hear()
+        self._answer_all(now_ns)
+        sample = self._sample_of_this_epoch()
+        tick = self._control.tick(now_ns, sample)
+        self._measure(tick, sample)
+        applied = self._applied.message.sequence if self._applied is not None else 0
+        self._reports.publish(now_ns, tick, applied, self._applied_latency)
+
+    def figures(self) -> tuple[Figure, ...]:
+        """Since the last call: latency from the master's stamp to the command, inverse kinematics, contacts, clamps."""
+        latency_p50, latency_p99 = _quantiles(self._latencies)
+        _, inverse_p99 = _quantiles(self._kinematics.steps_ns)
+        elapsed = (self._clock.now_ns() - self._first_ns) / 1e9 if self._first_ns is not None else 0.0
+        figures = (
+            Figure("applied_latency_p50", 1e3 * latency_p50, "ms"),
+            Figure("applied_latency_p99", 1e3 * latency_p99, "ms"),
+            Figure("inverse_kinematics_p99", 1e-6 * inverse_p99, "ms"),
+            Figure("simulation_lag", max(0.0, elapsed - self._ticks * CONTROL_PERIOD), "s"),
+            Figure("touching", float(self._touching), "periods"),
+            Figure("clamped", float(self._clamped), "periods"),
+            Figure("refused", float(self._refused), "requests"),
+        )
+        self._latencies.clear()
+        self._kinematics.steps_ns.clear()
+        self._touching = self._clamped = 0
+        return figures
+
+    def close(self) -> None:
+        """Nothing to give back: the simulated world ends with the process."""
+
+    def _hear(self) -> None:
+        for press in self._emergency_stop.take():
+            if press.message.pressed:
+                self._control.press(press.message.by, press.message.reason)
+        for renewal in self._renewal.take():
+            self._control.lease.renew(renewal.message.holder, renewal.message.epoch, renewal.received_ns)
+
+    def _answer_all(self, now_ns: int) -> None:
+        control = self._control
+        lease_s = control.lease.duration_s
+        self._answer(self._acquire, lambda request: AuthorityGranted(control.acquire(request, now_ns), lease_s))
+        self._answer(self._release, _accepting(control.release))
+        self._answer(self._execute, lambda request: EpisodeStarted(control.execute(request)))
+        self._answer(self._finish, _accepting(control.finish))
+        self._answer(self._reset, _accepting(control.reset))
+        self._answer(self._release_stop, _accepting(control.release_stop))
+
+    def _answer(self, server: Server[Req, Rep], answer: Callable[[Req], Rep]) -> None:
+        for call in server.take():
+            reply: Rep | Refused
+            try:
+                reply = answer(call.request)
+            except Refusal as refusal:
+                self._refused += 1
+                log.warning("refused: %s", refusal)
+                reply = Refused(refusal.reason)
+            call.reply(reply)
+
+    def _sample_of_this_epoch(self) -> Received[MasterState] | None:
+        """The newest master state of the present authority; those of any other do not count."""
+        epoch = self._control.lease.epoch
+        for received in self._master.take():
+            if received.message.epoch == epoch:
+                self._sample = received
+        if self._sample is not None and self._sample.message.epoch != epoch:
+            self._sample = None
+        return self._sample
+
+    def _measure(self, tick: Tick, sample: Received[MasterState] | None) -> None:
+        """Count the tick, and the time that the sample took where it acted for the first time."""
+        self._ticks += 1
+        self._touching += tick.observation.touch is not None
+        self._clamped += bool(tick.clamped)
+        if tick.phase is not Phase.EXECUTE or not self._control.refining or sample in (None, self._applied):
+            return
+        self._applied = sample
+        self._applied_latency = -1.0
+        if sample is not None and same_clock(sample.message.publisher, self._bus.identity):
+            self._applied_latency = (self._clock.now_ns() - sample.message.stamp_ns) / 1e9
+            self._latencies.append(self._applied_latency)
+
+
+def _accepting(carry_out: Callable[[Req], None]) -> Callable[[Req], Accepted]:
+    def answer(request: Req) -> Accepted:
+        carry_out(request)
+        return Accepted()
+
+    return answer
+
+
+def _quantiles(samples: deque[int] | deque[float]) -> tuple[float, float]:
+    """Median and 99th percentile; 0 where there are no samples."""
+    if not samples:
+        return 0.0, 0.0
+    median, high = np.quantile(np.array(samples, dtype=np.float64), (0.5, 0.99))
+    return float(median), float(high)

@@ -1,0 +1,94 @@
+"""The success criteria of Appendix E: object reached, not kicked over, no collision."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lfd.rotations import conjugate, rotate
+from services.robot.backend import Touch
+from sim.pose import Pose
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Criteria:
+    """By what an episode is judged.
+
+    Attributes:
+        radii: of the ellipsoid fixed to the grasping frame, along its axes, shape (3,) [m].
+        thresholds: displacement along each base axis beyond which the object counts as kicked over, shape (3,) [m].
+    """
+
+    radii: Array
+    thresholds: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Verdict:
+    """The criteria and what they rest on.
+
+    Attributes:
+        reached: the object's centre lies in the ellipsoid or on its boundary.
+        kicked_over: the object moved further than its threshold on some axis.
+        collision: the first touch of the environment in this episode, None where there was none.
+        ellipsoid_value: left side of the ellipsoid's equation (Fig. E.2); at most 1 inside.
+        displacement: of the object since the episode began, shape (3,) [m].
+    """
+
+    reached: bool
+    kicked_over: bool
+    collision: Touch | None
+    ellipsoid_value: float
+    displacement: Array
+
+    @property
+    def success(self) -> bool:
+        """All three criteria are met."""
+        return self.reached and not self.kicked_over and self.collision is None
+
+
+class Judge:
+    """Judges an episode period by period; a collision stays until the next one begins.
+
+    Args:
+        criteria: by what.
+        object_position: where the object stands before, shape (3,) [m].
+    """
+
+    def __init__(self, criteria: Criteria, object_position: Array) -> None:
+        self._criteria = criteria
+        self._initial = object_position
+        self._collision: Touch | None = None
+
+    def judge(self, grasping: Pose, object_position: Array, touch: Touch | None) -> Verdict:
+        """The verdict now.
+
+        Args:
+            grasping: pose of the grasping frame.
+            object_position: centre of the object, shape (3,) [m].
+            touch: of robot and environment in this period.
+        """
+        self._collision = self._collision or touch
+        value = ellipsoid_value(grasping, object_position, self._criteria.radii)
+        displacement = object_position - self._initial
+        return Verdict(
+            reached=value <= 1.0,
+            kicked_over=bool(np.any(np.abs(displacement) > self._criteria.thresholds)),
+            collision=self._collision,
+            ellipsoid_value=value,
+            displacement=displacement,
+        )
+
+
+def ellipsoid_value(grasping: Pose, object_position: Array, radii: Array) -> float:
+    """(x/a)^2 + (y/b)^2 + (z/c)^2 of the object's centre in the grasping frame (Fig. E.2).
+
+    Args:
+        grasping: pose of the grasping frame, where the ellipsoid's centre is.
+        object_position: shape (3,) [m].
+        radii: a, b, c, shape (3,) [m].
+    """
+    p_object = rotate(conjugate(grasping.orientation), object_position - grasping.position)
+    return float(np.sum((p_object / radii) ** 2))

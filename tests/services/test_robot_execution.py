@@ -1,0 +1,168 @@
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lfd.rotations import exp_map
+from lfd.trajectory import Trajectory
+from services.robot.execution import RAMP_MIN_S, RAMP_SPEED, Execution, Ramp, angle_between, look_ahead
+from sim.pose import Pose
+
+PERIOD = 0.01
+NO_INPUT = np.zeros(3)
+IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
+
+
+def cubic(t):
+    """A motion that a cubic spline reproduces exactly."""
+    return np.stack([0.5 + 0.02 * t, 0.01 * t**2, 0.8 - 0.001 * t**3], axis=-1)
+
+
+def turn(t):
+    return exp_map(np.multiply.outer(t, np.array([0.0, 0.05, 0.0])))
+
+
+def prediction(n=75, duration=7.4):
+    t = np.linspace(0.0, duration, n)
+    return Trajectory(cubic(t), turn(t), duration)
+
+
+def at_start(motion):
+    return Pose(motion.positions[0], motion.orientations[0])
+
+
+def past_the_ramp(motion, after=None):
+    execution = Execution(at_start(motion), motion, look_ahead(motion) if after is None else after, PERIOD)
+    while execution.ramping:
+        execution.advance(NO_INPUT)
+    return execution
+
+
+def test_without_input_the_prediction_is_tracked_exactly_between_way_points_too():
+    execution = past_the_ramp(prediction())
+    for k in range(1, 741):
+        reference = execution.advance(NO_INPUT)
+        np.testing.assert_allclose(reference.position, cubic(k * PERIOD), atol=1e-12)
+        np.testing.assert_allclose(reference.orientation, turn(k * PERIOD), atol=1e-12)
+    assert execution.finished
+
+
+def test_the_offset_is_one_minus_one_over_e_of_the_displacement_after_one_look_ahead():
+    motion = prediction()  # a look-ahead of ten control periods
+    displacement = np.array([0.1, -0.05, 0.02])
+    execution = past_the_ramp(motion)
+    for _ in range(10):
+        execution.advance(displacement)
+    np.testing.assert_allclose(execution.offset, (1.0 - math.exp(-1.0)) * displacement, rtol=1e-12)
+
+
+def test_the_discretisation_is_exact_for_any_period():
+    motion, displacement = prediction(), np.array([0.1, 0.0, 0.0])
+    offsets = []
+    for period in (0.01, 0.005):
+        execution = Execution(at_start(motion), motion, look_ahead(motion), period)
+        while execution.ramping:
+            execution.advance(NO_INPUT)
+        while execution.time < 1.0 - 1e-9:
+            execution.advance(displacement)
+        offsets.append(execution.offset)
+    np.testing.assert_allclose(offsets[0], offsets[1], rtol=1e-12)
+
+
+def test_a_displacement_acts_in_the_very_next_period_and_is_released_in_the_same_manner():
+    execution = past_the_ramp(prediction())
+    displacement = np.array([0.0, 0.0, 0.1])
+    assert execution.advance(displacement).position[2] > cubic(PERIOD)[2]
+    for _ in range(200):
+        execution.advance(displacement)
+    pushed = execution.offset
+    execution.advance(NO_INPUT)
+    np.testing.assert_allclose(execution.offset, math.exp(-0.1) * pushed, rtol=1e-9)
+
+
+def test_adapting_the_current_way_point_adds_the_displacement_at_once():
+    execution = past_the_ramp(prediction(), after=0.0)
+    displacement = np.array([0.1, 0.0, 0.0])
+    np.testing.assert_allclose(execution.advance(displacement).position, cubic(PERIOD) + displacement, atol=1e-12)
+
+
+@given(st.lists(st.tuples(*[st.floats(-0.3, 0.3)] * 3), min_size=1, max_size=50))
+def test_the_offset_never_leaves_the_box_of_what_the_operator_gave(displacements):
+    execution = past_the_ramp(prediction())
+    for displacement in displacements:
+        execution.advance(np.array(displacement))
+    given_so_far = np.array([(0.0, 0.0, 0.0), *displacements])
+    assert np.all(execution.offset <= given_so_far.max(axis=0) + 1e-12)
+    assert np.all(execution.offset >= given_so_far.min(axis=0) - 1e-12)
+
+
+def test_a_period_that_is_not_advanced_is_a_hold():
+    execution = past_the_ramp(prediction())
+    execution.advance(np.array([0.1, 0.0, 0.0]))
+    time, offset, reference = execution.time, execution.offset, execution.reference
+    assert (execution.time, execution.ramping) == (time, False)
+    np.testing.assert_array_equal(execution.reference.position, reference.position)
+    np.testing.assert_array_equal(execution.offset, offset)
+
+
+def test_a_hold_is_left_from_the_measured_pose_and_ends_where_it_began():
+    execution = past_the_ramp(prediction())
+    execution.advance(np.array([0.1, 0.0, 0.0]))
+    before = execution.reference
+    execution.rejoin(before)
+    assert not execution.ramping, "an arm that is where it should be does not wait"
+    elsewhere = Pose(before.position + np.array([0.0, 0.0, 0.05]), before.orientation)
+    execution.rejoin(elsewhere)
+    np.testing.assert_allclose(execution.reference.position, elsewhere.position)
+    while execution.ramping:
+        execution.advance(np.array([0.3, 0.3, 0.3]))
+    np.testing.assert_allclose(execution.reference.position, before.position, atol=1e-12)
+
+
+def test_a_hold_on_the_first_ramp_lets_it_begin_anew():
+    motion = prediction()
+    execution = Execution(at_start(motion), motion, look_ahead(motion), PERIOD)
+    execution.advance(NO_INPUT)
+    execution.rejoin(at_start(motion))
+    for _ in range(round(RAMP_MIN_S / PERIOD)):
+        assert execution.ramping
+        execution.advance(NO_INPUT)
+    assert (execution.ramping, execution.time) == (False, 0.0)
+
+
+def test_a_duration_that_is_no_multiple_of_the_period_ends_at_the_last_way_point():
+    motion = prediction(duration=1.003)
+    execution = past_the_ramp(motion)
+    while not execution.finished:
+        execution.advance(NO_INPUT)
+    assert (execution.time, execution.progress) == (1.003, 1.0)
+    np.testing.assert_allclose(execution.reference.position, motion.positions[-1], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("distance", "angle", "seconds"), [(0.0, 0.0, RAMP_MIN_S), (0.3, 0.0, 0.3 / RAMP_SPEED), (0.0, 1.0, 2.0)]
+)
+def test_the_ramp_takes_as_long_as_its_longest_way(distance, angle, seconds):
+    goal = Pose(np.array([distance, 0.0, 0.0]), exp_map(np.array([0.0, angle, 0.0])))
+    ramp = Ramp(Pose(np.zeros(3), IDENTITY), goal, PERIOD, RAMP_MIN_S)
+    ticks = 0
+    while not ramp.finished:
+        ramp.advance()
+        ticks += 1
+    assert ticks * PERIOD == pytest.approx(seconds)
+    np.testing.assert_allclose(ramp.pose.position, goal.position)
+    assert angle_between(ramp.pose.orientation, goal.orientation) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_the_ramp_begins_at_the_measured_pose_and_is_smooth():
+    ramp = Ramp(Pose(np.zeros(3), IDENTITY), Pose(np.array([0.3, 0.0, 0.0]), IDENTITY), PERIOD, RAMP_MIN_S)
+    positions = [ramp.pose.position[0]]
+    while not ramp.finished:
+        ramp.advance()
+        positions.append(ramp.pose.position[0])
+    speeds = np.diff(positions) / PERIOD
+    assert positions[0] == 0.0
+    assert max(speeds[0], speeds[-1]) < 1e-3
+    assert np.max(speeds) == pytest.approx(1.875 * RAMP_SPEED, rel=1e-3)

@@ -1,0 +1,55 @@
+import numpy as np
+import pytest
+
+from lfd.resampling import at_phases, from_samples
+from services.robot.rollout import rollout, simulated_arm
+from sim.description import prepare
+from sim.scenes import scene
+
+pytestmark = pytest.mark.sim
+
+SCENE = scene("dishwasher")
+PLACE = SCENE.training_positions[0]
+
+
+@pytest.fixture(scope="module")
+def arm():
+    return simulated_arm(SCENE, "b1", prepare())
+
+
+def corridor(variant, duration=12.0):
+    """The corridor of a variant, in the tempo of the first one so that the two pair."""
+    steps = np.linalg.norm(np.diff(SCENE.corridor("b1", PLACE).positions, axis=0), axis=1)
+    times = np.concatenate([[0.0], np.cumsum(steps)]) / np.sum(steps) * duration
+    return from_samples(times, *SCENE.corridor(variant, PLACE), n=75)
+
+
+def test_the_corridor_of_the_scene_succeeds_without_an_operator(arm):
+    outcome = rollout(arm, corridor("b1"), PLACE, variant="b1")
+    assert outcome.verdict.success
+    assert outcome.completed
+    assert not outcome.operator_input
+    assert outcome.clamped == 0
+    np.testing.assert_allclose(outcome.refined.positions, outcome.prediction.positions, atol=1e-4)
+    np.testing.assert_allclose(outcome.measured.positions, outcome.refined.positions, atol=2e-3)
+
+
+def test_in_the_changed_scene_it_collides_gently_and_the_operator_saves_it(arm):
+    prediction, wanted = corridor("b1"), corridor("b2")
+    alone = rollout(arm, prediction, PLACE, variant="b2")
+    assert alone.verdict.collision is not None
+    assert alone.completed, "a collision is shown by the verdict, the episode goes on"
+
+    def operator(view):
+        phases = np.array([0.0, min(1.0, view.progress + 1 / 74)])
+        return at_phases(wanted, phases).positions[1] - at_phases(prediction, phases).positions[1]
+
+    refined = rollout(arm, prediction, PLACE, variant="b2", displacement=operator)
+    assert refined.verdict.success
+    assert refined.operator_input
+    np.testing.assert_allclose(refined.refined.positions, wanted.positions, atol=0.01)
+
+
+def test_the_same_rollout_twice_is_the_same(arm):
+    first, second = (rollout(arm, corridor("b1", 4.0), PLACE, variant="b1") for _ in range(2))
+    np.testing.assert_array_equal(first.measured.positions, second.measured.positions)
