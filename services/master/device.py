@@ -1,0 +1,77 @@
+"""What a master device is to the process that owns it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from protocol.messages import Figure, Mode, OperatorInput, Phase, RobotState, Vector3
+
+ZERO: Vector3 = (0.0, 0.0, 0.0)
+
+_MOVING = frozenset({Phase.RAMP, Phase.EXECUTE, Phase.HOLD})
+
+
+@dataclass(frozen=True)
+class Moment:
+    """What the process knows at one step; what is too old to count is None.
+
+    Attributes:
+        now_ns: the process' clock [ns].
+        dt: since the step before [s].
+        operator: the inputs of the operator's page.
+        robot: what the robot is doing.
+        armed: somebody holds the authority.
+    """
+
+    now_ns: int
+    dt: float
+    operator: OperatorInput | None
+    robot: RobotState | None
+    armed: bool
+
+    @property
+    def refining(self) -> RobotState | None:
+        """The robot's state, while it executes an episode that an operator may correct."""
+        robot = self.robot
+        if robot is None or not self.armed or robot.mode is not Mode.REFINE or robot.phase not in _MOVING:
+            return None
+        return robot
+
+
+@dataclass(frozen=True)
+class Sample:
+    """The full state of a device, in base axes.
+
+    Attributes:
+        displacement: from neutral [m].
+        velocity: of the displacement [m/s].
+        force: rendered to the hand [N].
+        engaged: a hand is on the device and its displacement counts.
+    """
+
+    displacement: Vector3 = ZERO
+    velocity: Vector3 = ZERO
+    force: Vector3 = ZERO
+    engaged: bool = False
+
+
+class Device(Protocol):
+    """One input device."""
+
+    @property
+    def name(self) -> str:
+        """What kind of device it is."""
+        ...
+
+    def step(self, moment: Moment) -> Sample | None:
+        """Bring the device up to now; None keeps a robot that holds where it is. Must not wait."""
+        ...
+
+    def figures(self) -> tuple[Figure, ...]:
+        """What was measured since the last call."""
+        ...
+
+    def close(self) -> None:
+        """Let go of the hardware."""
+        ...

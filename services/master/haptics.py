@@ -1,0 +1,147 @@
+"""The force loop of a haptic device: eq. 14 at the device's own rate, whatever the network does."""
+
+from __future__ import annotations
+
+import os
+import threading
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from lfd import haptics
+from protocol.messages import Figure, Vector3
+from services.clock import Clock
+from services.runner import TickStatistics
+from sim.stylus import RATE_HZ, Stylus, StylusState
+
+_PERIOD_NS = round(1e9 / RATE_HZ)
+_CAUGHT_UP = 100
+"""Steps that are made up for after a late wake-up; a longer gap is skipped."""
+
+
+_PRIORITY = 10
+"""Above all that is not real-time, below what a real-time kernel does itself."""
+
+
+class Push(Protocol):
+    """Whoever pushes the stylus."""
+
+    def force(self, stylus: StylusState) -> Vector3:
+        """The push [N]."""
+        ...
+
+
+@dataclass(frozen=True)
+class Rendered:
+    """The newest state of the device and the feedback that it renders [N]."""
+
+    stylus: StylusState
+    feedback: Vector3
+
+
+class HapticLoop:
+    """Hand, feedback and stylus, one millisecond after the other.
+
+    `step` is the loop's body; `advance_to` makes as many steps as the time asks for. One thread advances, any
+    may read `newest`.
+
+    Args:
+        stylus: the device.
+        hand: who pushes it.
+        stiffness: k of eq. 14 [N/m].
+        damping: d of eq. 14 [N s/m].
+        start_ns: the time of the stylus' state [ns].
+    """
+
+    def __init__(self, stylus: Stylus, hand: Push, stiffness: float, damping: float, start_ns: int) -> None:
+        self._stylus = stylus
+        self._hand = hand
+        self._stiffness = stiffness
+        self._damping = damping
+        self._time_ns = start_ns
+        self.newest = Rendered(stylus.state, self._feedback(stylus.state))
+
+    def step(self, dt: float) -> Rendered:
+        """Push, feel, move [s]."""
+        stylus = self._stylus.state
+        (hx, hy, hz), (fx, fy, fz) = self._hand.force(stylus), self._feedback(stylus)
+        self.newest = Rendered(self._stylus.step((hx + fx, hy + fy, hz + fz), dt), (fx, fy, fz))
+        return self.newest
+
+    def advance_to(self, now_ns: int) -> Rendered:
+        """Bring the device up to the given time [ns]."""
+        due = (now_ns - self._time_ns) // _PERIOD_NS
+        if due > _CAUGHT_UP:
+            self._time_ns += (due - _CAUGHT_UP) * _PERIOD_NS
+        while self._time_ns + _PERIOD_NS <= now_ns:
+            self._time_ns += _PERIOD_NS
+            self.step(1.0 / RATE_HZ)
+        return self.newest
+
+    def _feedback(self, stylus: StylusState) -> Vector3:
+        force = haptics.force(np.array(stylus.position), np.array(stylus.velocity), self._stiffness, self._damping)
+        x, y, z = force.tolist()
+        return (x, y, z)
+
+
+class HapticThread:
+    """Runs a loop at `RATE_HZ` on absolute ticks and measures how regular they are.
+
+    It asks for real-time priority, since a hand feels a millisecond that another program takes; where the system
+    does not grant it (`ulimit -r`), it runs as everybody else and says so in its figures.
+
+    Args:
+        loop: what to run.
+        clock: what the ticks are counted on.
+    """
+
+    def __init__(self, loop: HapticLoop, clock: Clock) -> None:
+        self._loop = loop
+        self._clock = clock
+        self._stop = threading.Event()
+        self._lock = threading.Lock()
+        self._ticks = TickStatistics(RATE_HZ)
+        self._realtime = False
+        self._thread = threading.Thread(target=self._run, name="haptics", daemon=True)
+        self._thread.start()
+
+    def figures(self) -> tuple[Figure, ...]:
+        """How regular the ticks were since the last call, and how many came late so far."""
+        with self._lock:
+            period_p50, period_p99, step_p99 = self._ticks.take_quantiles()
+            ticks, late = self._ticks.ticks, self._ticks.late
+        return (
+            Figure("haptic_period_p50", 1e3 * period_p50, "ms"),
+            Figure("haptic_period_p99", 1e3 * period_p99, "ms"),
+            Figure("haptic_step_p99", 1e3 * step_p99, "ms"),
+            Figure("haptic_ticks", float(ticks), "ticks"),
+            Figure("haptic_late_ticks", float(late), "ticks"),
+            Figure("haptic_realtime", float(self._realtime), "granted"),
+        )
+
+    def close(self) -> None:
+        """Stop, and wait until it has."""
+        self._stop.set()
+        self._thread.join(timeout=1.0)
+
+    def _run(self) -> None:
+        self._realtime = _take_realtime_priority()
+        due = self._clock.now_ns()
+        while not self._stop.is_set():
+            started = self._clock.now_ns()
+            self._loop.advance_to(started)
+            ended = self._clock.now_ns()
+            with self._lock:
+                self._ticks.tick(due, started, ended)
+            due += max(1, (ended - due) // _PERIOD_NS) * _PERIOD_NS
+            self._clock.sleep_until(due, self._stop)
+
+
+def _take_realtime_priority() -> bool:
+    """For the calling thread alone; says whether it was granted."""
+    try:
+        os.sched_setscheduler(0, os.SCHED_RR, os.sched_param(_PRIORITY))
+    except (AttributeError, OSError):  # not every system has it, not every user may
+        return False
+    return True

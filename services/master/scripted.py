@@ -1,0 +1,129 @@
+"""A simulated haptic stylus in the hand of a scripted operator, who sees what a person would see."""
+
+from __future__ import annotations
+
+import logging
+
+import numpy as np
+from numpy.typing import NDArray
+
+from protocol.messages import ExecutionState, Figure, RobotState
+from protocol.topics import EXECUTION, OBJECT_POSE, SCENE_STATE
+from services.arrays import motion_from_wire
+from services.bus import Bus
+from services.clock import Clock, SystemClock
+from services.config import Scripted
+from services.exceptions import ServiceError
+from services.master.device import Moment, Sample
+from services.master.haptics import HapticLoop, HapticThread
+from sim import scenes
+from sim.correction import Correction, plan
+from sim.exceptions import SimError
+from sim.hand import Hand, Seen
+from sim.stylus import Stylus
+
+log = logging.getLogger(__name__)
+
+_LEFT = 0.002  # [m] a correction that is further from the prediction is not dropped
+
+Episode = tuple[int, int]
+"""The robot process' identity and its number for the episode."""
+
+
+class ScriptedMaster:
+    """Takes the stylus when an episode is to be refined, and lets go at its end.
+
+    The force loop has its own thread where time goes by itself; on a clock that is moved by hand it
+    advances with every step.
+
+    Args:
+        bus: where the hand's eyes are.
+        clock: of the process.
+        settings: of feedback and hand.
+        seed: of the tremor.
+    """
+
+    name = "stylus"
+
+    def __init__(self, bus: Bus, clock: Clock, settings: Scripted, seed: int) -> None:
+        self._execution = bus.subscribe(EXECUTION)
+        self._scene = bus.subscribe(SCENE_STATE)
+        self._object = bus.subscribe(OBJECT_POSE)
+        self._exaggeration = settings.exaggeration
+        self._hand = Hand(seed)
+        self._loop = HapticLoop(Stylus(), self._hand, settings.stiffness, settings.damping, clock.now_ns())
+        self._thread = HapticThread(self._loop, clock) if isinstance(clock, SystemClock) else None
+        self._gripped: Episode | None = None
+
+    def step(self, moment: Moment) -> Sample | None:
+        """Look, decide, and read the stylus; None while it is brought to where a correction was left."""
+        robot = moment.refining
+        if robot is not None:
+            self._attend(robot)
+            self._look(robot, moment.now_ns)
+        elif moment.robot is not None:  # a picture that stands still for a moment is no reason to let go
+            self._let_go()
+        rendered = self._loop.newest if self._thread else self._loop.advance_to(moment.now_ns)
+        stylus = rendered.stylus
+        if robot is not None and not self._hand.clutched and np.linalg.norm(robot.offset) > _LEFT:
+            return None
+        return Sample(stylus.position, stylus.velocity, rendered.feedback, engaged=self._hand.clutched)
+
+    def figures(self) -> tuple[Figure, ...]:
+        """How regular the force loop is."""
+        return self._thread.figures() if self._thread else ()
+
+    def close(self) -> None:
+        """Stop the force loop."""
+        if self._thread:
+            self._thread.close()
+
+    def _let_go(self) -> None:
+        self._hand.release()
+        self._gripped = None
+
+    def _attend(self, robot: RobotState) -> None:
+        """Take the stylus at an episode's beginning, or where this process came up in its middle."""
+        episode = (robot.publisher, robot.episode)
+        if self._gripped == episode:
+            return
+        self._hand.release()
+        received = self._execution.latest()
+        if received is None or (received.message.publisher, received.message.episode) != episode:
+            return
+        self._gripped = episode
+        try:
+            correction = self._plan(received.message)
+        except (SimError, ServiceError) as error:
+            log.warning("episode %d is not corrected: %s", robot.episode, error)
+            return
+        if correction is None:
+            self._gripped = None
+            return
+        self._hand.grip(correction, self._loop.newest.stylus)
+
+    def _plan(self, execution: ExecutionState) -> Correction | None:
+        """The correction of an episode; None while the scene has not been seen."""
+        scene_state = self._scene.latest()
+        if scene_state is None:
+            return None
+        positions, _, _ = motion_from_wire(execution.prediction)
+        scene = scenes.scene(scene_state.message.name)
+        place = self._object_position(positions)
+        ways = {variant: scene.corridor(variant, place).positions for variant in scene.variants}
+        safe = scene.corridor(scene_state.message.variant, place).positions
+        return plan(positions, safe, tuple(ways.values()), self._exaggeration)
+
+    def _object_position(self, prediction: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Where the object was seen last; where it never was, the robot's guess is as good as any."""
+        seen = self._object.latest()
+        return np.array(seen.message.pose.position) if seen else prediction[-1]
+
+    def _look(self, robot: RobotState, now_ns: int) -> None:
+        seen = Seen(
+            progress=robot.progress,
+            robot=np.array(robot.measured.position),
+            offset=np.array(robot.offset),
+            stylus=np.array(self._loop.newest.stylus.position),
+        )
+        self._hand.observe(now_ns / 1e9, seen)

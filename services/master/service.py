@@ -1,0 +1,94 @@
+"""The master process: publishes the state of its device a hundred times a second.
+
+Lost input (focus, tab, link, authority) is told at once: the device disengages, and its displacement means nothing. A
+lost process is silent, and so is one that has not taken over yet: the robot holds the correction where it stands.
+"""
+
+from __future__ import annotations
+
+from protocol.messages import Figure, MasterState
+from protocol.topics import AUTHORITY_STATE, MASTER_STATE, OPERATOR_INPUT, ROBOT_STATE
+from services.bus import Bus
+from services.clock import Clock
+from services.config import Configuration, Keyboard, Scripted
+from services.master.device import Device, Moment
+from services.master.keyboard import KeyboardMaster
+
+_LONGEST_STEP_S = 0.1
+"""A process that was stopped for longer does not make up for it: nobody held a key meanwhile."""
+
+_LISTEN_NS = 300_000_000
+"""A process that has just come up listens before it speaks: by saying that nobody is at the device it would let a robot
+that holds a correction drop it."""
+
+
+def build(bus: Bus, clock: Clock, configuration: Configuration) -> MasterService:
+    """The service with the device that the configuration names."""
+    return MasterService(bus, _device(bus, clock, configuration))
+
+
+def _device(bus: Bus, clock: Clock, configuration: Configuration) -> Device:
+    match configuration.master.device:
+        case Keyboard() as law:
+            return KeyboardMaster(law)
+        case Scripted() as settings:
+            # Imported here, so that a keyboard needs no simulation packages.
+            from services.master.scripted import ScriptedMaster  # noqa: PLC0415
+
+            return ScriptedMaster(bus, clock, settings, configuration.seed)
+
+
+class MasterService:
+    """The thin shell around a device.
+
+    Args:
+        bus: the way to the others.
+        device: what the hand is on.
+    """
+
+    rate_hz = MASTER_STATE.rate_hz
+
+    def __init__(self, bus: Bus, device: Device) -> None:
+        self._bus = bus
+        self._device = device
+        self._operator = bus.subscribe(OPERATOR_INPUT)
+        self._robot = bus.subscribe(ROBOT_STATE)
+        self._authority = bus.subscribe(AUTHORITY_STATE)
+        self._started_ns: int | None = None
+        self._stepped_ns = 0
+
+    def step(self, now_ns: int) -> None:
+        """Bring the device up to now and say where it is, or keep silent, which makes a refining robot hold."""
+        authority = self._authority.fresh(now_ns)
+        if self._started_ns is None:
+            self._started_ns = self._stepped_ns = now_ns
+        moment = Moment(
+            now_ns=now_ns,
+            dt=min((now_ns - self._stepped_ns) / 1e9, _LONGEST_STEP_S),
+            operator=self._operator.fresh(now_ns),
+            robot=self._robot.fresh(now_ns),
+            armed=authority is not None and authority.holder != "",
+        )
+        self._stepped_ns = now_ns
+        sample = self._device.step(moment)
+        if sample is None or moment.robot is None or now_ns - self._started_ns < _LISTEN_NS:
+            return
+        self._bus.publish(
+            MASTER_STATE,
+            MasterState(
+                displacement=sample.displacement,
+                velocity=sample.velocity,
+                force=sample.force,
+                engaged=sample.engaged,
+                epoch=authority.epoch if authority is not None else 0,
+                device=self._device.name,
+            ),
+        )
+
+    def figures(self) -> tuple[Figure, ...]:
+        """What the device measures."""
+        return self._device.figures()
+
+    def close(self) -> None:
+        """Let go of the device."""
+        self._device.close()
