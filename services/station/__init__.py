@@ -1,0 +1,1 @@
+"""The station process: the operator's page and the teaching workflow (Algorithm 1)."""

@@ -1,0 +1,58 @@
+// The cameras' pictures onto their canvases, with the age that they have now.
+
+const CAMERAS = ["head", "wrist"];
+const HEADER_BYTES = 12;
+const STALE_S = 0.7;
+
+export class Pictures {
+  constructor() {
+    this.drawn = [0, 0];
+    this.captured = [-Infinity, -Infinity];
+  }
+
+  // A new connection counts its pictures anew; those still being decoded count for the old one.
+  restart() {
+    this.drawn = [0, 0];
+  }
+
+  async receive(buffer) {
+    const drawn = this.drawn;
+    const header = new DataView(buffer, 0, HEADER_BYTES);
+    const camera = header.getUint8(0);
+    const number = header.getUint32(4, true);
+    const captured = performance.now() - header.getFloat32(8, true) * 1000;
+    try {
+      const bitmap = await createImageBitmap(new Blob([new Uint8Array(buffer, HEADER_BYTES)], { type: "image/jpeg" }));
+      if (drawn === this.drawn && number > drawn[camera]) this.draw(camera, bitmap, captured);
+      bitmap.close();
+    } catch {
+      // What is no picture is not drawn; the age tells that none came.
+    }
+    drawn[camera] = Math.max(drawn[camera], number);
+  }
+
+  draw(camera, bitmap, captured) {
+    const canvas = panelOf(camera).querySelector("canvas");
+    if (canvas.width !== bitmap.width || canvas.height !== bitmap.height) {
+      canvas.width = bitmap.width;
+      canvas.height = bitmap.height;
+    }
+    canvas.getContext("2d").drawImage(bitmap, 0, 0);
+    this.captured[camera] = captured;
+  }
+
+  showAges() {
+    for (let camera = 0; camera < CAMERAS.length; camera += 1) {
+      const age = (performance.now() - this.captured[camera]) / 1000;
+      if (!Number.isFinite(age)) continue;
+      const panel = panelOf(camera);
+      panel.dataset.state = age > STALE_S ? "stale" : "live";
+      panel.querySelector(".camera-age").textContent =
+        age < 0.9995 ? `${Math.round(age * 1000)} ms` : `${age.toFixed(1)} s old`;
+    }
+  }
+}
+
+function panelOf(camera) {
+  return document.querySelector(`[data-camera="${CAMERAS[camera]}"]`);
+}

@@ -1,0 +1,64 @@
+"""Keeps other web pages away from the operator's page: a foreign site in the same browser must not command."""
+
+from __future__ import annotations
+
+from urllib.parse import urlsplit
+
+from starlette.datastructures import Headers, MutableHeaders
+from starlette.responses import PlainTextResponse
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+LOOPBACK_NAMES = frozenset({"localhost", "127.0.0.1", "::1"})
+
+CONTENT_POLICY = "; ".join(
+    (
+        "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:",  # NiceGUI compiles its templates in the page
+        "frame-src http: https:",  # the viewer has an address of its own
+        "frame-ancestors 'none'",
+        "object-src 'none'",
+        "base-uri 'none'",
+    )
+)
+"""The page asks nobody but its own server and the viewer."""
+
+
+class Guard:
+    """Middleware: refuses foreign host names and foreign origins, and tells the browser to ask no other server.
+
+    Args:
+        app: what it stands before.
+        host: that the server listens on; on a loopback address only loopback names may ask, so that no foreign name
+            can be pointed here (DNS rebinding).
+    """
+
+    def __init__(self, app: ASGIApp, host: str) -> None:
+        self._app = app
+        self._names = LOOPBACK_NAMES if host in LOOPBACK_NAMES else None
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Serve, or refuse, one request or connection."""
+        if scope["type"] not in {"http", "websocket"}:
+            await self._app(scope, receive, send)
+            return
+        if not self._welcome(Headers(scope=scope), scope["type"] == "websocket"):
+            refusal = PlainTextResponse("Open the page under the address that it is served on.", status_code=403)
+            await refusal(scope, receive, send)
+            return
+
+        async def send_with_headers(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                headers = MutableHeaders(scope=message)
+                headers["Content-Security-Policy"] = CONTENT_POLICY
+                headers["X-Content-Type-Options"] = "nosniff"
+                headers["Referrer-Policy"] = "no-referrer"
+                if scope["path"].startswith("/assets/"):
+                    headers["Cache-Control"] = "no-cache"
+            await send(message)
+
+        await self._app(scope, receive, send_with_headers)
+
+    def _welcome(self, headers: Headers, websocket: bool) -> bool:
+        host = headers.get("host", "")
+        if self._names is not None and urlsplit(f"//{host}").hostname not in self._names:
+            return False
+        return not websocket or urlsplit(headers.get("origin", "")).netloc == host

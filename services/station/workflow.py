@@ -1,0 +1,295 @@
+"""The teaching workflow (thesis, Algorithm 1) as one pure function of state and view.
+
+Look at the object, predict, execute; where that fails, execute again under correction; where that succeeds, learn;
+predict again. Every loss on the way (robot restarted, authority gone, object not seen) leads back to the point from
+which all of it can be done anew: ask for the authority, reset, look.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import msgspec
+import numpy as np
+
+from protocol import queries
+from protocol.messages import Attempt, EpisodeResult, Mode, Motion, Outcome
+from protocol.queries import Query
+from services.bus import Failed
+from services.station.state import Action, Ask, Phase, Settings, Step, View, Workflow
+
+RETRY_S = 0.5
+LOOK_S = 0.5
+PICTURES_NEEDED = 5
+EPISODE_GRACE_S = 45.0
+"""How much longer than its motion an episode may take (ramp, holds) before it counts as lost."""
+
+SAME_CONDITION_M = 0.02
+"""Two sightings of an object that nobody moved differ by a few millimetres."""
+
+_WITHOUT_AUTHORITY = frozenset({Phase.WAITING, Phase.ACQUIRING, Phase.RELEASING, Phase.FINISHED})
+
+
+def advance(state: Workflow, view: View, settings: Settings) -> Step:
+    """One step of the workflow."""
+    if state.phase is Phase.FINISHED:
+        return Step(state)
+    if view.safety is not None and view.safety.emergency_stop and state.phase is not Phase.RELEASING:
+        if Action.RELEASE_STOP in view.actions:
+            return Step(_to(state, Phase.RELEASING, view))
+        return Step(replace(state, offered=frozenset({Action.RELEASE_STOP})))
+    if state.phase not in _WITHOUT_AUTHORITY and _authority_lost(state, view, settings):
+        return Step(_to(state, Phase.WAITING, view, notice="The authority was lost."))
+    return _PHASES[state.phase](state, view, settings)
+
+
+def loop_has_closed(attempts: tuple[Attempt, ...]) -> bool:
+    """A prediction collided, a refinement succeeded, and under a newer model a prediction succeeded by itself."""
+    return any(
+        _closes(first, refined, later)
+        for i, first in enumerate(attempts)
+        for j, refined in enumerate(attempts[i + 1 :], i + 1)
+        for later in attempts[j + 1 :]
+    )
+
+
+def _closes(first: Attempt, refined: Attempt, later: Attempt) -> bool:
+    return (
+        first.mode is Mode.AUTONOMOUS
+        and first.verdict.collision
+        and refined.mode is Mode.REFINE
+        and refined.operator_input
+        and refined.verdict.success
+        and later.mode is Mode.AUTONOMOUS
+        and not later.operator_input
+        and later.verdict.success
+        and later.model_version > refined.model_version
+        and bool(np.allclose(later.object_position, first.object_position, rtol=0.0, atol=SAME_CONDITION_M))
+    )
+
+
+def _to(state: Workflow, phase: Phase, view: View, **changes: Any) -> Workflow:
+    entered: dict[str, Any] = {"asking": False, "retry_s": 0.0, "offered": frozenset(), "notice": "", **changes}
+    return replace(state, phase=phase, since_s=view.now_s, **entered)
+
+
+def _authority_lost(state: Workflow, view: View, settings: Settings) -> bool:
+    """The robot says so; what it said before it granted the lease, of an earlier epoch, does not count."""
+    authority = view.authority
+    if authority is None or authority.epoch < state.epoch:
+        return False
+    return authority.epoch > state.epoch or authority.holder != settings.holder
+
+
+def _asked(state: Workflow, view: View, query: Query[Any, Any], request: msgspec.Struct) -> Step | Any:
+    """The positive reply, or the step to take while there is none; a failure or a no is shown and asked again."""
+    if not state.asking:
+        return Step(replace(state, asking=True), Ask(query, request)) if view.now_s >= state.retry_s else Step(state)
+    match view.outcome:
+        case None:
+            return Step(state)
+        case Failed(reason) | queries.Refused(reason):
+            notice = f"Could not {query.about}: {reason}"
+            return Step(replace(state, asking=False, retry_s=view.now_s + RETRY_S, notice=notice))
+        case reply:
+            return reply
+
+
+def _waiting(state: Workflow, view: View, settings: Settings) -> Step:
+    del settings
+    missing = [
+        name
+        for name, there in (("robot", view.robot and view.scene), ("model", view.model), ("camera", view.seen))
+        if not there
+    ]
+    if missing:
+        return Step(replace(state, notice=f"Waiting for the {' and the '.join(missing)}."))
+    if view.model is not None and not view.model.demonstrations + view.model.updates:
+        return Step(replace(state, notice="Waiting for the first demonstrations."))
+    return Step(_to(state, Phase.ACQUIRING, view))
+
+
+def _acquiring(state: Workflow, view: View, settings: Settings) -> Step:
+    if Action.TAKE_OVER in view.actions:
+        state = replace(state, asking=False, retry_s=0.0)
+    request = queries.AcquireAuthority(settings.holder, take_over=Action.TAKE_OVER in view.actions)
+    reply = _asked(state, view, queries.ACQUIRE, request)
+    if isinstance(reply, Step):
+        return Step(replace(reply.state, offered=frozenset({Action.TAKE_OVER})), reply.ask)
+    return Step(_to(state, Phase.RESETTING, view, epoch=reply.epoch))
+
+
+def _resetting(state: Workflow, view: View, settings: Settings) -> Step:
+    del settings
+    placed = state.placed or view.drawn
+    variant = view.scene.variants[-1] if view.scene is not None and view.scene.variants else None
+    state = replace(state, placed=placed)
+    reply = _asked(state, view, queries.RESET, queries.Reset(state.epoch, variant, placed))
+    return reply if isinstance(reply, Step) else Step(_to(state, Phase.LOOKING, view))
+
+
+def _looking(state: Workflow, view: View, settings: Settings) -> Step:
+    del settings
+    seen = view.seen
+    if seen is None or seen.pictures < PICTURES_NEEDED or view.now_s - state.since_s < LOOK_S:
+        return Step(state)
+    return Step(_to(state, Phase.PREDICTING, view, looked=seen.pose.position))
+
+
+def _predicting(state: Workflow, view: View, settings: Settings) -> Step:
+    del settings
+    if state.looked is None or view.robot is None:
+        return Step(_to(state, Phase.LOOKING, view))
+    reply = _asked(state, view, queries.PREDICT, queries.Predict(state.looked, view.robot.measured))
+    if isinstance(reply, Step):
+        return reply
+    return Step(_to(state, Phase.STARTING, view, prediction=reply.prediction))
+
+
+def _starting(state: Workflow, view: View, settings: Settings) -> Step:
+    prediction = state.prediction
+    if prediction is None:
+        return Step(_to(state, Phase.LOOKING, view))
+    if not state.asking:
+        state = replace(state, request=state.request + 1)
+    motion = msgspec.structs.replace(prediction.motion, duration=_duration(state.mode, settings))
+    request = queries.Execute(state.epoch, state.request, state.mode, motion)
+    reply = _asked(state, view, queries.EXECUTE, request)
+    return reply if isinstance(reply, Step) else Step(_to(state, Phase.EXECUTING, view))
+
+
+def _duration(mode: Mode, settings: Settings) -> float:
+    return settings.refine_s if mode is Mode.REFINE else settings.autonomous_s
+
+
+def _executing(state: Workflow, view: View, settings: Settings) -> Step:
+    if view.result is not None and view.result.request == state.request:
+        return _judged(state, view, view.result)
+    if view.now_s - state.since_s > _duration(state.mode, settings) + EPISODE_GRACE_S:
+        return Step(_to(state, Phase.WAITING, view, notice="The episode was lost."))
+    if Action.FINISH in view.actions:
+        return Step(state, Ask(queries.FINISH, queries.Finish(state.epoch)))
+    return Step(replace(state, offered=frozenset({Action.FINISH})))
+
+
+def _judged(state: Workflow, view: View, result: EpisodeResult) -> Step:
+    verdict = Outcome(result.verdict.reached, result.verdict.kicked_over, result.verdict.collision)
+    attempt = Attempt(
+        scene=view.scene.name if view.scene is not None else "",
+        object_position=state.looked or (0.0, 0.0, 0.0),
+        model_version=state.prediction.model_version if state.prediction is not None else 0,
+        operator_input=result.operator_input,
+        verdict=verdict,
+        duration_s=result.duration,
+        variant=view.scene.variant if view.scene is not None else "",
+        mode=result.mode,
+    )
+    refining = result.mode is Mode.REFINE
+    attempts = (*state.attempts, attempt)
+    judged = replace(
+        state,
+        attempts=attempts,
+        loop_closed=loop_has_closed(attempts),
+        last=verdict,
+        refinements=state.refinements + refining,
+        taught=result.commanded if refining and verdict.success else None,
+    )
+    return Step(_to(judged, Phase.LEARNING if judged.taught else Phase.DECIDING, view, notice=result.reason))
+
+
+def _learning(state: Workflow, view: View, settings: Settings) -> Step:
+    if state.taught is None or state.looked is None:
+        return Step(_to(state, Phase.DECIDING, view))
+    motion = learnable(state.taught, settings.autonomous_s)
+    scene = view.scene.name if view.scene is not None else ""
+    request = queries.AddDemonstration(queries.Kind.UPDATE, motion, state.looked, scene)
+    reply = _asked(state, view, queries.ADD_DEMONSTRATION, request)
+    if isinstance(reply, Step):
+        return reply
+    learnt = replace(state, taught=None, refinements=0, updates=state.updates + 1)
+    return _again(learnt, view, Mode.AUTONOMOUS)
+
+
+def learnable(commanded: Motion, duration: float) -> Motion:
+    """What the model is to learn of a refinement: the path as commanded, in the tempo of an autonomous execution.
+
+    Eq. 18 with alpha = 1 is the refinement itself; it ran slower than what it corrects, so its time is rescaled.
+    """
+    return msgspec.structs.replace(commanded, duration=duration)
+
+
+def _undoing(state: Workflow, view: View, settings: Settings) -> Step:
+    del settings
+    reply = _asked(state, view, queries.UNDO, queries.Undo())
+    if isinstance(reply, Step):
+        return reply
+    return _again(replace(state, updates=max(0, state.updates - 1)), view, Mode.AUTONOMOUS)
+
+
+def _releasing(state: Workflow, view: View, settings: Settings) -> Step:
+    reply = _asked(state, view, queries.RELEASE_STOP, queries.ReleaseStop(settings.holder))
+    return reply if isinstance(reply, Step) else Step(_to(state, Phase.WAITING, view))
+
+
+def _deciding(state: Workflow, view: View, settings: Settings) -> Step:
+    offered = {Action.EXECUTE, Action.REFINE, Action.NEXT, Action.END}
+    if state.updates:
+        offered.add(Action.UNDO)
+    pressed = [action for action in Action if action in view.actions & offered]
+    chosen = _recommended(state, settings) if settings.scripted else next(iter(pressed), None)
+    match chosen:
+        case Action.EXECUTE:
+            return _again(state, view, Mode.AUTONOMOUS)
+        case Action.REFINE:
+            return _refine(state, view, settings)
+        case Action.NEXT:
+            fresh = replace(state, placed=None, last=None, refinements=0, updates=0)
+            return _again(fresh, view, Mode.AUTONOMOUS)
+        case Action.UNDO:
+            return Step(_to(state, Phase.UNDOING, view))
+        case Action.END:
+            return _end(state, view, "ended before the loop had closed")
+        case _:
+            return Step(replace(state, offered=frozenset(offered)))
+
+
+def _recommended(state: Workflow, settings: Settings) -> Action:
+    if state.last is None:
+        return Action.EXECUTE
+    if not state.last.success:
+        return Action.REFINE
+    return Action.END if settings.once else Action.NEXT
+
+
+def _refine(state: Workflow, view: View, settings: Settings) -> Step:
+    if state.refinements >= settings.refinements_allowed:
+        return _end(state, view, f"{state.refinements} refinements did not succeed")
+    if state.updates >= settings.updates_allowed:
+        return _end(state, view, f"{state.updates} updates did not teach the model")
+    return _again(state, view, Mode.REFINE)
+
+
+def _again(state: Workflow, view: View, mode: Mode) -> Step:
+    """Every episode begins with a reset and a look: what was seen before the last motion may no longer be so."""
+    return Step(_to(state, Phase.RESETTING, view, mode=mode))
+
+
+def _end(state: Workflow, view: View, reason: str) -> Step:
+    return Step(_to(state, Phase.FINISHED, view, reason="" if state.loop_closed else reason))
+
+
+_PHASES: dict[Phase, Callable[[Workflow, View, Settings], Step]] = {
+    Phase.WAITING: _waiting,
+    Phase.ACQUIRING: _acquiring,
+    Phase.RESETTING: _resetting,
+    Phase.LOOKING: _looking,
+    Phase.PREDICTING: _predicting,
+    Phase.STARTING: _starting,
+    Phase.EXECUTING: _executing,
+    Phase.LEARNING: _learning,
+    Phase.UNDOING: _undoing,
+    Phase.DECIDING: _deciding,
+    Phase.RELEASING: _releasing,
+}

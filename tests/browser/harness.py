@@ -1,0 +1,115 @@
+"""A station without a robot: the real page, fed with made-up views. For the browser tests, and to look at:
+
+python tests/browser/harness.py 8080
+"""
+
+import signal
+import sys
+import threading
+from dataclasses import replace
+
+import cv2
+import numpy as np
+
+from protocol import messages
+from protocol.messages import Figure, Light, Phase, Pose
+from services.clock import SystemClock
+from services.config import StationSection
+from services.station.page import Page
+from services.station.view import PageView, Picture
+
+FEED_PERIOD_S = 0.02
+POSE = Pose((0.6, 0.1, 0.5), (1.0, 0.0, 0.0, 0.0))
+
+
+def picture(label: str, width: int = 320, height: int = 240) -> bytes:
+    """A JPEG with a gradient and a label."""
+    rows, columns = np.mgrid[0:height, 0:width]
+    image = np.dstack((columns * 120 // width + 40, rows * 90 // height + 50, np.full_like(rows, 70))).astype(np.uint8)
+    cv2.putText(image, label, (12, height - 16), cv2.FONT_HERSHEY_SIMPLEX, 0.6, (230, 230, 230), 1, cv2.LINE_AA)
+    return cv2.imencode(".jpg", image)[1].tobytes()
+
+
+def working_view() -> PageView:
+    """Everything there, a refinement under way."""
+    return PageView(
+        teaching=messages.TeachingState(
+            phase="executing",
+            text="Correct the motion while it runs; press Space when you are satisfied.",
+            light=Light.GREEN,
+            refinements=3,
+            refinements_allowed=10,
+            updates=1,
+            updates_allowed=8,
+            actions=("finish", "undo"),
+        ),
+        robot=messages.RobotState(measured=POSE, reference=POSE, phase=Phase.EXECUTE, progress=0.4),
+        robot_age_s=0.008,
+        verdict=messages.Verdict(
+            reached=False,
+            kicked_over=False,
+            collision=False,
+            ellipsoid_value=3.4,
+            object_displacement=(0.002, 0.0, 0.0),
+        ),
+        safety=messages.SafetyState(emergency_stop=False),
+        authority=messages.AuthorityState(holder="station", epoch=4, expires_in=0.9),
+        authority_is_mine=True,
+        model=messages.ModelState(kind="adaptive", version=7, demonstrations=12, updates=1, scene="dishwasher"),
+        object_pose=messages.ObjectPose(pose=POSE, tag=582, error=0.0021, pictures=9),
+        head=Picture(picture("head"), 0.02),
+        wrist=Picture(picture("wrist"), 0.02),
+        latencies=(Figure("hand_to_robot", 0.024, "s"),),
+    )
+
+
+class Feed:
+    """Shows a view again and again, as a station's step does; `view` may be exchanged at any time."""
+
+    def __init__(self, page: Page, view: PageView) -> None:
+        self.view = view
+        self.moving_pictures = False
+        self._page = page
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="feed", daemon=True)
+
+    def start(self) -> None:
+        self._thread.start()
+
+    def close(self) -> None:
+        self._stop.set()
+        self._thread.join()
+
+    def _run(self) -> None:
+        tick = 0
+        while not self._stop.wait(FEED_PERIOD_S):
+            tick += 1
+            if self.moving_pictures and tick % 3 == 0:
+                label = f"{tick}"
+                self.view = replace(
+                    self.view,
+                    head=Picture(picture(f"head {label}"), 0.0),
+                    wrist=Picture(picture(f"wrist {label}"), 0.0),
+                )
+            self._page.show(self.view)
+
+
+def main() -> None:
+    """Serve until SIGTERM or SIGINT."""
+    stop = threading.Event()
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, lambda *_: stop.set())
+    page = Page(StationSection(port=int(sys.argv[1])), "robot1", SystemClock())
+    page.start()
+    feed = Feed(page, working_view())
+    feed.moving_pictures = True
+    feed.start()
+    sys.stdout.write("ready\n")
+    sys.stdout.flush()
+    stop.wait()
+    feed.close()
+    page.close()
+
+
+if __name__ == "__main__":
+    main()
