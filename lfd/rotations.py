@@ -82,9 +82,15 @@ def mean_rotation(q: Array) -> Array:
 
 def rotate(q: Array, v: Array) -> Array:
     """Vectors v, shape (..., 3), rotated by q, shape (..., 4)."""
-    t = 2.0 * np.cross(q[..., 1:], v)
-    rotated: Array = v + q[..., :1] * t + np.cross(q[..., 1:], t)
+    t = 2.0 * _cross(q[..., 1:], v)
+    rotated: Array = v + q[..., :1] * t + _cross(q[..., 1:], t)
     return rotated
+
+
+def _cross(a: Array, b: Array) -> Array:
+    """The cross product; written out it costs a tenth of NumPy's, in every control period."""
+    (ax, ay, az), (bx, by, bz) = np.moveaxis(a, -1, 0), np.moveaxis(b, -1, 0)
+    return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=-1)
 
 
 def matrix_from_quaternion(q: Array) -> Array:

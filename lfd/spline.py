@@ -47,4 +47,4 @@ def _curvatures(h: Array, slopes: Array) -> Array:
     equations[-1, -3:] = h[-1], -(h[-2] + h[-1]), h[-2]
     right_side = np.zeros((n, slopes.shape[1]))
     right_side[1:-1] = 6.0 * bends
-    return np.linalg.solve(equations, right_side)
+    return np.asarray(np.linalg.solve(equations, right_side), dtype=np.float64)

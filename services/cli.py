@@ -71,6 +71,8 @@ def parser() -> argparse.ArgumentParser:
     router = commands.add_parser("router", parents=[common], help="where the processes of a site meet")
     router.add_argument("--listen", metavar="ENDPOINT", help="default: tcp/127.0.0.1:7447")
     _add_scene(commands.add_parser("teach", parents=[common], help="teach an empty model its first demonstrations"))
+    prepare = commands.add_parser("prepare", help="make and keep what every simulated run needs (once)")
+    prepare.add_argument("--debug", action="store_true", help=argparse.SUPPRESS)
     echo = commands.add_parser("echo", parents=[common], help="print what passes on a key expression")
     echo.add_argument("key", metavar="KEY", help="such as 'retouch/@v1/robot1/state/**'")
     echo.add_argument("--count", type=int, metavar="N", help="end after N messages")
@@ -165,6 +167,11 @@ def _dispatch(arguments: argparse.Namespace) -> int:
         from services.viewer.replay import replay  # noqa: PLC0415
 
         replay(arguments.file)
+        return 0
+    if arguments.command == "prepare":
+        from services.teach import prepare_all  # noqa: PLC0415
+
+        prepare_all()
         return 0
     settings = configuration(arguments)
     if arguments.supervised:

@@ -14,21 +14,23 @@ class Process:
         module: whose `build(bus, clock, configuration)` makes the service.
         about: one line for `--help`.
         beside: where it usually runs.
+        nice: how far it stands back from the processor; drawing must not disturb control.
     """
 
     name: str
     module: str
     about: str
     beside: str
+    nice: int = 0
 
 
 PROCESSES: tuple[Process, ...] = (
     Process("robot", "services.robot.service", "own the arm: execute, correct, judge, keep safe", "robot"),
-    Process("camera", "services.camera.service", "draw the head and wrist pictures", "robot"),
-    Process("perception", "services.perception.service", "find the object in the pictures", "robot"),
+    Process("camera", "services.camera.service", "draw the head and wrist pictures", "robot", nice=5),
+    Process("perception", "services.perception.service", "find the object in the pictures", "robot", nice=5),
     Process("model", "services.model.service", "own the learnt model and its database", "anywhere"),
     Process("master", "services.master.service", "own the operator's input device", "operator"),
-    Process("viewer", "services.viewer.service", "show and record with Rerun", "operator"),
+    Process("viewer", "services.viewer.service", "show and record with Rerun", "operator", nice=5),
     Process("station", "services.station.service", "serve the operator's page, run the teaching workflow", "operator"),
 )
 

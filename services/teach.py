@@ -1,18 +1,13 @@
-"""`retouch teach`: the first demonstrations, taught offline by the scripted operator in the simulator."""
+"""`retouch teach`: gives an empty model its first demonstrations."""
 
 from __future__ import annotations
 
 import logging
 import threading
-from collections.abc import Iterator
 from typing import TypeVar
 
 import msgspec
-import numpy as np
-from numpy.typing import NDArray
 
-from lfd.resampling import from_samples
-from lfd.trajectory import Trajectory
 from protocol import queries
 from protocol.queries import AddDemonstration, Kind, Learnt, Query
 from services.arrays import motion_to_wire, vector3
@@ -20,26 +15,30 @@ from services.bus import Failed
 from services.clock import SystemClock
 from services.config import Configuration
 from services.exceptions import CommandFailed
-from services.robot.arm import Arm
-from services.robot.rollout import rollout, simulated_arm
+from services.lessons import first_demonstrations
 from services.runner import stop_on_signals
 from services.zenoh_bus import ZenohBus, connect
-from sim.description import prepare
+from sim.scenes import SCENES
 from sim.scenes import scene as find_scene
-from sim.scenes.scene import Scene
-from sim.steering import steer
 
 log = logging.getLogger(__name__)
 
-Array = NDArray[np.float64]
 Req = TypeVar("Req", bound=msgspec.Struct)
 
-DURATION_S = 10.0
-"""Of a demonstration: the thesis' time of an autonomous execution."""
-
-TRIES = 5
 ANSWER_S = 10.0
 MODEL_WITHIN_S = 60.0
+
+
+def prepare_all() -> None:
+    """Make and keep what every run needs: the simulated robot, and the first demonstrations of all scenes.
+
+    Raises:
+        ServiceError: no motion could be taught.
+        SimError: the robot's packages are not installed.
+    """
+    for scene in SCENES.values():
+        first_demonstrations(scene)
+    log.info("the simulated robot and %d scenes are ready", len(SCENES))
 
 
 def teach(configuration: Configuration) -> None:
@@ -48,60 +47,25 @@ def teach(configuration: Configuration) -> None:
     Raises:
         ServiceError: there is no model to teach, or no motion could be taught.
     """
+    # Taught before the bus is there: nothing waits for it, and Ctrl-C ends it at once.
+    demonstrations = first_demonstrations(find_scene(configuration.robot.scene))
     stop = stop_on_signals()
     bus = connect(configuration.connect, configuration.name, "teach", SystemClock())
     try:
-        scene = find_scene(configuration.robot.scene)
         state = _answered(bus, queries.DESCRIBE, queries.Describe(), stop, MODEL_WITHIN_S).state
-        if state.updates or state.demonstrations >= len(scene.training_positions):
+        if state.updates or state.demonstrations >= len(demonstrations):
             log.info("the model has %d demonstrations and %d updates", state.demonstrations, state.updates)
             return
-        # All are taught before the first is given, so that nobody predicts from half of them; what an earlier run
-        # that was killed has given already is not given again.
-        taught = list(demonstrations(scene, configuration.seed, stop))
-        for position, trajectory in taught[state.demonstrations :]:
-            motion = motion_to_wire(trajectory.positions, trajectory.orientations, trajectory.duration)
-            request = AddDemonstration(Kind.INITIAL, motion, vector3(position), scene.name)
+        # What an earlier run that was killed has given already is not given again.
+        for demonstration in demonstrations[state.demonstrations :]:
+            taught = demonstration.trajectory
+            motion = motion_to_wire(taught.positions, taught.orientations, taught.duration)
+            position = vector3(demonstration.object_position)
+            request = AddDemonstration(Kind.INITIAL, motion, position, configuration.robot.scene)
             _answered(bus, queries.ADD_DEMONSTRATION, request, stop)
-        log.info("taught %d demonstrations of %s", len(taught), scene.name)
+        log.info("taught %d demonstrations of %s", len(demonstrations), configuration.robot.scene)
     finally:
         bus.close()
-
-
-def demonstrations(scene: Scene, seed: int, stop: threading.Event) -> Iterator[tuple[Array, Trajectory]]:
-    """Object positions, and motions that reached them, as the arm did them.
-
-    Args:
-        scene: taught in its first variant.
-        seed: of the hand's unsteadiness.
-        stop: ends it early.
-
-    Raises:
-        CommandFailed: no try at a position succeeded.
-    """
-    rng = np.random.default_rng(seed)
-    arm = simulated_arm(scene, scene.variants[0], prepare())
-    for position in scene.training_positions:
-        if stop.is_set():
-            return
-        yield position, demonstrate(arm, scene, position, rng)
-
-
-def demonstrate(arm: Arm, scene: Scene, position: Array, rng: np.random.Generator) -> Trajectory:
-    """Steer the arm to an object, again where that fails; the motion measured.
-
-    Raises:
-        CommandFailed: no try succeeded.
-    """
-    for _ in range(TRIES):
-        way = steer(scene.corridor(scene.variants[0], position), rng)
-        times = np.linspace(0.0, DURATION_S, len(way.positions))
-        outcome = rollout(
-            arm, from_samples(times, way.positions, way.orientations, 75), position, variant=scene.variants[0]
-        )
-        if outcome.verdict.success:
-            return outcome.measured
-    raise CommandFailed(f"no motion to an object at {np.round(position, 3).tolist()} succeeded in {TRIES} tries")
 
 
 def _answered(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import importlib
 import logging
+import os
 import signal
 from typing import cast
 
@@ -36,6 +37,7 @@ def run_process(process: Process, configuration: Configuration) -> None:
     Raises:
         ServiceError: it cannot start; the message is for the person who started it.
     """
+    os.nice(process.nice)
     stop = stop_on_signals()
     clock = SystemClock()
     bus = connect(configuration.connect, configuration.name, process.name, clock)

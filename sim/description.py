@@ -72,7 +72,7 @@ def prepare(cache: Path | None = None) -> RobotDescription:
         DescriptionInvalid: A mesh of it is damaged.
     """
     source = _source()
-    root = (cache or _default_cache()).absolute()
+    root = (cache or default_cache()).absolute()
     target = root / f"tiago-{_key(source)}"
     urdf = target / _URDF_NAME
     if not urdf.exists():
@@ -96,7 +96,8 @@ def _source() -> Path:
     return source
 
 
-def _default_cache() -> Path:
+def default_cache() -> Path:
+    """Where what takes long to make is kept: `$XDG_CACHE_HOME/retouch` or `~/.cache/retouch`."""
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "retouch"
 
 

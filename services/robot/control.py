@@ -133,10 +133,11 @@ class Control:
             holder=self.lease.holder,
             refining=self.refining,
             sample_age_s=sample.age_s(now_ns) if sample is not None else None,
+            engaged=sample is not None and sample.message.engaged,
             hold_after_s=self._hold_after_s,
         )
         displacement = np.zeros(3)
-        if self.refining and sample is not None and sample.message.engaged:
+        if self.refining and sample is not None and not reason:
             displacement = self._master_gain * np.array(sample.message.displacement)
         tick = self.arm.tick(displacement, reason)
         self._end(tick.outcome)

@@ -40,13 +40,14 @@ class EmergencyStop:
         return f"emergency stop by {self.by}" + (f": {self.reason}" if self.reason else "")
 
 
-def hold_reason(*, holder: str, refining: bool, sample_age_s: float | None, hold_after_s: float) -> str:
+def hold_reason(*, holder: str, refining: bool, sample_age_s: float | None, engaged: bool, hold_after_s: float) -> str:
     """Why a running episode has to hold now; empty where it may go on.
 
     Args:
         holder: of the authority, empty for nobody.
         refining: the operator shapes the motion, so that it must not go on without hearing from the master.
         sample_age_s: of the newest master state of the authority's epoch, in the robot's clock [s]; None without any.
+        engaged: that state says that a hand is at the device.
         hold_after_s: age that is tolerated [s].
     """
     if not holder:
@@ -55,6 +56,8 @@ def hold_reason(*, holder: str, refining: bool, sample_age_s: float | None, hold
         return "no master state with the authority's epoch was heard"
     if refining and sample_age_s is not None and sample_age_s > hold_after_s:
         return f"the master has not been heard for more than {hold_after_s * 1e3:.0f} ms"
+    if refining and not engaged:
+        return "nobody is at the master"
     return ""
 
 

@@ -18,18 +18,19 @@ def test_the_emergency_stop_latches_with_its_first_author():
 
 
 @pytest.mark.parametrize(
-    ("holder", "refining", "age", "expected"),
+    ("holder", "refining", "age", "engaged", "expected"),
     [
-        ("ann", False, None, ""),
-        ("ann", True, 0.1, ""),
-        ("ann", True, 0.1001, "not been heard"),
-        ("ann", True, None, "no master state"),
-        ("", False, None, "nobody"),
-        ("", True, 0.0, "nobody"),
+        ("ann", False, None, False, ""),
+        ("ann", True, 0.1, True, ""),
+        ("ann", True, 0.1, False, "nobody is at the master"),
+        ("ann", True, 0.1001, True, "not been heard"),
+        ("ann", True, None, False, "no master state"),
+        ("", False, None, False, "nobody holds"),
+        ("", True, 0.0, True, "nobody holds"),
     ],
 )
-def test_the_watchdog_holds_where_nobody_is_in_command(holder, refining, age, expected):
-    reason = hold_reason(holder=holder, refining=refining, sample_age_s=age, hold_after_s=0.1)
+def test_the_watchdog_holds_where_nobody_is_in_command(holder, refining, age, engaged, expected):
+    reason = hold_reason(holder=holder, refining=refining, sample_age_s=age, engaged=engaged, hold_after_s=0.1)
     assert expected in reason
     assert bool(reason) == bool(expected)
 

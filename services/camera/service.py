@@ -1,0 +1,152 @@
+"""Draws the head and wrist cameras' pictures from the published state of the simulated world.
+
+It keeps a model of its own, in a process of its own: drawing can never disturb control.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections import deque
+from statistics import median
+
+import cv2
+import numpy as np
+
+from protocol.messages import CameraImage, Figure, Pose, SceneState, WorldState
+from protocol.topics import HEAD_IMAGE, SCENE_STATE, WORLD_STATE, WRIST_IMAGE, Topic
+from services.arrays import Floats, NotFinite, from_wire, quaternion, vector3
+from services.bus import Bus
+from services.clock import Clock
+from services.config import CameraSection, Configuration
+from services.runner import Service
+from sim.assembly import HEAD_CAMERA, WRIST_CAMERA
+from sim.cameras import Cameras
+from sim.description import prepare
+from sim.drawing import Image
+from sim.exceptions import UnknownScene, UnknownVariant
+from sim.scenes import scene
+
+log = logging.getLogger(__name__)
+
+_TOPICS: tuple[tuple[str, Topic[CameraImage]], ...] = ((HEAD_CAMERA, HEAD_IMAGE), (WRIST_CAMERA, WRIST_IMAGE))
+
+
+def build(bus: Bus, clock: Clock, configuration: Configuration) -> Service:
+    """The camera process.
+
+    Raises:
+        DrawingLibraryMissing: nothing on this machine can draw without a display.
+        DescriptionMissing: the robot's meshes are not installed.
+        UnknownScene: the configuration names a scene that is not there.
+    """
+    return CameraService(bus, clock, configuration)
+
+
+class CameraService:
+    """One picture a camera and step, of the newest state.
+
+    Args:
+        bus: to the robot's other processes.
+        clock: what durations are measured on.
+        configuration: of the whole system.
+    """
+
+    def __init__(self, bus: Bus, clock: Clock, configuration: Configuration) -> None:
+        self._bus = bus
+        self._clock = clock
+        self._section: CameraSection = configuration.camera
+        self._world = bus.subscribe(WORLD_STATE)
+        self._scene = bus.subscribe(SCENE_STATE)
+        self._description = prepare()
+        self._cameras = self._open(configuration.robot.scene)
+        self._refused = ("", "")
+        self._drawn_ns = 0
+        self._durations_ns: deque[int] = deque(maxlen=256)
+        self._ages_ns: deque[int] = deque(maxlen=256)
+        self._unusable = 0
+        self._counted_from_ns = clock.now_ns()
+
+    @property
+    def rate_hz(self) -> float:
+        """Of the pictures."""
+        return self._section.rate_hz
+
+    def step(self, now_ns: int) -> None:
+        """Draw the newest state, unless it is drawn already or too old to show."""
+        arrangement = self._scene.latest()
+        world = self._world.fresh(now_ns)
+        if arrangement is None or world is None or world.stamp_ns == self._drawn_ns:
+            return
+        self._drawn_ns = world.stamp_ns
+        if not self._arrange(arrangement.message):
+            return
+        try:
+            qpos = from_wire(world.qpos)
+            for camera, topic in _TOPICS:
+                self._bus.publish(topic, self._picture(camera, qpos, world))
+        except (NotFinite, ValueError):  # a state of another model, or none at all
+            self._unusable += 1
+            return
+        ended_ns = self._clock.now_ns()
+        self._durations_ns.append(ended_ns - now_ns)
+        self._ages_ns.append(ended_ns - world.stamp_ns)
+
+    def figures(self) -> tuple[Figure, ...]:
+        """Rate, duration of drawing and age of the pictures since the last call, and states that were no use."""
+        now_ns = self._clock.now_ns()
+        elapsed_s = max(now_ns - self._counted_from_ns, 1) / 1e9
+        result = (
+            Figure("picture_rate", len(self._durations_ns) / elapsed_s, "Hz"),
+            Figure("draw_p50", median(self._durations_ns or (0,)) / 1e9, "s"),
+            Figure("picture_age_p50", median(self._ages_ns or (0,)) / 1e9, "s"),
+            Figure("unusable_states", float(self._unusable), "1"),
+        )
+        self._durations_ns.clear()
+        self._ages_ns.clear()
+        self._counted_from_ns = now_ns
+        return result
+
+    def close(self) -> None:
+        """Give the drawing library's resources back."""
+        self._cameras.close()
+
+    def _open(self, name: str) -> Cameras:
+        return Cameras(scene(name), self._description, self._section.width, self._section.height)
+
+    def _arrange(self, arrangement: SceneState) -> bool:
+        """Stand where the robot says that it stands; whether that is known here."""
+        try:
+            if arrangement.name != self._cameras.scene.name:
+                elsewhere = scene(arrangement.name)
+                self._cameras.close()
+                self._cameras = self._open(elsewhere.name)
+            self._cameras.show(arrangement.variant)
+        except (UnknownScene, UnknownVariant) as error:
+            if self._refused != (arrangement.name, arrangement.variant):
+                log.warning("%s; nothing is drawn until the robot announces another", error)
+            self._refused = (arrangement.name, arrangement.variant)
+            return False
+        return True
+
+    def _picture(self, camera: str, qpos: Floats, world: WorldState) -> CameraImage:
+        image = self._cameras.render(camera, qpos)
+        (fx, _, cx), (_, fy, cy), _ = self._cameras.intrinsics(camera).tolist()
+        pose = self._cameras.pose(camera, qpos)
+        return CameraImage(
+            camera=camera,
+            width=self._section.width,
+            height=self._section.height,
+            data=encode(image, self._section.quality),
+            intrinsics=(fx, fy, cx, cy),
+            pose=Pose(vector3(pose.position), quaternion(pose.orientation)),
+            captured_ns=world.stamp_ns,
+            object_pose=world.object_pose,
+        )
+
+
+def encode(image: Image, quality: int) -> bytes:
+    """The picture, RGB of shape (height, width, 3), as a JPEG file of this quality, 10 to 100."""
+    _, data = cv2.imencode(
+        ".jpg", cv2.cvtColor(np.ascontiguousarray(image), cv2.COLOR_RGB2BGR), [cv2.IMWRITE_JPEG_QUALITY, quality]
+    )
+    return data.tobytes()

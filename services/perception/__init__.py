@@ -1,0 +1,1 @@
+"""The perception process: where the object is, from the head camera's pictures."""

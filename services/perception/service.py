@@ -1,0 +1,118 @@
+"""Says where the object is, from the head camera's pictures, each of them once.
+
+While the arm hides the marker nothing is published: the pose's age says so, a repeated one would not.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from statistics import median
+
+import cv2
+import numpy as np
+
+from protocol.messages import CameraImage, Figure, ObjectPose, Pose
+from protocol.topics import HEAD_IMAGE, OBJECT_POSE
+from services.arrays import quaternion, vector3
+from services.bus import Bus
+from services.clock import Clock
+from services.config import Configuration
+from services.perception.filter import PoseFilter
+from services.perception.placement import Matrix, placement, quaternion_from_rotation
+from services.perception.tags import TagFinder, candidates, choose, decode
+from services.runner import Service
+from sim.scenes.scene import TAG_ID
+
+RATE_HZ = 30.0
+
+
+def build(bus: Bus, clock: Clock, configuration: Configuration) -> Service:
+    """The perception process."""
+    # Threads for pictures this small cost more than they give, and take the other processes' cores.
+    cv2.setNumThreads(1)
+    return PerceptionService(bus, clock, configuration.perception.window)
+
+
+class PerceptionService:
+    """From the newest picture of the head camera to the object's pose.
+
+    Args:
+        bus: to the robot's other processes.
+        clock: what durations are measured on.
+        window: over how many pictures the pose is filtered.
+    """
+
+    def __init__(self, bus: Bus, clock: Clock, window: int) -> None:
+        self._bus = bus
+        self._clock = clock
+        self._images = bus.subscribe(HEAD_IMAGE)
+        self._finder = TagFinder()
+        self._filter = PoseFilter(window)
+        self._previous: Matrix | None = None
+        self._seen = (0, 0)
+        self._durations_ns: deque[int] = deque(maxlen=256)
+        self._undecodable = self._without_tag = self._flips = 0
+        self._error = -1.0
+
+    @property
+    def rate_hz(self) -> float:
+        """Twice the cameras': a picture waits half a period at most."""
+        return RATE_HZ
+
+    def step(self, now_ns: int) -> None:
+        """Process the newest picture, once."""
+        image = self._images.fresh(now_ns)
+        if image is None or (image.publisher, image.sequence) == self._seen:
+            return
+        self._seen = (image.publisher, image.sequence)
+        base_from_object = self._locate(image)
+        if base_from_object is not None:
+            self._publish(base_from_object, image)
+        self._durations_ns.append(self._clock.now_ns() - now_ns)
+
+    def figures(self) -> tuple[Figure, ...]:
+        """Duration of a picture since the last call, the newest error, and what was no use, so far."""
+        result = (
+            Figure("picture_p50", median(self._durations_ns or (0,)) / 1e9, "s"),
+            Figure("pose_error", self._error, "m"),
+            Figure("undecodable_pictures", float(self._undecodable), "1"),
+            Figure("pictures_without_tag", float(self._without_tag), "1"),
+            Figure("rejected_flips", float(self._flips), "1"),
+        )
+        self._durations_ns.clear()
+        return result
+
+    def close(self) -> None:
+        """Nothing to give back."""
+
+    def _locate(self, image: CameraImage) -> Matrix | None:
+        picture = decode(image.data)
+        if picture is None:
+            self._undecodable += 1
+            return None
+        corners = self._finder.find(picture)
+        if corners is None:
+            self._without_tag += 1
+            return None
+        base_from_camera = placement(image.pose.position, image.pose.orientation)
+        choice = choose(candidates(corners, image.intrinsics, base_from_camera), self._previous)
+        if choice is None:
+            return None
+        self._flips += choice.flipped
+        self._previous = choice.base_from_object
+        return self._filter.update(choice.base_from_object)
+
+    def _publish(self, base_from_object: Matrix, image: CameraImage) -> None:
+        position = base_from_object[:3, 3]
+        truth = image.object_pose
+        self._error = -1.0 if truth is None else float(np.linalg.norm(position - np.array(truth.position)))
+        self._bus.publish(
+            OBJECT_POSE,
+            ObjectPose(
+                pose=Pose(vector3(position), quaternion(quaternion_from_rotation(base_from_object[:3, :3]))),
+                tag=TAG_ID,
+                error=self._error,
+                rejected=self._flips,
+                pictures=len(self._filter),
+            ),
+        )

@@ -1,0 +1,1 @@
+"""The viewer process: the only Rerun logger; live view and .rrd recording."""

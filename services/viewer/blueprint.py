@@ -1,0 +1,79 @@
+"""How the recording is laid out: the scene large, the two cameras beside it, numbers and words below."""
+
+from __future__ import annotations
+
+import rerun as rr
+import rerun.blueprint as rrb
+
+from services.viewer import entities, palette
+
+_WINDOW_S = 20.0
+
+
+def blueprint() -> rrb.Blueprint:
+    """The layout of every recording; the panels around it are hidden, the time line is collapsed."""
+    return rrb.Blueprint(
+        rrb.Vertical(
+            rrb.Horizontal(
+                _scene(),
+                rrb.Vertical(_camera("head"), _camera("wrist")),
+                column_shares=[3.4, 1],
+            ),
+            rrb.Horizontal(
+                rrb.Tabs(
+                    _series("Joints", entities.JOINTS),
+                    _series("Force", entities.FORCE_SERIES),
+                    _series("Correction", entities.CORRECTION),
+                    _series("Latency and error", entities.LATENCY),
+                    active_tab=0,
+                ),
+                rrb.TextLogView(
+                    origin=entities.JOURNAL,
+                    name="Journal",
+                    columns=rrb.TextLogColumns(
+                        timeline_columns=[entities.TIMELINE], text_log_columns=["loglevel", "body"]
+                    ),
+                ),
+                column_shares=[1.6, 1],
+            ),
+            row_shares=[2.6, 1],
+        ),
+        rrb.TimePanel(state="collapsed", timeline=entities.TIMELINE, play_state="following"),
+        rrb.BlueprintPanel(state="collapsed"),
+        rrb.SelectionPanel(state="collapsed"),
+        auto_layout=False,
+        auto_views=False,
+    )
+
+
+def _scene() -> rrb.Spatial3DView:
+    return rrb.Spatial3DView(
+        origin=entities.WORLD,
+        contents=["$origin/**", f"{entities.ROBOT}/**", f"- {entities.COLLISION_SHAPES}/**"],
+        name="Robot and scene",
+        background=palette.BACKGROUND,
+        line_grid=rrb.LineGrid3D(visible=True, spacing=0.5, color=0x242A33FF),
+        spatial_information=rrb.SpatialInformation(
+            target_frame=f"tf#{entities.WORLD}", show_axes=False, show_bounding_box=False
+        ),
+        eye_controls=rrb.EyeControls3D(
+            kind=rrb.Eye3DKind.Orbital, position=(-0.1, -1.5, 1.35), look_target=(0.5, 0.0, 0.66), eye_up=(0, 0, 1)
+        ),
+    )
+
+
+def _camera(name: str) -> rrb.Spatial2DView:
+    return rrb.Spatial2DView(
+        origin=f"{entities.CAMERAS}/{name}", name=f"{name.capitalize()} camera", background=palette.BACKGROUND
+    )
+
+
+def _series(name: str, origin: str) -> rrb.TimeSeriesView:
+    window = rrb.VisibleTimeRange(
+        entities.TIMELINE,
+        start=rrb.TimeRangeBoundary.cursor_relative(seconds=-_WINDOW_S),
+        end=rrb.TimeRangeBoundary.cursor_relative(),
+    )
+    return rrb.TimeSeriesView(
+        origin=origin, name=name, time_ranges=window, plot_legend=rrb.PlotLegend(rr.blueprint.Corner2D.LeftTop)
+    )

@@ -1,0 +1,47 @@
+"""The viewer's failures.
+
+ViewerError
+├── PortInUse        another program listens where the live view should be
+├── WebFilesMissing  the Rerun SDK did not give its web viewer's files
+└── CannotReplay     a recording that cannot be opened
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from services.exceptions import ServiceError
+
+
+class ViewerError(ServiceError):
+    """Base of what the viewer raises for a person to read."""
+
+
+class PortInUse(ViewerError):
+    """Nothing can listen at the port."""
+
+    def __init__(self, host: str, port: int, setting: str) -> None:
+        self.host = host
+        self.port = port
+        self.setting = setting
+        super().__init__(
+            f"cannot listen on {host}:{port}: the port is in use or the address not this machine's;"
+            f" set another one in the configuration: {setting}"
+        )
+
+
+class WebFilesMissing(ViewerError):
+    """The Rerun SDK's web viewer could not be taken from it."""
+
+    def __init__(self, reason: str) -> None:
+        self.reason = reason
+        super().__init__(f"the web viewer's files cannot be taken from the Rerun SDK ({reason}): reinstall rerun-sdk")
+
+
+class CannotReplay(ViewerError):
+    """The recording cannot be shown."""
+
+    def __init__(self, path: Path, reason: str) -> None:
+        self.path = path
+        self.reason = reason
+        super().__init__(f"cannot replay {path}: {reason}")

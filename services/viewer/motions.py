@@ -1,0 +1,43 @@
+"""What the model predicts, how sure it is, and what became of it under the operator's hand."""
+
+from __future__ import annotations
+
+import numpy as np
+import rerun as rr
+
+from services.arrays import Floats
+from services.viewer import entities, palette
+
+_ELLIPSOIDS = 24
+_THINNEST = 0.001  # [m]
+_SIGMAS = 2.0
+
+
+def log_prediction(recording: rr.RecordingStream, positions: Floats, deviations: Floats | None) -> None:
+    """Draw a prediction and about it two standard deviations, 95 % on each axis.
+
+    Args:
+        recording: where.
+        positions: shape (n, 3), base frame [m].
+        deviations: one standard deviation on each axis, shape (n, 3) [m]; None where they are not known.
+    """
+    line = rr.LineStrips3D([positions], radii=[0.0035], colors=[palette.PREDICTED])
+    recording.log(entities.PREDICTION, line)
+    chosen = np.empty(0, dtype=int)
+    if deviations is not None and deviations.shape == positions.shape:
+        chosen = np.unique(np.linspace(0, len(positions) - 1, _ELLIPSOIDS).round().astype(int))
+    recording.log(
+        entities.UNCERTAINTY,
+        rr.Ellipsoids3D(
+            centers=positions[chosen],
+            half_sizes=np.maximum(_SIGMAS * deviations[chosen], _THINNEST) if deviations is not None else [],
+            colors=[palette.UNCERTAINTY],
+            fill_mode="solid",
+        ),
+    )
+
+
+def log_refined(recording: rr.RecordingStream, positions: Floats) -> None:
+    """Draw the way-points that the refined motion has behind it, shape (k, 3) [m]."""
+    strips = [positions] if len(positions) > 1 else []
+    recording.log(entities.REFINED, rr.LineStrips3D(strips, radii=[0.0045], colors=[palette.REFINED]))

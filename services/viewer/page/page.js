@@ -1,0 +1,45 @@
+"use strict";
+
+// Keys belong to the operator's page, which holds this one in a frame: the viewer must not act on them.
+function handOver(event) {
+  event.stopImmediatePropagation();
+  event.preventDefault();
+  if (!event.repeat) {
+    window.parent.postMessage({ kind: "key", code: event.code, down: event.type === "keydown" }, "*");
+  }
+}
+
+function say(text) {
+  const state = document.getElementById("state");
+  state.textContent = text;
+  state.hidden = text === "";
+}
+
+async function start() {
+  const canvas = document.getElementById("view");
+  await wasm_bindgen({ module_or_path: "re_viewer_bg.wasm" });
+  const handle = new wasm_bindgen.WebHandle({
+    url: [canvas.dataset.stream],
+    render_backend: "webgl",
+    hide_welcome_screen: true,
+    persist: false,
+    theme: "dark",
+    panel_state_overrides: { top: "Hidden", blueprint: "Hidden", selection: "Hidden", time: "Hidden" },
+  });
+  await handle.start(canvas);
+  say("");
+  setInterval(() => {
+    if (handle.has_panicked()) {
+      say("The view has stopped: reload it");
+    }
+  }, 1000);
+}
+
+if (window.parent !== window) {
+  for (const type of ["keydown", "keyup"]) {
+    window.addEventListener(type, handOver, { capture: true });
+  }
+  // After the viewer's own handlers, which take the focus.
+  window.addEventListener("pointerup", () => setTimeout(() => window.parent.focus()), { capture: true });
+}
+start().catch((error) => say(`The view cannot start: ${error}`));

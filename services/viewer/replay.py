@@ -1,0 +1,49 @@
+"""`retouch replay FILE`: a recording in Rerun's own window."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from services.viewer.exceptions import CannotReplay, WebFilesMissing
+from services.viewer.web_files import sdk_program
+
+_MAGIC = b"RRF"
+_LONGEST_REASON = 300
+
+
+def replay(path: Path) -> None:
+    """Open the recording in the native viewer; returns when its window is closed.
+
+    Raises:
+        CannotReplay: there is no such file, it is no recording, or the window cannot be opened.
+    """
+    _check(path)
+    if sys.platform.startswith("linux") and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+        raise CannotReplay(path, "there is no display; open the file where there is one, with: rerun FILE")
+    try:
+        program = sdk_program()
+    except WebFilesMissing as error:
+        raise CannotReplay(path, error.reason + "; reinstall rerun-sdk") from None
+    ended = subprocess.run(
+        [str(program), str(path)],
+        env={**os.environ, "RERUN_ANALYTICS": "0"},
+        stderr=subprocess.PIPE,
+        text=True,
+        check=False,
+    )
+    if ended.returncode > 0:
+        said = [line for line in ended.stderr.splitlines() if line.strip()]
+        raise CannotReplay(path, (said[-1] if said else f"rerun ended with {ended.returncode}")[:_LONGEST_REASON])
+
+
+def _check(path: Path) -> None:
+    try:
+        with path.open("rb") as file:
+            magic = file.read(len(_MAGIC))
+    except OSError as error:
+        raise CannotReplay(path, f"{error.strerror}; recordings lie in the folder [viewer] folder") from None
+    if magic != _MAGIC:
+        raise CannotReplay(path, "it is not a Rerun recording (.rrd)")

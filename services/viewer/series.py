@@ -1,0 +1,58 @@
+"""Numbers over time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import rerun as rr
+
+from services.viewer import entities, palette
+
+_AXES = ("x", "y", "z")
+_LATENCIES = ("operator to robot [ms]", "object pose error [mm]")
+
+
+def log_legends(recording: rr.RecordingStream) -> None:
+    """Name and colour what has a fixed number of lines."""
+    force = rr.SeriesLines(names=[f"{axis} [N]" for axis in _AXES], colors=palette.AXES, widths=[1.5])
+    correction = rr.SeriesLines(names=[f"{axis} [m]" for axis in _AXES], colors=palette.AXES, widths=[1.5])
+    recording.log(entities.FORCE_SERIES, force, static=True)
+    recording.log(entities.CORRECTION, correction, static=True)
+    for name, colour in zip(_LATENCIES, (palette.REFINED, palette.PREDICTED), strict=True):
+        line = rr.SeriesLines(names=[name], colors=[colour], widths=[1.5])
+        recording.log(f"{entities.LATENCY}/{name.split(' [')[0].replace(' ', '_')}", line, static=True)
+
+
+def log_joint_legend(recording: rr.RecordingStream, names: Sequence[str]) -> None:
+    """Name and colour the joints."""
+    colours = np.resize(palette.JOINTS, len(names))
+    line = rr.SeriesLines(names=[name.removesuffix("_joint") for name in names], colors=colours, widths=[1.5])
+    recording.log(entities.JOINTS, line, static=True)
+
+
+def log_joints(recording: rr.RecordingStream, q: Sequence[float]) -> None:
+    """Joint positions [rad, torso m]."""
+    recording.log(entities.JOINTS, rr.Scalars(q))
+
+
+def log_force(recording: rr.RecordingStream, force: Sequence[float]) -> None:
+    """What the master renders to the hand, base axes [N]."""
+    recording.log(entities.FORCE_SERIES, rr.Scalars(force))
+
+
+def log_correction(recording: rr.RecordingStream, offset: Sequence[float]) -> None:
+    """The correction as the robot applies it, base axes [m]."""
+    recording.log(entities.CORRECTION, rr.Scalars(offset))
+
+
+def log_latency(recording: rr.RecordingStream, latency_s: float) -> None:
+    """From the operator's sample to its effect [s]; negative where it is not known."""
+    if latency_s >= 0.0:
+        recording.log(f"{entities.LATENCY}/operator_to_robot", rr.Scalars([1e3 * latency_s]))
+
+
+def log_pose_error(recording: rr.RecordingStream, error: float) -> None:
+    """Distance of the object as seen from where it is [m]; negative where it is not known."""
+    if error >= 0.0:
+        recording.log(f"{entities.LATENCY}/object_pose_error", rr.Scalars([1e3 * error]))

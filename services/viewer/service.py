@@ -1,0 +1,237 @@
+"""The only Rerun logger: everything of interest on one time line, live and in a file at once."""
+
+from __future__ import annotations
+
+import logging
+
+import numpy as np
+import rerun as rr
+
+from protocol.messages import CameraImage, Figure, Pose, Recording
+from protocol.topics import (
+    EXECUTION,
+    HEAD_IMAGE,
+    MASTER_STATE,
+    OBJECT_POSE,
+    PREDICTION,
+    RECORDING,
+    ROBOT_STATE,
+    SCENE_STATE,
+    TEACHING_STATE,
+    VERDICT,
+    WORLD_STATE,
+    WRIST_IMAGE,
+)
+from services.arrays import NotFinite, from_wire, vector3
+from services.bus import Bus
+from services.clock import Clock
+from services.config import Configuration
+from services.runner import Service
+from services.viewer import entities, motions, scene, series
+from services.viewer.journal import Entry, Journal
+from services.viewer.news import Changes, News
+from services.viewer.recording import Recording as Run
+from services.viewer.robot_model import RobotModel
+from services.viewer.web import WebServer
+from services.viewer.web_files import web_files
+from sim.description import prepare
+from sim.exceptions import SimError
+
+log = logging.getLogger(__name__)
+
+RATE_HZ = 30.0
+
+# What stands still is drawn again this often: whoever opens the live view late has not seen the first time.
+_REPEAT_S = 1.0
+
+
+def build(bus: Bus, clock: Clock, configuration: Configuration) -> Service:
+    """The viewer process.
+
+    Raises:
+        PortInUse: another program listens where the live view should be.
+        ViewerError: the recording cannot be written, or the web viewer's files are not there.
+    """
+    web = WebServer(configuration, web_files())
+    try:
+        run = Run(configuration.viewer, configuration.name, clock.now_ns())
+    except BaseException:
+        web.close()
+        raise
+    return ViewerService(bus, run, web)
+
+
+class ViewerService:
+    """Draws what the other processes publish.
+
+    Args:
+        bus: to them.
+        run: where it is drawn.
+        web: the live view's page.
+    """
+
+    def __init__(self, bus: Bus, run: Run, web: WebServer) -> None:
+        self._bus = bus
+        self._run = run
+        self._stream = run.stream
+        self._web = web
+        self._journal = Journal()
+        self._robot = News(bus.subscribe(ROBOT_STATE))
+        self._master = News(bus.subscribe(MASTER_STATE))
+        self._world = News(bus.subscribe(WORLD_STATE))
+        self._scene = News(bus.subscribe(SCENE_STATE), _REPEAT_S)
+        self._object = News(bus.subscribe(OBJECT_POSE))
+        self._verdict = News(bus.subscribe(VERDICT))
+        self._prediction = News(bus.subscribe(PREDICTION), _REPEAT_S)
+        self._execution = News(bus.subscribe(EXECUTION), _REPEAT_S)
+        self._teaching = News(bus.subscribe(TEACHING_STATE))
+        self._images = (News(bus.subscribe(HEAD_IMAGE)), News(bus.subscribe(WRIST_IMAGE)))
+        self._changes = Changes(_REPEAT_S)
+        self._joint_names: tuple[str, ...] = ()
+        self._unusable = 0
+        run.at(0)
+        series.log_legends(self._stream)
+        self._model = _robot_model(self._stream)
+
+    @property
+    def rate_hz(self) -> float:
+        """As smooth as eyes ask for; the robot's own rate would only cost."""
+        return RATE_HZ
+
+    def step(self, now_ns: int) -> None:
+        """Draw what is new."""
+        time_s = self._run.at(now_ns)
+        self._log_robot(time_s, now_ns)
+        self._log_master(now_ns)
+        self._log_scene(now_ns)
+        self._log_motions(now_ns)
+        self._log_verdict(now_ns)
+        for images in self._images:
+            image = images.take(now_ns)
+            if image is not None:
+                _log_image(self._stream, image)
+        teaching = self._teaching.take(now_ns)
+        if teaching is not None:
+            self._write(*self._journal.teaching(teaching))
+        if self._changes.due("announcement", None, now_ns):
+            self._announce()
+
+    def figures(self) -> tuple[Figure, ...]:
+        """Size of the recording so far, and messages that could not be drawn."""
+        return (
+            Figure("recording_size", float(self._run.path.stat().st_size), "B"),
+            Figure("unusable_messages", float(self._unusable), "1"),
+        )
+
+    def close(self) -> None:
+        """Finish the file and stop serving."""
+        self._run.close()
+        self._web.close()
+
+    def _log_robot(self, time_s: float, now_ns: int) -> None:
+        robot = self._robot.take(now_ns)
+        if robot is None:
+            return
+        if robot.joint_names != self._joint_names:
+            self._joint_names = robot.joint_names
+            series.log_joint_legend(self._stream, robot.joint_names)
+        if self._changes.due("joints", tuple(round(value, 5) for value in robot.q), now_ns):
+            if self._model is not None:
+                self._model.move(time_s, robot.joint_names, robot.q)
+            scene.log_grasp(self._stream, robot.measured)
+        series.log_joints(self._stream, robot.q)
+        series.log_correction(self._stream, robot.offset)
+        series.log_latency(self._stream, robot.applied_latency)
+        self._write(*self._journal.robot(robot))
+
+    def _log_master(self, now_ns: int) -> None:
+        master = self._master.take(now_ns)
+        if master is None:
+            return
+        series.log_force(self._stream, master.force)
+        robot = self._robot.known
+        if robot is not None and self._changes.due("force", (master.force, robot.measured.position), now_ns):
+            scene.log_force(self._stream, robot.measured.position, master.force)
+
+    def _log_scene(self, now_ns: int) -> None:
+        arrangement = self._scene.take(now_ns)
+        if arrangement is not None:
+            scene.log_environment(self._stream, arrangement)
+        world, seen = self._world.take(now_ns), self._object.take(now_ns)
+        if self._scene.known is None:
+            return
+        size = self._scene.known.object_size
+        if world is not None and self._changes.due("truth", _rounded(world.object_pose), now_ns):
+            scene.log_object_truth(self._stream, world.object_pose, size)
+        if seen is not None:
+            scene.log_object_seen(self._stream, seen.pose, size)
+            series.log_pose_error(self._stream, seen.error)
+
+    def _log_motions(self, now_ns: int) -> None:
+        prediction, execution = self._prediction.take(now_ns), self._execution.take(now_ns)
+        try:
+            if prediction is not None:
+                positions = from_wire(prediction.motion.positions)
+                motions.log_prediction(self._stream, positions, from_wire(prediction.deviations))
+            if execution is not None:
+                motions.log_refined(self._stream, from_wire(execution.refined))
+        except NotFinite:
+            self._unusable += 1
+
+    def _log_verdict(self, now_ns: int) -> None:
+        verdict = self._verdict.take(now_ns)
+        if verdict is None:
+            return
+        self._write(*self._journal.verdict(verdict))
+        if self._changes.due("collision", verdict.collision_position, now_ns):
+            scene.log_collision(self._stream, verdict.collision_position, verdict.collision_force)
+        known, thing = self._scene.known, self._object_pose()
+        if known is not None and self._changes.due("reached", verdict.reached, now_ns):
+            scene.log_reached(self._stream, known.ellipsoid_radii, reached=verdict.reached)
+        if known is None or thing is None:
+            return
+        centre = vector3(np.subtract(thing.position, verdict.object_displacement).round(3))
+        if self._changes.due("kicked over", (verdict.kicked_over, centre), now_ns):
+            limits = known.kicked_over_thresholds
+            scene.log_kick_limits(self._stream, centre, limits, kicked_over=verdict.kicked_over)
+
+    def _object_pose(self) -> Pose | None:
+        """Where the object is: the truth where there is one."""
+        if self._world.known is not None:
+            return self._world.known.object_pose
+        return None if self._object.known is None else self._object.known.pose
+
+    def _write(self, *entries: Entry) -> None:
+        for entry in entries:
+            self._stream.log(entities.JOURNAL, rr.TextLog(entry.text, level=entry.level))
+
+    def _announce(self) -> None:
+        robot = self._robot.known
+        self._bus.publish(
+            RECORDING,
+            Recording(
+                path=str(self._run.path),
+                viewer_url=self._web.url,
+                recording_id=self._run.identity,
+                logged_ns=robot.stamp_ns if robot else 0,
+            ),
+        )
+
+
+def _log_image(stream: rr.RecordingStream, image: CameraImage) -> None:
+    picture = rr.EncodedImage(contents=image.data, media_type="image/jpeg")
+    stream.log(f"{entities.CAMERAS}/{'head' if image.camera == 'head' else 'wrist'}", picture)
+
+
+def _rounded(pose: Pose) -> tuple[float, ...]:
+    """The pose without what nobody sees."""
+    return tuple(round(value, 4) for value in (*pose.position, *pose.orientation))
+
+
+def _robot_model(stream: rr.RecordingStream) -> RobotModel | None:
+    """The robot's shape; a station without the description shows the rest all the same."""
+    try:
+        return RobotModel(prepare().urdf, stream)
+    except (SimError, ImportError) as error:
+        log.warning("the robot itself is not shown: %s", error)
+        return None

@@ -1,0 +1,112 @@
+"""The Rerun web viewer's own files, taken from the installed SDK once and kept compressed.
+
+They lie inside the SDK's program, which gives them out over HTTP only: it is started for a moment, on loopback.
+"""
+
+from __future__ import annotations
+
+import gzip
+import http.client
+import importlib.util
+import logging
+import os
+import shutil
+import socket
+import subprocess
+import tempfile
+import time
+from importlib.metadata import version
+from pathlib import Path
+
+from services.viewer.exceptions import WebFilesMissing
+
+log = logging.getLogger(__name__)
+
+FILES = ("re_viewer.js", "re_viewer_bg.wasm")
+
+_START_TIMEOUT_S = 20.0
+_RETRY_S = 0.1
+_LEVEL = 6
+
+
+def web_files(cache: Path | None = None) -> Path:
+    """The folder with each of `FILES`, gzipped, ".gz" appended; made at first use.
+
+    Args:
+        cache: where to keep it; `$XDG_CACHE_HOME/retouch` or `~/.cache/retouch` by default.
+
+    Raises:
+        WebFilesMissing: the SDK's program is not there or does not give them.
+    """
+    root = cache or Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "retouch"
+    target = root / f"rerun-web-{version('rerun-sdk')}"
+    if target.is_dir():
+        return target
+    log.info("preparing the live view, once: some seconds")
+    root.mkdir(parents=True, exist_ok=True)
+    scratch = Path(tempfile.mkdtemp(prefix=".rerun-web-", dir=root))
+    try:
+        for name, content in _take().items():
+            (scratch / f"{name}.gz").write_bytes(gzip.compress(content, _LEVEL))
+        if not target.is_dir():
+            scratch.replace(target)
+    except OSError as error:
+        raise WebFilesMissing(error.strerror or str(error)) from None
+    finally:
+        shutil.rmtree(scratch, ignore_errors=True)
+    return target
+
+
+def sdk_program() -> Path:
+    """The SDK's program `rerun`.
+
+    Raises:
+        WebFilesMissing: it is not there.
+    """
+    package = importlib.util.find_spec("rerun_cli")
+    for folder in (package.submodule_search_locations or []) if package else []:
+        program = Path(folder) / "rerun"
+        if program.is_file():
+            return program
+    raise WebFilesMissing("its program is not installed")
+
+
+def _take() -> dict[str, bytes]:
+    port = _free_port()
+    command = [str(sdk_program()), "--serve-web", "--bind", "127.0.0.1", "--web-viewer-port", str(port)]
+    server = subprocess.Popen(
+        [*command, "--port", str(_free_port())],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        env={**os.environ, "RERUN_ANALYTICS": "0"},
+    )
+    try:
+        return {name: _get(port, name) for name in FILES}
+    finally:
+        server.kill()
+        server.wait()
+
+
+def _free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+def _get(port: int, name: str) -> bytes:
+    deadline = time.monotonic() + _START_TIMEOUT_S
+    while True:
+        connection = http.client.HTTPConnection("127.0.0.1", port, timeout=_START_TIMEOUT_S)
+        try:
+            connection.request("GET", f"/{name}")
+            response = connection.getresponse()
+            if response.status != http.HTTPStatus.OK:
+                raise WebFilesMissing(f"{name}: {response.status} {response.reason}")
+            return response.read()
+        except (OSError, http.client.HTTPException) as error:
+            if time.monotonic() > deadline:
+                raise WebFilesMissing(f"no answer in {_START_TIMEOUT_S:.0f} s: {error}") from None
+            time.sleep(_RETRY_S)
+        finally:
+            connection.close()

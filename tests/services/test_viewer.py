@@ -1,0 +1,218 @@
+"""The viewer process: a recording that Rerun itself finds sound, and a page that asks nobody else."""
+
+import gzip
+import http.client
+import socket
+import subprocess
+
+import numpy as np
+import pytest
+
+from protocol.messages import (
+    Box,
+    CameraImage,
+    MasterState,
+    ObjectPose,
+    Phase,
+    Pose,
+    Prediction,
+    RobotState,
+    SceneState,
+    Verdict,
+)
+from protocol.topics import (
+    HEAD_IMAGE,
+    MASTER_STATE,
+    OBJECT_POSE,
+    PREDICTION,
+    RECORDING,
+    ROBOT_STATE,
+    SCENE_STATE,
+    VERDICT,
+)
+from services.arrays import motion_to_wire, to_wire
+from services.clock import ManualClock
+from services.config import Configuration, ViewerSection
+from services.memory_bus import MemoryNetwork
+
+pytestmark = pytest.mark.sim
+
+HERE = Pose((0.5, 0.0, 0.5), (1.0, 0.0, 0.0, 0.0))
+JOINTS = ("torso_lift_joint", "arm_1_joint", "no_such_joint")
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+@pytest.fixture
+def configuration(tmp_path):
+    section = ViewerSection(web_port=free_port(), stream_port=free_port(), folder=str(tmp_path / "runs"))
+    return Configuration(name="testbed", viewer=section)
+
+
+@pytest.fixture
+def files(tmp_path):
+    folder = tmp_path / "web"
+    folder.mkdir()
+    for name in ("re_viewer.js", "re_viewer_bg.wasm"):
+        (folder / f"{name}.gz").write_bytes(gzip.compress(name.encode()))
+    return folder
+
+
+@pytest.fixture
+def system(configuration, files, monkeypatch):
+    from services.viewer import service
+
+    monkeypatch.setattr(service, "web_files", lambda: files)
+    clock = ManualClock()
+    network = MemoryNetwork(clock)
+    viewer = service.build(network.bus(), clock, configuration)
+    yield network, clock, viewer
+    viewer.close()
+
+
+def publish_everything(bus, tick):
+    motion = motion_to_wire(np.linspace((0.4, 0, 0.4), (0.6, 0, 0.5), 20), np.tile([1.0, 0, 0, 0], (20, 1)), 5.0)
+    box = Box("table", (0.8, 0.0, 0.3), (0.3, 0.3, 0.02), (1.0, 0.0, 0.0, 0.0), (0.5, 0.4, 0.3, 1.0))
+    bus.publish(
+        SCENE_STATE,
+        SceneState(
+            name="table",
+            variant="clear",
+            boxes=(box,),
+            object_size=(0.05, 0.05, 0.1),
+            ellipsoid_radii=(0.05, 0.06, 0.05),
+            kicked_over_thresholds=(0.1, 0.1, 0.1),
+            start=HERE,
+            object_region=((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)),
+        ),
+    )
+    q = (0.1, 0.01 * tick, 0.0)
+    bus.publish(
+        ROBOT_STATE, RobotState(joint_names=JOINTS, q=q, qd=q, measured=HERE, reference=HERE, phase=Phase.EXECUTE)
+    )
+    bus.publish(MASTER_STATE, MasterState(force=(0.0, 0.0, 1.0 * tick)))
+    bus.publish(OBJECT_POSE, ObjectPose(pose=HERE, tag=7, error=0.001))
+    bus.publish(
+        VERDICT, Verdict(reached=False, kicked_over=False, collision=tick > 2, collision_position=(0.5, 0, 0.5))
+    )
+    bus.publish(
+        PREDICTION,
+        Prediction(
+            motion=motion, deviations=to_wire(np.full((20, 3), 0.01)), model_version=1, object_position=HERE.position
+        ),
+    )
+    bus.publish(
+        HEAD_IMAGE,
+        CameraImage(camera="head", width=64, height=48, data=b"\xff\xd8", intrinsics=(50, 50, 32, 24), pose=HERE),
+    )
+
+
+def test_the_recording_is_sound_and_holds_what_was_published(system):
+    from rerun.chunk import RrdReader
+
+    from services.viewer import entities
+    from services.viewer.web_files import sdk_program
+
+    network, clock, viewer = system
+    bus = network.bus()
+    announced = bus.subscribe(RECORDING)
+    for tick in range(6):
+        publish_everything(bus, tick)
+        viewer.step(clock.now_ns())
+        clock.advance(1 / 30)
+    viewer.close()
+    recording = announced.latest().message
+    verified = subprocess.run(
+        [sdk_program(), "rrd", "verify", recording.path], capture_output=True, text=True, timeout=60, check=False
+    )
+    assert verified.returncode == 0, verified.stderr
+    paths = {chunk.entity_path for chunk in RrdReader(recording.path).stream()}
+    drawn = (
+        entities.ENVIRONMENT,
+        entities.OBJECT_SEEN,
+        entities.PREDICTION,
+        entities.UNCERTAINTY,
+        entities.REACHED,
+        entities.KICK_LIMITS,
+        entities.COLLISION,
+        entities.FORCE,
+        entities.JOINTS,
+        entities.JOURNAL,
+        f"{entities.CAMERAS}/head",
+        f"{entities.ROBOT}/moving",
+    )
+    assert set(drawn) <= paths
+    assert recording.path.rsplit("/", 1)[1].startswith("testbed-")
+
+
+def test_the_joints_move_as_the_sdk_says():
+    import pyarrow as pa
+    import rerun as rr
+
+    from services.viewer.robot_model import _Joints
+    from sim.description import CONTROLLED_JOINTS, prepare
+
+    tree = rr.urdf.UrdfTree.from_file_path(prepare().urdf)
+    q = np.linspace(-0.5, 0.4, len(CONTROLLED_JOINTS))
+    translations, quaternions = _Joints(tree, CONTROLLED_JOINTS).transforms(q)
+    expected = tree.compute_joint_transform_batches(pa.array([list(CONTROLLED_JOINTS)]), pa.array([q])).flatten()
+    np.testing.assert_allclose(translations, expected.field("translation").to_pylist(), atol=1e-6)
+    dots = np.sum(quaternions * np.array(expected.field("quaternion").to_pylist()), axis=1)
+    np.testing.assert_allclose(np.abs(dots), 1.0, atol=1e-6)
+
+
+def get(port, path):
+    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=5)
+    connection.request("GET", path)
+    response = connection.getresponse()
+    body = response.read()
+    connection.close()
+    return response, body
+
+
+def test_the_page_names_the_stream_and_may_load_nothing_from_elsewhere(system, configuration):
+    section = configuration.viewer
+    response, page = get(section.web_port, "/?anything")
+    assert f"rerun+http://localhost:{section.stream_port}/proxy".encode() in page
+    policy = response.getheader("Content-Security-Policy")
+    sources = policy.split("frame-ancestors", maxsplit=1)[0]
+    assert "default-src 'none'" in sources
+    assert sources.count("http://") == 1
+    assert f"http://localhost:{section.stream_port}" in sources
+
+
+def test_the_sdks_files_are_served_compressed_and_no_other_file_is(system, configuration):
+    response, body = get(configuration.viewer.web_port, "/re_viewer_bg.wasm")
+    assert response.getheader("Content-Encoding") == "gzip"
+    assert gzip.decompress(body) == b"re_viewer_bg.wasm"
+    response, _ = get(configuration.viewer.web_port, "/../web.py")
+    assert response.status == http.HTTPStatus.NOT_FOUND
+
+
+@pytest.mark.parametrize("setting", ["web_port", "stream_port"])
+def test_a_port_in_use_is_named_with_its_setting(configuration, files, monkeypatch, setting):
+    from services.viewer import service
+    from services.viewer.exceptions import PortInUse
+
+    monkeypatch.setattr(service, "web_files", lambda: files)
+    clock = ManualClock()
+    with socket.socket() as other:
+        other.bind(("127.0.0.1", getattr(configuration.viewer, setting)))
+        other.listen()
+        with pytest.raises(PortInUse, match=setting):
+            service.build(MemoryNetwork(clock).bus(), clock, configuration)
+
+
+def test_a_folder_that_cannot_be_written_to_is_named(configuration, tmp_path):
+    import msgspec
+
+    from services.viewer.exceptions import ViewerError
+    from services.viewer.recording import Recording
+
+    (tmp_path / "runs").write_text("a file")
+    with pytest.raises(ViewerError, match="folder"):
+        Recording(msgspec.structs.replace(configuration.viewer, folder=str(tmp_path / "runs")), "testbed", 0)

@@ -1,0 +1,311 @@
+"""Real `retouch` commands in folders of their own, and a witness on their network.
+
+Nothing here waits for a fixed time: every wait is for something that is seen, and has a deadline.
+"""
+
+import os
+import secrets
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections import deque
+
+import psutil
+import zenoh
+
+from protocol import topics
+from protocol.queries import Refused
+from services.bus import Failed
+from services.clock import SystemClock
+from services.processes import PROCESS_NAMES
+from services.zenoh_bus import ENCODING, Passing, ZenohBus, close_session, open_session, watch
+
+POLL_S = 0.01
+START_S = 60.0
+"""A whole system is up within this time, on a machine that is busy with something else too."""
+
+MARK = "RETOUCH_SYSTEM_TEST"
+"""Stands in the environment of everything that a command starts, so that nothing of it is overlooked."""
+
+EVERYBODY = {"router", *PROCESS_NAMES}
+
+
+def eventually(seen, within_s, what):
+    """The first true value of `seen()`."""
+    deadline = time.monotonic() + within_s
+    while not (value := seen()):
+        assert time.monotonic() < deadline, f"not within {within_s:g} s: {what}"
+        time.sleep(POLL_S)
+    return value
+
+
+def free_port():
+    """A TCP port of this machine where nobody listens."""
+    with socket.create_server(("127.0.0.1", 0)) as probe:
+        return probe.getsockname()[1]
+
+
+def free_endpoint():
+    """A Zenoh endpoint where nobody listens."""
+    return f"tcp/127.0.0.1:{free_port()}"
+
+
+def reachable(endpoint):
+    """Whether somebody listens at the endpoint."""
+    host, port = endpoint.removeprefix("tcp/").rsplit(":", 1)
+    try:
+        socket.create_connection((host, int(port)), timeout=1.0).close()
+    except OSError:
+        return False
+    return True
+
+
+def configured(folder, endpoint, *, top="", **sections):
+    """A configuration file whose ports are all free; returns its path.
+
+    Args:
+        folder: to write it in.
+        endpoint: of the router.
+        top: lines before the first section.
+        sections: lines to add to a section, by its name.
+    """
+    sections["station"] = f"port = {free_port()}\n" + sections.get("station", "")
+    sections["viewer"] = f"web_port = {free_port()}\nstream_port = {free_port()}\n" + sections.get("viewer", "")
+    head = f'listen = "{endpoint}"\nconnect = "{endpoint}"\n{top}\n'
+    path = folder / "retouch.toml"
+    path.write_text(head + "".join(f"[{name}]\n{lines}\n" for name, lines in sections.items()))
+    return path
+
+
+class Command:
+    """A running `retouch` command; a context manager that leaves nothing of it behind.
+
+    Args:
+        arguments: of the command.
+        folder: where it runs and where its output is kept.
+        environment: variables to set besides.
+    """
+
+    def __init__(self, *arguments, folder, environment=None):
+        self.mark = secrets.token_hex(8)
+        self._out = folder / f"{self.mark}.out"
+        self._err = folder / f"{self.mark}.err"
+        environment = {
+            **os.environ,
+            "XDG_DATA_HOME": str(folder / "data"),
+            "PYTHONUNBUFFERED": "1",
+            MARK: self.mark,
+            **(environment or {}),
+        }
+        with self._out.open("wb") as out, self._err.open("wb") as err:
+            self.process = subprocess.Popen(
+                [sys.executable, "-m", "services", *map(str, arguments)],
+                cwd=folder,
+                env=environment,
+                stdin=subprocess.DEVNULL,
+                stdout=out,
+                stderr=err,
+            )
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.stop()
+
+    @property
+    def out(self):
+        """Standard output so far."""
+        return self._out.read_text(errors="replace")
+
+    @property
+    def err(self):
+        """Standard error so far."""
+        return self._err.read_text(errors="replace")
+
+    def until(self, seen, within_s, what):
+        """As `eventually`; fails at once where the command ends instead."""
+
+        def seen_or_ended():
+            value = seen()
+            if not value and self.process.poll() is not None:
+                raise AssertionError(f"ended with {self.process.returncode} before: {what}\n{self.tail()}")
+            return value
+
+        try:
+            return eventually(seen_or_ended, within_s, what)
+        except AssertionError as error:
+            raise AssertionError(f"{error}\n{self.tail()}") from None
+
+    def ended(self, within_s):
+        """Wait for its end; the exit code."""
+        try:
+            return self.process.wait(within_s)
+        except subprocess.TimeoutExpired:
+            raise AssertionError(f"did not end within {within_s:g} s\n{self.tail()}") from None
+
+    def tail(self):
+        """The end of what it said, for people."""
+        return f"--- stdout\n{self.out[-4000:]}\n--- stderr\n{self.err[-2000:]}"
+
+    def left(self):
+        """What lives of it and of everything that it started, orphans included."""
+        return [process for process in psutil.process_iter() if _mark(process) == self.mark]
+
+    def pids(self):
+        """Name to process id of what a supervisor started and what lives now."""
+        children = [process for process in self.left() if process.pid != self.process.pid]
+        return {name: process.pid for process in children if (name := _command_name(process)) in EVERYBODY}
+
+    def kill(self, name):
+        """kill -9 one of a supervisor's processes; its process id."""
+        pid = self.pids()[name]
+        os.kill(pid, signal.SIGKILL)
+        return pid
+
+    def stop(self, within_s=10.0):
+        """SIGTERM, and SIGKILL for what does not obey; returns the exit code."""
+        if self.process.poll() is None:
+            self.process.terminate()
+            try:
+                self.process.wait(within_s)
+            except subprocess.TimeoutExpired:
+                self.process.kill()
+                self.process.wait()
+        for process in self.left():
+            process.kill()
+        return self.process.returncode
+
+
+def _mark(process):
+    try:
+        return process.environ().get(MARK) if process.status() != psutil.STATUS_ZOMBIE else None
+    except psutil.Error:
+        return None
+
+
+def _command_name(process):
+    """The first argument of `retouch` that is no flag."""
+    try:
+        arguments = process.cmdline()
+    except psutil.Error:
+        return ""
+    after = arguments[arguments.index("services") + 1 :] if "services" in arguments else []
+    return next((argument for argument in after if argument in EVERYBODY), "")
+
+
+class Witness:
+    """Hears one robot's network, and asks, as any process could; a context manager.
+
+    Args:
+        endpoint: of the router.
+        robot: the robot's name.
+    """
+
+    def __init__(self, endpoint, robot="robot1"):
+        session = open_session(endpoint, START_S)
+        self.bus = ZenohBus(session, robot, f"witness-{secrets.token_hex(4)}", SystemClock())
+        self._robot = self.bus.subscribe(topics.ROBOT_STATE)
+        self._teaching = self.bus.subscribe(topics.TEACHING_STATE)
+        self._authority = self.bus.subscribe(topics.AUTHORITY_STATE)
+        self._safety = self.bus.subscribe(topics.SAFETY_STATE)
+        self._model = self.bus.subscribe(topics.MODEL_STATE)
+        self._heartbeats = self.bus.subscribe(topics.HEARTBEAT)
+        self._beats = {}
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.bus.close()
+
+    @property
+    def robot(self):
+        """The robot's fresh state, or None."""
+        return self._robot.fresh(time.monotonic_ns())
+
+    @property
+    def teaching(self):
+        """The workflow's fresh state, or None."""
+        return self._teaching.fresh(time.monotonic_ns())
+
+    @property
+    def authority(self):
+        """Who may command, or None."""
+        return self._authority.fresh(time.monotonic_ns())
+
+    @property
+    def safety(self):
+        """The robot's safety state, or None."""
+        return self._safety.fresh(time.monotonic_ns())
+
+    @property
+    def model(self):
+        """The model's state, or None."""
+        return self._model.fresh(time.monotonic_ns())
+
+    def beats(self):
+        """The newest heartbeat of each process."""
+        for received in self._heartbeats.take():
+            self._beats[received.message.process] = received.message
+        return dict(self._beats)
+
+    def next_beats(self, names, within_s=10.0):
+        """Heartbeats of all these processes, each sent after this call."""
+        self.beats()
+        self._beats = {}
+        return eventually(
+            lambda: beats if set(names) <= set(beats := self.beats()) else None,
+            within_s,
+            f"heartbeats of {sorted(names)}, only {sorted(self._beats)}",
+        )
+
+    def ask(self, query, request, within_s=5.0):
+        """The answer."""
+        pending = self.bus.ask(query, request, within_s)
+        return eventually(pending.poll, within_s + 1.0, f"an answer to {query.name}")
+
+    def asked(self, query, request, within_s=20.0):
+        """The positive answer; asked again until there is one."""
+
+        def answer():
+            outcome = self.ask(query, request)
+            return None if isinstance(outcome, Failed | Refused) else outcome
+
+        return eventually(answer, within_s, f"a positive answer to {query.name}")
+
+
+class Stranger:
+    """A program that puts whatever bytes it likes on a network; a context manager.
+
+    Args:
+        endpoint: of the router.
+    """
+
+    def __init__(self, endpoint):
+        self._session = open_session(endpoint, START_S)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        close_session(self._session)
+
+    def put(self, key, payload, schema=""):
+        """Publish; waits where the network is busy, so that nothing is lost."""
+        encoding = zenoh.Encoding(ENCODING).with_schema(schema) if schema else zenoh.Encoding.ZENOH_BYTES
+        self._session.put(key, payload, encoding=encoding, congestion_control=zenoh.CongestionControl.BLOCK)
+
+    def get(self, key, payload, schema=""):
+        """Ask; the payloads of all answers."""
+        encoding = zenoh.Encoding(ENCODING).with_schema(schema)
+        replies = self._session.get(key, payload=payload, encoding=encoding, timeout=5.0)
+        return [reply.ok.payload.to_bytes() for reply in replies if reply.ok is not None]
+
+    def listen(self, key, kept=1000):
+        """What passes on a key expression from now on, the newest last."""
+        heard: deque[Passing] = deque(maxlen=kept)
+        watch(self._session, key, heard.append)
+        return heard

@@ -1,0 +1,167 @@
+"""kill -9 of anything, at any time: the robot holds, the process returns, nothing acknowledged is lost."""
+
+import json
+import os
+import signal
+import time
+
+import numpy as np
+import pytest
+
+from protocol import queries
+from protocol.messages import Mode, Phase
+from services.arrays import motion_to_wire
+from tests.system.harness import (
+    EVERYBODY,
+    START_S,
+    Command,
+    Witness,
+    configured,
+    eventually,
+    free_endpoint,
+)
+
+pytestmark = [pytest.mark.system, pytest.mark.zenoh]
+
+BACK_S = 30.0
+EPISODE_S = 90.0
+STILL_M = 1e-3
+STILL_SAMPLES = 30
+
+
+class Run:
+    """A supervised run, and what its witness sees."""
+
+    def __init__(self, up, witness):
+        self.up = up
+        self.witness = witness
+
+    def kill(self, name):
+        """kill -9; returns the process id that it had."""
+        return self.up.kill(name)
+
+    def back(self, name, pid):
+        """Wait until the process lives again, as another one, and speaks."""
+        self.up.until(lambda: self.up.pids().get(name, pid) != pid, BACK_S, f"{name} starts again")
+        if name != "router":
+            self.up.until(
+                lambda: (beat := self.witness.beats().get(name)) and beat.pid == self.up.pids().get(name),
+                BACK_S,
+                f"{name} speaks again",
+            )
+
+    def executing(self, mode):
+        """Wait until an episode of this mode is under way."""
+
+        def seen():
+            robot = self.witness.robot
+            return robot and robot.phase is Phase.EXECUTE and robot.mode is mode and 0.05 < robot.progress < 0.7
+
+        self.up.until(seen, EPISODE_S, f"the robot executes: {mode.value}")
+
+    def holds(self, reason):
+        """Wait until the robot holds for this reason, and see that the measured pose stands still meanwhile."""
+        self.up.until(lambda: self._holding(reason), 5.0, f"the robot holds: {reason}")
+        states = {}
+        deadline = time.monotonic() + 5.0
+        while len(states) < STILL_SAMPLES and (state := self._holding(reason)):
+            states[state.sequence] = state
+            assert time.monotonic() < deadline, "no more states came"
+            time.sleep(0.005)
+        positions = np.array([state.measured.position for state in states.values()])[STILL_SAMPLES // 3 :]
+        assert len(positions) > 5, f"held for {len(states)} states only"
+        assert np.ptp(positions, axis=0).max() < STILL_M
+
+    def _holding(self, reason):
+        robot = self.witness.robot
+        return robot if robot and robot.phase is Phase.HOLD and reason in robot.hold_reason else None
+
+
+@pytest.mark.sim
+def test_each_process_is_killed_in_turn_and_the_loop_still_closes(tmp_path):
+    endpoint = free_endpoint()
+    configuration = configured(tmp_path, endpoint, robot="lease_s = 0.5")
+    arguments = ("--fresh", "--headless", "--once", "--json", "out.json", "--config", configuration)
+    with Command("up", *arguments, folder=tmp_path) as up, Witness(endpoint) as witness:
+        run = Run(up, witness)
+        run.executing(Mode.AUTONOMOUS)
+        first = up.pids()
+        assert set(first) >= EVERYBODY
+
+        epoch = witness.authority.epoch
+        run.kill("station")
+        run.holds("nobody holds the authority")
+        run.back("station", first["station"])
+        up.until(lambda: witness.authority and witness.authority.epoch > epoch + 1, BACK_S, "a new authority")
+
+        run.executing(Mode.AUTONOMOUS)
+        run.kill("robot")
+        run.back("robot", first["robot"])
+
+        run.executing(Mode.AUTONOMOUS)
+        run.kill("router")
+        run.back("router", first["router"])
+        for name in ("viewer", "camera", "perception"):
+            run.kill(name)
+            run.back(name, first[name])
+        up.until(lambda: set(witness.next_beats(EVERYBODY - {"router"}, BACK_S)), 5.0, "everybody speaks again")
+
+        run.executing(Mode.REFINE)
+        run.kill("master")
+        run.holds("master has not been heard")
+        run.back("master", first["master"])
+
+        up.until(lambda: witness.teaching and witness.teaching.updates, 2 * EPISODE_S, "a refinement is learnt")
+        learnt = witness.asked(queries.DESCRIBE, queries.Describe()).state
+        run.kill("model")
+        run.back("model", first["model"])
+        kept = witness.asked(queries.DESCRIBE, queries.Describe()).state
+        assert kept.version >= learnt.version
+        assert kept.demonstrations >= learnt.demonstrations > 0
+        assert kept.updates >= learnt.updates > 0
+
+        assert up.ended(2 * EPISODE_S) == 0, up.tail()
+        assert up.left() == []
+    report = json.loads((tmp_path / "out.json").read_text())
+    assert report["loop_closed"] is True
+    assert {name for name, count in report["restarts"].items() if count} == EVERYBODY, "killed, and nothing else fell"
+    assert not set(report["processes"].values()) & set(first.values())
+
+
+@pytest.mark.parametrize("lives", [False, True], ids=["at once", "when all live"])
+def test_nothing_survives_a_killed_supervisor(tmp_path, lives):
+    endpoint = free_endpoint()
+    configuration = configured(tmp_path, endpoint)
+    with Command("up", "--fresh", "--headless", "--config", configuration, folder=tmp_path) as up:
+        if lives:
+            with Witness(endpoint) as witness:
+                witness.next_beats(EVERYBODY - {"router"}, START_S)
+        else:
+            up.until(lambda: len(up.left()) > len(EVERYBODY), START_S, "the children are there")
+        os.kill(up.process.pid, signal.SIGKILL)
+        up.process.wait()
+        eventually(lambda: not up.left(), 10.0, "the children end")
+
+
+def test_what_the_model_acknowledged_survives_its_kill(tmp_path, router):
+    database = f'database = "{tmp_path / "model.sqlite"}"'
+    configuration = configured(tmp_path, router, model=database)
+    rng = np.random.default_rng(1)
+    with Witness(router) as witness:
+        for version in range(1, 4):
+            with Command("model", "--config", configuration, folder=tmp_path) as model:
+                before = witness.asked(queries.DESCRIBE, queries.Describe()).state
+                assert (before.version, before.demonstrations) == (version - 1, version - 1)
+                witness.asked(queries.ADD_DEMONSTRATION, demonstration(rng))
+                model.process.kill()
+        with Command("model", "--config", configuration, folder=tmp_path):
+            assert witness.asked(queries.DESCRIBE, queries.Describe()).state.demonstrations == 3
+
+
+def demonstration(rng):
+    """A straight reach to some place."""
+    place = rng.uniform((0.6, -0.2, 0.4), (0.8, 0.2, 0.6))
+    positions = np.linspace((0.4, 0.0, 0.8), place, 75)
+    orientations = np.tile((1.0, 0.0, 0.0, 0.0), (75, 1))
+    motion = motion_to_wire(positions, orientations, 10.0)
+    return queries.AddDemonstration(queries.Kind.INITIAL, motion, tuple(place.tolist()), "dishwasher")
