@@ -114,7 +114,7 @@ class Child:
     def _start(self, now_ns: int) -> None:
         self._started_ns, self.exit_code = now_ns, None
         self._process = subprocess.Popen(
-            [sys.executable, "-m", "services", "--supervised", *self.job.arguments],
+            [sys.executable, "-m", "services", "--supervised", str(os.getpid()), *self.job.arguments],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,

@@ -62,7 +62,7 @@ def parser() -> argparse.ArgumentParser:
         epilog=EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    root.add_argument("--supervised", action="store_true", help=argparse.SUPPRESS)
+    root.add_argument("--supervised", type=int, metavar="PID", help=argparse.SUPPRESS)
     commands = root.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=_Parser)
     common = _common()
     _add_up(commands, common)
@@ -87,9 +87,15 @@ def parser() -> argparse.ArgumentParser:
     return root
 
 
+def _seed(text: str) -> int:
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"must be a whole number, at least 0, not {text!r}")
+    return int(text)
+
+
 def _add_scene(command: argparse.ArgumentParser) -> None:
     command.add_argument("--scene", metavar="S", help="dishwasher (default) or table")
-    command.add_argument("--seed", type=int, metavar="N", help="of the object's position and the scripted hand")
+    command.add_argument("--seed", type=_seed, metavar="N", help="of the object's position and the scripted hand")
 
 
 def _add_up(commands: argparse._SubParsersAction[_Parser], common: _Parser) -> None:
@@ -174,10 +180,10 @@ def _dispatch(arguments: argparse.Namespace) -> int:
         prepare_all()
         return 0
     settings = configuration(arguments)
-    if arguments.supervised:
+    if arguments.supervised is not None:
         from services.worker import die_with_parent  # noqa: PLC0415
 
-        die_with_parent()
+        die_with_parent(arguments.supervised)
     match arguments.command:
         case "up":
             from services.launch import Launch, launch  # noqa: PLC0415

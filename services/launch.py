@@ -72,6 +72,8 @@ class Launch:
                 raise CommandFailed(f"--only: unknown process {name!r}; there are {', '.join(PROCESS_NAMES)}")
         if arguments.json is not None and not arguments.json.parent.is_dir():
             raise CommandFailed(f"--json: the folder {arguments.json.parent} does not exist")
+        if arguments.json is not None and arguments.json.is_dir():
+            raise CommandFailed(f"--json: {arguments.json} is a folder; name a file in it")
         return cls(
             processes=names,
             router=arguments.connect is None,

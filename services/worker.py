@@ -22,9 +22,15 @@ log = logging.getLogger(__name__)
 _PR_SET_PDEATHSIG = 1
 
 
-def die_with_parent() -> None:
-    """Ask the kernel (Linux) for a SIGTERM when the supervisor dies, so that no process is left behind."""
+def die_with_parent(supervisor: int) -> None:
+    """Ask the kernel (Linux) for a SIGTERM when the supervisor dies, so that no process is left behind.
+
+    Args:
+        supervisor: its process id; where it has died already, nobody would send the signal.
+    """
     ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
+    if os.getppid() != supervisor:
+        os.kill(os.getpid(), signal.SIGTERM)
 
 
 def run_process(process: Process, configuration: Configuration) -> None:

@@ -83,8 +83,7 @@ def open_router(listen: str, connect: str | None = None) -> zenoh.Session:
     try:
         return zenoh.open(_configuration("router", connect, listen))
     except zenoh.ZError as error:
-        text = str(error)
-        if "listener" in text.lower() or "address" in text.lower():
+        if "listener bound to" in str(error):
             raise EndpointInUse(listen) from None
         raise BusError(f"cannot open a router on {listen}: {_reason(error)}") from None
 

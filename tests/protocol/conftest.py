@@ -10,6 +10,19 @@ import pytest
 from protocol.messages import Array, Motion, Pose
 
 
+EXAMPLES = {
+    Pose: Pose((0.1, 0.2, 0.3), (1.0, 0.0, 0.0, 0.0)),
+    Array: Array("<f8", (1, 2), b"\0" * 16),
+    Motion: Motion(Array("<f8", (2, 3), b"\0" * 48), Array("<f8", (2, 4), b"\0" * 64), 1.0),
+    bool: True,
+    int: 7,
+    float: 1.5,
+    str: "x",
+    bytes: b"\x01",
+}
+"""Of plain types, and of those whose fields have to fit each other."""
+
+
 def example(type_):
     """A valid value of a field's type."""
     origin, arguments = typing.get_origin(type_), typing.get_args(type_)
@@ -19,17 +32,9 @@ def example(type_):
         return example(next(a for a in arguments if a is not type(None)))
     if origin is tuple:
         return tuple(example(a) for a in arguments if a is not Ellipsis)
-    if type_ is Pose:
-        return Pose((0.1, 0.2, 0.3), (1.0, 0.0, 0.0, 0.0))
-    if type_ is Array:
-        return Array("<f8", (1, 2), b"\0" * 16)
-    if type_ is Motion:
-        return Motion(Array("<f8", (2, 3), b"\0" * 48), Array("<f8", (2, 4), b"\0" * 64), 1.0)
-    if issubclass(type_, msgspec.Struct):
-        return filled(type_)
-    if issubclass(type_, enum.Enum):
-        return next(iter(type_))
-    return {bool: True, int: 7, float: 1.5, str: "x", bytes: b"\x01"}[type_]
+    if type_ in EXAMPLES:
+        return EXAMPLES[type_]
+    return next(iter(type_)) if issubclass(type_, enum.Enum) else filled(type_)
 
 
 def _bounded(arguments):

@@ -1,5 +1,7 @@
 """Nothing malformed passes the codec, and any language can read what does."""
 
+import contextlib
+
 import msgpack
 import msgspec
 import pytest
@@ -78,10 +80,8 @@ def test_a_damaged_message_decodes_or_is_a_protocol_error(cut, flip):
     whole = bytearray(encode(topic, messages.MasterState()))
     whole[cut % len(whole)] ^= flip
     for payload in (bytes(whole), bytes(whole[: cut % len(whole)])):
-        try:
-            decode(topic, payload)
-        except ProtocolError as error:
-            assert "\n" not in str(error)
+        with contextlib.suppress(ProtocolError):
+            assert isinstance(decode(topic, payload), messages.MasterState)
 
 
 @pytest.mark.parametrize("number", [float("nan"), float("inf"), -float("inf"), 1e10])

@@ -101,10 +101,10 @@ def test_each_process_is_killed_in_turn_and_the_loop_still_closes(tmp_path):
         run.executing(Mode.AUTONOMOUS)
         run.kill("router")
         run.back("router", first["router"])
+        assert witness.next_beats(EVERYBODY - {"router"}, BACK_S), "everybody speaks again"
         for name in ("viewer", "camera", "perception"):
             run.kill(name)
             run.back(name, first[name])
-        up.until(lambda: set(witness.next_beats(EVERYBODY - {"router"}, BACK_S)), 5.0, "everybody speaks again")
 
         run.executing(Mode.REFINE)
         run.kill("master")

@@ -1,0 +1,200 @@
+"""The whole loop on this machine, cameras and viewer on: latency, regularity, pictures, processor, memory, start.
+
+Runs `retouch up --headless` as a person would and listens on the bus beside it. One run, every figure from it.
+"""
+
+import argparse
+import contextlib
+import json
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+import psutil
+
+from protocol import topics
+from protocol.codec import decode
+from protocol.exceptions import ProtocolError
+from protocol.messages import Mode, Phase
+from services.clock import SystemClock
+from services.zenoh_bus import Passing, close_session, open_session, watch
+
+RUN_TIMEOUT_S = 300.0
+MEMORY_EVERY_S = 5.0
+
+
+@dataclass(frozen=True)
+class Result:
+    """A measured figure beside its goal; `met` is None where there is no goal."""
+
+    name: str
+    value: float
+    unit: str
+    goal: float | None = None
+
+    @property
+    def met(self):
+        return None if self.goal is None else bool(self.value <= self.goal)
+
+
+class Ear:
+    """Everything that passes, as it is needed for the figures."""
+
+    def __init__(self):
+        self.clock = SystemClock()
+        self.robot_stamps = []
+        self.latencies = {}
+        self.pictures = {"head": [], "wrist": []}
+        self.beats = {}
+        self.haptic_p99 = []
+        self.first_motion_ns = None
+        self.refining = False
+
+    def hear(self, passing: Passing):
+        name = "/".join(passing.key.split("/")[3:5])
+        handler = {
+            topics.ROBOT_STATE.name: (topics.ROBOT_STATE, self._robot),
+            topics.HEAD_IMAGE.name: (topics.HEAD_IMAGE, self._picture),
+            topics.WRIST_IMAGE.name: (topics.WRIST_IMAGE, self._picture),
+            topics.HEARTBEAT.name: (topics.HEARTBEAT, self._beat),
+        }.get(name)
+        if handler is None:
+            return
+        topic, use = handler
+        try:
+            use(decode(topic, passing.payload, passing.schema))
+        except ProtocolError as error:
+            print(f"bench: {error}", file=sys.stderr)
+
+    def _robot(self, state):
+        if self.first_motion_ns is None and state.phase in (Phase.RAMP, Phase.EXECUTE):
+            self.first_motion_ns = self.clock.now_ns()
+        self.refining = state.mode is Mode.REFINE and state.phase is Phase.EXECUTE
+        self.robot_stamps.append(state.stamp_ns)
+        if self.refining and state.applied_latency >= 0.0:
+            self.latencies[state.applied_sequence] = state.applied_latency
+
+    def _picture(self, image):
+        now = self.clock.now_ns()
+        self.pictures[image.camera].append((now, (now - image.captured_ns) / 1e9))
+
+    def _beat(self, beat):
+        self.beats.setdefault(beat.process, []).append((self.clock.now_ns(), beat))
+        if beat.process == "master" and self.refining:
+            self.haptic_p99 += [f.value for f in beat.figures if f.name == "haptic_period_p99"]
+
+
+def free_endpoint():
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        return f"tcp/127.0.0.1:{server.getsockname()[1]}"
+
+
+def memory_of(pids):
+    """Proportional set size of the processes together [byte]: shared pages count once."""
+    total = 0
+    for pid in pids:
+        try:
+            total += psutil.Process(pid).memory_full_info().pss
+        except psutil.Error:
+            continue
+    return total
+
+
+def children_of(pid):
+    try:
+        return [pid, *(child.pid for child in psutil.Process(pid).children(recursive=True))]
+    except psutil.Error:
+        return []
+
+
+def run(scene):
+    """One run: what was heard, the report, the memory samples [byte] and when the command began [ns]."""
+    ear, memory = Ear(), []
+    endpoint = free_endpoint()
+    with tempfile.TemporaryDirectory() as folder:
+        report = Path(folder) / "report.json"
+        command = [sys.executable, "-m", "services", "up", "--fresh", "--headless", "--once", "--json", str(report)]
+        command += ["--scene", scene, "--listen", endpoint]
+        with (Path(folder) / "log.txt").open("w") as log:
+            began_ns = ear.clock.now_ns()
+            process = subprocess.Popen(command, cwd=folder, stdout=log, stderr=subprocess.STDOUT)
+            session = open_session(endpoint, timeout_s=30.0)
+            try:
+                watch(session, "retouch/@v1/*/**", ear.hear)
+                deadline = time.monotonic() + RUN_TIMEOUT_S
+                while process.poll() is None and time.monotonic() < deadline:
+                    memory.append(memory_of(children_of(process.pid)))
+                    with contextlib.suppress(subprocess.TimeoutExpired):
+                        process.wait(MEMORY_EVERY_S)
+            finally:
+                close_session(session)
+                process.terminate()
+                process.wait(10.0)
+        if not report.exists():
+            sys.exit("bench: the run ended without a report:\n" + (Path(folder) / "log.txt").read_text()[-2000:])
+        return ear, json.loads(report.read_text()), memory, began_ns
+
+
+def figures(ear, report, memory, began_ns):
+    latencies = np.array(list(ear.latencies.values())) * 1e3
+    periods = np.diff(np.array(ear.robot_stamps)) / 1e6
+    robot = ear.beats["robot"][-1][1]
+    first = (ear.first_motion_ns - began_ns) / 1e9 if ear.first_motion_ns else float("inf")
+    results = [
+        Result("time from the command to the first motion", first, "s", 10.0),
+        Result("sample to applied, p50", float(np.percentile(latencies, 50)), "ms", 5.0),
+        Result("sample to applied, p99", float(np.percentile(latencies, 99)), "ms", 15.0),
+        Result("control period, p50", float(np.percentile(periods, 50)), "ms"),
+        Result("control period, p99", float(np.percentile(periods, 99)), "ms"),
+        Result("late control ticks", 100.0 * robot.late_ticks / robot.ticks, "%", 1.0),
+        Result("haptic period p99, median of intervals", float(np.median(ear.haptic_p99)), "ms", 2.0),
+        Result("haptic period p99, worst interval", float(np.max(ear.haptic_p99)), "ms"),
+        Result("simulation behind the clock", _figure(robot, "simulation_lag"), "s"),
+    ]
+    for camera, pictures in ear.pictures.items():
+        stamps, ages = np.array(pictures).T
+        seconds_a_picture = float(np.median(np.diff(stamps))) / 1e9
+        results.append(
+            Result(f"{camera} camera, time between pictures", 1e3 * seconds_a_picture, "ms", 1e3 / 15 * 1.02)
+        )
+        results.append(Result(f"{camera} camera, age p50", 1e3 * float(np.median(ages)), "ms", 100.0))
+        results.append(Result(f"{camera} camera, age p99", 1e3 * float(np.percentile(ages, 99)), "ms"))
+    total = 0.0
+    for name, beats in sorted(ear.beats.items()):
+        (t0, a), (t1, b) = beats[0], beats[-1]
+        share = 100.0 * (b.cpu_s - a.cpu_s) / ((t1 - t0) / 1e9)
+        total += share
+        results.append(Result(f"{name}: processor", share, "% of a core"))
+        results.append(Result(f"{name}: memory, largest", b.memory / 1e6, "MB"))
+    results.append(Result("all processes: processor", total, "% of a core", 200.0))
+    results.append(Result("all processes: memory (shared pages once), largest", max(memory) / 1e6, "MB", 1500.0))
+    results.append(Result("loop closed", 1.0 - report["loop_closed"], "0 = yes", 0.0))
+    return results
+
+
+def _figure(beat, name):
+    return next((f.value for f in beat.figures if f.name == name), float("nan"))
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="deploy/bench loop", description=__doc__)
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures as JSON")
+    parser.add_argument("--scene", default="dishwasher", help="dishwasher (default) or table")
+    arguments = parser.parse_args()
+    print("bench: one run of the whole loop, about 80 s", file=sys.stderr)
+    results = figures(*run(arguments.scene))
+    width = max(len(r.name) for r in results)
+    for r in results:
+        goal = "" if r.goal is None else f"   goal {r.goal:g}: {'met' if r.met else 'MISSED'}"
+        print(f"{r.name:<{width}} {r.value:10.2f} {r.unit}{goal}")
+    if arguments.json is not None:
+        arguments.json.write_text(json.dumps([{**asdict(r), "met": r.met} for r in results], indent=2) + "\n")
+
+
+if __name__ == "__main__":
+    main()

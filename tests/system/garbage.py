@@ -1,0 +1,79 @@
+"""What a network can throw at a process: made from real messages, by what is wrong with them."""
+
+import random
+import secrets
+
+import msgpack
+
+from services.identity import boot_identity
+
+HOUR_NS = 3_600_000_000_000
+NESTED = 2000
+ANOTHER_VERSION = "Nonsense/9"
+NO_MESSAGES = (
+    b"",
+    b"\xc1",
+    msgpack.packb(None),
+    msgpack.packb(7),
+    msgpack.packb("text"),
+    msgpack.packb([1, 2, 3]),
+    msgpack.packb({1: 2}) + b"trailing",
+    b"\x91" * NESTED,
+    b"\xdf\xff\xff\xff\xff",  # a map of four thousand million entries
+    b"\xdd\xff\xff\xff\xff",  # a list of as many
+    b"\xc6\xff\xff\xff\xff",  # bytes of as many
+    b"\x81\xa9publisher\xcf" + b"\xff" * 8,
+)
+"""Bytes that are no message of any topic, and no request."""
+
+
+def fuzz(rng: random.Random, bound: int) -> bytes:
+    """Bytes at random, never a map."""
+    return b"\x93" + rng.randbytes(rng.randrange(min(bound, 4096)))
+
+
+def malformed(sample: bytes, rng: random.Random, count: int) -> list[bytes]:
+    """Messages that do not decode: truncated, of wrong types, with numbers that are none."""
+    fields = msgpack.unpackb(sample, strict_map_key=False)
+    wrong = [sample[: rng.randrange(len(sample))] for _ in range(count)]
+    wrong += [msgpack.packb({**fields, name: {"wrong": "type"}}) for name in fields]
+    wrong += [msgpack.packb({**fields, "sequence": value}) for value in (-1, 1.5, "1", None, 2**60)]
+    for number in (float("nan"), float("inf"), -float("inf"), 1e300):
+        poisoned = _with_reals(fields, number)
+        if poisoned != fields:
+            wrong.append(msgpack.packb(poisoned))
+    return wrong
+
+
+def oversized(bound: int, count: int) -> list[bytes]:
+    """A byte more than allowed."""
+    return [b"\0" * (bound + 1)] * count
+
+
+def from_the_future(sample: bytes, now_ns: int, count: int) -> list[bytes]:
+    """Sound messages of senders on this machine whose clock would be an hour ahead."""
+    return [_sent(sample, now_ns + HOUR_NS) for _ in range(count)]
+
+
+def from_the_past(sample: bytes, now_ns: int, count: int) -> list[bytes]:
+    """Sound messages of senders on this machine that took an hour."""
+    return [_sent(sample, max(0, now_ns - HOUR_NS)) for _ in range(count)]
+
+
+def _sent(sample: bytes, stamp_ns: int) -> bytes:
+    publisher = boot_identity() << 47 | secrets.randbits(47)
+    fields = msgpack.unpackb(sample, strict_map_key=False)
+    return msgpack.packb({**fields, "publisher": publisher, "sequence": 1, "stamp_ns": stamp_ns})
+
+
+def _with_reals(value, number):
+    """The value with all its real numbers replaced."""
+    match value:
+        case float():
+            return number
+        case dict():
+            return {key: _with_reals(inner, number) for key, inner in value.items()}
+        case list():
+            return [_with_reals(inner, number) for inner in value]
+        case _:
+            return value

@@ -1,0 +1,242 @@
+"""Nothing that arrives on a network stops a process, moves the robot or changes what is known."""
+
+import random
+import time
+
+import msgpack
+import msgspec
+import numpy as np
+import pytest
+
+from protocol import messages, queries, topics
+from protocol.codec import decode_reply, encode
+from protocol.messages import Array, Phase
+from protocol.topics import TOPICS
+from services.bus import Outbox
+from services.identity import new_publisher
+from services.processes import PROCESS_NAMES
+from tests.system import garbage
+from tests.system.harness import START_S, Command, Stranger, Witness, configured, eventually, free_endpoint
+
+pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.sim]
+
+REPEATS = 10
+LARGE_REPEATS = 2
+EPISODE_S = 60.0
+STILL_RAD = 1e-3
+
+
+class Network:
+    """A whole system that waits for its operator, a stranger on its network, and what passed on each topic."""
+
+    def __init__(self, up, witness, stranger, samples):
+        self.up = up
+        self.witness = witness
+        self.stranger = stranger
+        self.samples = samples
+
+    def send(self, topic, payloads, schema=None):
+        for payload in payloads:
+            self.stranger.put(topic.key("robot1", "stranger"), payload, topic.schema if schema is None else schema)
+
+    def publish(self, topic, message):
+        """A sound message, of a sender that nobody knows."""
+        stamped = Outbox(new_publisher()).stamp(topic, message, time.monotonic_ns())
+        self.send(topic, [encode(topic, stamped)])
+
+
+@pytest.fixture(scope="module")
+def network(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("garbage")
+    endpoint = free_endpoint()
+    configuration = configured(folder, endpoint, station="autonomous_s = 5.0")
+    with (
+        Command("up", "--fresh", "--no-browser", "--config", configuration, folder=folder) as up,
+        Witness(endpoint) as witness,
+        Stranger(endpoint) as stranger,
+    ):
+        heard = stranger.listen("retouch/@v1/robot1/**", kept=20_000)
+        decided = lambda: witness.teaching and witness.teaching.phase == "deciding"  # noqa: E731
+        up.until(decided, START_S + EPISODE_S, "the first prediction is executed, and the operator is asked")
+        samples = {}
+        for passing in list(heard):
+            subject = "/".join(passing.key.split("/")[3:5])
+            samples[subject] = passing.payload
+        # The only topic on which nothing has passed yet.
+        press = messages.EmergencyStop(pressed=True, by="stranger", sequence=1)
+        samples[topics.EMERGENCY_STOP.name] = encode(topics.EMERGENCY_STOP, press)
+        yield Network(up, witness, stranger, samples)
+
+
+@pytest.fixture
+def unmoved(network):
+    """All processes live on as the same ones, the robot stands, the authority and the model are as they were."""
+    witness = network.witness
+    before = witness.next_beats(PROCESS_NAMES)
+    authority, model, robot = witness.authority, witness.model, witness.robot
+    yield before
+    after = witness.next_beats(PROCESS_NAMES)
+    assert {name: beat.pid for name, beat in after.items()} == {name: beat.pid for name, beat in before.items()}
+    told = lambda state: msgspec.structs.replace(state, publisher=0, sequence=0, stamp_ns=0)  # noqa: E731
+    assert told(eventually(lambda: witness.model, 5.0, "the model's state")) == told(model)
+    assert (witness.authority.holder, witness.authority.epoch) == (authority.holder, authority.epoch)
+    assert witness.robot.phase is Phase.IDLE
+    assert witness.robot.episode == robot.episode
+    assert np.abs(np.subtract(witness.robot.q, robot.q)).max() < STILL_RAD
+    assert not eventually(lambda: witness.safety, 5.0, "the safety state").emergency_stop
+    assert "Traceback" not in network.up.out + network.up.err
+
+
+def drops(beats):
+    """(process, topic) to what was dropped so far."""
+    return {(name, figures.topic): figures for name, beat in beats.items() for figures in beat.topics}
+
+
+def test_every_topic_drops_and_counts_what_is_no_message(network, unmoved):
+    rng = random.Random(1)
+    started_ns = time.monotonic_ns()
+    sent = {topic.name: {} for topic in TOPICS}
+    total = 0
+    for topic in TOPICS:
+        sample = network.samples[topic.name]
+        large = topic.max_bytes > 100_000
+        repeats = LARGE_REPEATS if large else REPEATS
+        now_ns = time.monotonic_ns()
+        kinds = {
+            "malformed": [
+                *garbage.NO_MESSAGES,
+                *garbage.malformed(sample, rng, repeats),
+                *(garbage.fuzz(rng, topic.max_bytes) for _ in range(5 * repeats)),
+            ],
+            "oversized": garbage.oversized(topic.max_bytes, repeats),
+            "wrong_version": [sample] * repeats,
+            "future": garbage.from_the_future(sample, now_ns, repeats),
+            "repeated": [sample] * repeats if topic is not topics.EMERGENCY_STOP else [],
+            "stale": garbage.from_the_past(sample, now_ns, repeats) if topic.stale_after_ns is not None else [],
+        }
+        for kind, payloads in kinds.items():
+            network.send(topic, payloads, schema=garbage.ANOTHER_VERSION if kind == "wrong_version" else None)
+            sent[topic.name][kind] = len(payloads)
+            total += len(payloads)
+        foreign = topic.key("robot1", "stranger").replace("@v1", "@v9")
+        network.stranger.put(foreign, sample, topic.schema)
+    assert total > 1000
+
+    before = drops(unmoved)
+    assert {topic for _, topic in before} >= {topic.name for topic in TOPICS if topic is not topics.HEARTBEAT}
+
+    def missing():
+        after = drops(network.witness.next_beats(PROCESS_NAMES))
+        return [
+            (process, topic, cause, count, getattr(after[process, topic], cause) - getattr(figures, cause))
+            for (process, topic), figures in before.items()
+            for cause, count in sent[topic].items()
+            if getattr(after[process, topic], cause) - getattr(figures, cause) < count
+        ]
+
+    eventually(lambda: not missing(), 20.0, f"every drop is counted; missing are {missing()}")
+    elapsed = (time.monotonic_ns() - started_ns) / 1e9
+    robot = network.witness.next_beats({"robot"})["robot"]
+    kept = (robot.ticks - unmoved["robot"].ticks) / (elapsed * robot.rate_hz)
+    assert kept > 0.9, f"the robot kept {kept:.0%} of its control periods"
+
+
+def test_every_query_refuses_what_is_no_request(network, unmoved):
+    rng = random.Random(2)
+    for query in queries.QUERIES:
+        sample = msgpack.packb({"epoch": 0, "holder": 7, "by": 7, "kind": 7, "prediction": 7, "object_position": 7})
+        wrong = [
+            *garbage.NO_MESSAGES,
+            *(garbage.fuzz(rng, 4096) for _ in range(REPEATS)),
+            b"\0" * (query.max_bytes + 1),
+        ]
+        if query.request not in (queries.Undo, queries.Describe):  # which have no field that could be wrong
+            wrong.append(sample)
+        for payload, schema in [*((payload, query.schema) for payload in wrong), (sample, garbage.ANOTHER_VERSION)]:
+            (answer,) = network.stranger.get(query.key("robot1"), payload, schema)
+            reply = decode_reply(query, answer)
+            assert isinstance(reply, queries.Refused), (query.name, payload[:80], reply)
+
+
+def test_a_command_without_authority_is_refused(network, unmoved):
+    motion = motion_of(network.samples)
+    for query, request in (
+        (queries.EXECUTE, queries.Execute(0, 1, messages.Mode.AUTONOMOUS, motion)),
+        (queries.RESET, queries.Reset(0)),
+        (queries.FINISH, queries.Finish(0)),
+        (queries.RELEASE, queries.ReleaseAuthority("station", 0)),
+        (queries.ACQUIRE, queries.AcquireAuthority("stranger")),
+        (queries.RELEASE_STOP, queries.ReleaseStop("stranger")),
+        (queries.UNDO, queries.Undo()),
+        (
+            queries.ADD_DEMONSTRATION,
+            queries.AddDemonstration(queries.Kind.UPDATE, hollow(motion), (0.7, 0.0, 0.5), "x"),
+        ),
+    ):
+        outcome = network.witness.ask(query, request)
+        assert isinstance(outcome, queries.Refused), (query.name, outcome)
+        assert outcome.reason
+
+
+def motion_of(samples):
+    """The prediction that was executed."""
+    return msgspec.msgpack.decode(samples[topics.PREDICTION.name], type=messages.Prediction).motion
+
+
+def nonsense(*shape):
+    """An array that the codec lets pass and that holds no number."""
+    return Array("<f8", shape, np.full(shape, np.nan).tobytes())
+
+
+def hollow(motion):
+    """A motion that holds no number."""
+    return msgspec.structs.replace(motion, positions=nonsense(*motion.positions.shape))
+
+
+def test_sound_messages_with_senseless_content_stop_nobody(network, unmoved):
+    decode = {
+        topic.name: msgspec.msgpack.decode(network.samples[topic.name], type=topic.type)
+        for topic in TOPICS
+        if topic.name in network.samples
+    }
+    replace = msgspec.structs.replace
+    world, image = decode[topics.WORLD_STATE.name], decode[topics.HEAD_IMAGE.name]
+    prediction, execution = decode[topics.PREDICTION.name], decode[topics.EXECUTION.name]
+    scene, robot = decode[topics.SCENE_STATE.name], decode[topics.ROBOT_STATE.name]
+    result = decode[topics.EPISODE_RESULT.name]
+    motion = prediction.motion
+    odd = (
+        Array("<f8", (), np.float64(1.0).tobytes()),
+        Array("<f8", (0,), b""),
+        Array("<f8", (3, 5), bytes(120)),
+        Array("|u1", (2, 3), bytes(6)),
+        nonsense(2, 3),
+    )
+    bytes_of_no_picture = (b"", b"\xff\xd8\xff", b"no picture" * 100, image.data[: len(image.data) // 2])
+    senseless = [
+        *((topics.WORLD_STATE, replace(world, qpos=array)) for array in odd),
+        *((topics.PREDICTION, replace(prediction, deviations=array)) for array in odd),
+        *((topics.EXECUTION, replace(execution, refined=array)) for array in odd),
+        *((topics.HEAD_IMAGE, replace(image, data=data)) for data in bytes_of_no_picture),
+        *((topics.WRIST_IMAGE, replace(image, data=data, camera="wrist")) for data in bytes_of_no_picture),
+        (topics.HEAD_IMAGE, replace(image, intrinsics=(0.0, 0.0, 0.0, 0.0))),
+        (topics.HEAD_IMAGE, replace(image, width=2**53, height=0, camera="/../..")),
+        (topics.PREDICTION, replace(prediction, motion=hollow(motion))),
+        (topics.EXECUTION, replace(execution, prediction=hollow(motion))),
+        (topics.EPISODE_RESULT, replace(result, request=0, commanded=hollow(motion), reason="x" * 4096)),
+        (topics.SCENE_STATE, replace(scene, name="nowhere", variant="none", variants=(), boxes=())),
+        (topics.SCENE_STATE, replace(scene, ellipsoid_radii=(0.0, -1.0, 1e9), object_size=(-1.0, 0.0, 1e9))),
+        (topics.ROBOT_STATE, replace(robot, joint_names=("a",), q=(), qd=(1e9,), hold_reason="\0\x1b[2J\n")),
+        (topics.ROBOT_STATE, replace(robot, joint_names=(), q=(1e9,) * 64, clamped=("",) * 16)),
+        (topics.OBJECT_POSE, replace(decode[topics.OBJECT_POSE.name], tag=2**53, error=-1e9)),
+        (topics.MASTER_STATE, replace(decode[topics.MASTER_STATE.name], displacement=(1e9, 1e9, 1e9), engaged=True)),
+        (topics.OPERATOR_INPUT, messages.OperatorInput(keys=("\0",) * 32, focused=True, axes=(1e9,) * 16)),
+        (topics.AUTHORITY_RENEWAL, messages.AuthorityRenewal(holder="stranger", epoch=2**53)),
+        (topics.EMERGENCY_STOP, messages.EmergencyStop(pressed=False, by="")),
+        (topics.RECORDING, messages.Recording(path="\0", viewer_url="javascript:alert(1)", recording_id="")),
+        (topics.HEARTBEAT, replace(unmoved["robot"], process="\x1b[31m", pid=0, host="[/]", rate_hz=-1e9)),
+    ]
+    for _ in range(3):
+        for topic, message in senseless:
+            network.publish(topic, message)
+        network.witness.next_beats(PROCESS_NAMES)
