@@ -65,12 +65,15 @@ class Freshness:
             return Judgement.FUTURE
         if sequence <= known.sequence:
             return Judgement.REPEATED
-        known.sequence = sequence
         if not comparable:
             forgotten = known.fastest_transit_ns + int(DRIFT * (received_ns - known.received_ns))
             known.fastest_transit_ns = min(forgotten, transit)
             known.received_ns = received_ns
-        return Judgement.STALE if self._is_late(transit - known.fastest_transit_ns) else Judgement.FRESH
+        if self._is_late(transit - known.fastest_transit_ns):
+            return Judgement.STALE
+        # Only a fresh sample counts the sender on: a late one with a made-up number must not silence its true sender.
+        known.sequence = sequence
+        return Judgement.FRESH
 
     def _is_late(self, age_ns: int) -> bool:
         return self._stale_after_ns is not None and age_ns > self._stale_after_ns

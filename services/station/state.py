@@ -114,6 +114,7 @@ class Workflow:
         since_s: when it came there [s].
         asking: a query of this phase is under way.
         retry_s: not to ask again before [s].
+        resume: where to go on once the authority is there.
         epoch: of the authority.
         request: number of the newest episode asked for.
         mode: of the next episode.
@@ -135,6 +136,7 @@ class Workflow:
     since_s: float = 0.0
     asking: bool = False
     retry_s: float = 0.0
+    resume: Phase = Phase.RESETTING
     epoch: int = 0
     request: int = 0
     mode: Mode = Mode.AUTONOMOUS

@@ -1,8 +1,8 @@
 """The teaching workflow (thesis, Algorithm 1) as one pure function of state and view.
 
 Look at the object, predict, execute; where that fails, execute again under correction; where that succeeds, learn;
-predict again. Every loss on the way (robot restarted, authority gone, object not seen) leads back to the point from
-which all of it can be done anew: ask for the authority, reset, look.
+predict again. A lost authority is asked for again, and the run goes on where it was: the robot holds meanwhile. What
+cannot go on (a robot that was restarted, an episode without an end) is done anew from the reset.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ import numpy as np
 
 from protocol import queries
 from protocol.messages import Attempt, EpisodeResult, Mode, Motion, Outcome
+from protocol.messages import Phase as RobotPhase
 from protocol.queries import Query
 from services.bus import Failed
 from services.station.state import Action, Ask, Phase, Settings, Step, View, Workflow
@@ -29,6 +30,11 @@ EPISODE_GRACE_S = 45.0
 SAME_CONDITION_M = 0.02
 """Two sightings of an object that nobody moved differ by a few millimetres."""
 
+IDLE_S = 3.0
+"""A robot that is idle for so long while an episode should run has forgotten it: it was restarted."""
+
+_RESUMED = frozenset({Phase.DECIDING, Phase.EXECUTING})
+
 _WITHOUT_AUTHORITY = frozenset({Phase.WAITING, Phase.ACQUIRING, Phase.RELEASING, Phase.FINISHED})
 
 
@@ -41,7 +47,8 @@ def advance(state: Workflow, view: View, settings: Settings) -> Step:
             return Step(_to(state, Phase.RELEASING, view))
         return Step(replace(state, offered=frozenset({Action.RELEASE_STOP})))
     if state.phase not in _WITHOUT_AUTHORITY and _authority_lost(state, view, settings):
-        return Step(_to(state, Phase.WAITING, view, notice="The authority was lost."))
+        resume = state.phase if state.phase in _RESUMED else Phase.RESETTING
+        return Step(_to(state, Phase.WAITING, view, resume=resume, notice="The authority was lost."))
     return _PHASES[state.phase](state, view, settings)
 
 
@@ -99,11 +106,7 @@ def _asked(state: Workflow, view: View, query: Query[Any, Any], request: msgspec
 
 def _waiting(state: Workflow, view: View, settings: Settings) -> Step:
     del settings
-    missing = [
-        name
-        for name, there in (("robot", view.robot and view.scene), ("model", view.model), ("camera", view.seen))
-        if not there
-    ]
+    missing = [name for name, there in (("robot", view.robot and view.scene), ("model", view.model)) if not there]
     if missing:
         return Step(replace(state, notice=f"Waiting for the {' and the '.join(missing)}."))
     if view.model is not None and not view.model.demonstrations + view.model.updates:
@@ -118,7 +121,7 @@ def _acquiring(state: Workflow, view: View, settings: Settings) -> Step:
     reply = _asked(state, view, queries.ACQUIRE, request)
     if isinstance(reply, Step):
         return Step(replace(reply.state, offered=frozenset({Action.TAKE_OVER})), reply.ask)
-    return Step(_to(state, Phase.RESETTING, view, epoch=reply.epoch))
+    return Step(_to(state, state.resume, view, epoch=reply.epoch, resume=Phase.RESETTING))
 
 
 def _resetting(state: Workflow, view: View, settings: Settings) -> Step:
@@ -167,7 +170,9 @@ def _duration(mode: Mode, settings: Settings) -> float:
 def _executing(state: Workflow, view: View, settings: Settings) -> Step:
     if view.result is not None and view.result.request == state.request:
         return _judged(state, view, view.result)
-    if view.now_s - state.since_s > _duration(state.mode, settings) + EPISODE_GRACE_S:
+    elapsed = view.now_s - state.since_s
+    forgotten = view.robot is not None and view.robot.phase is RobotPhase.IDLE and elapsed > IDLE_S
+    if forgotten or elapsed > _duration(state.mode, settings) + EPISODE_GRACE_S:
         return Step(_to(state, Phase.WAITING, view, notice="The episode was lost."))
     if Action.FINISH in view.actions:
         return Step(state, Ask(queries.FINISH, queries.Finish(state.epoch)))
@@ -230,7 +235,10 @@ def _undoing(state: Workflow, view: View, settings: Settings) -> Step:
 
 def _releasing(state: Workflow, view: View, settings: Settings) -> Step:
     reply = _asked(state, view, queries.RELEASE_STOP, queries.ReleaseStop(settings.holder))
-    return reply if isinstance(reply, Step) else Step(_to(state, Phase.WAITING, view))
+    if isinstance(reply, Step):
+        return reply
+    # After a stop nothing moves by itself: the operator decides.
+    return Step(_to(state, Phase.WAITING, view, resume=Phase.DECIDING, last=None))
 
 
 def _deciding(state: Workflow, view: View, settings: Settings) -> Step:

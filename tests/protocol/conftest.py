@@ -9,7 +9,6 @@ import pytest
 
 from protocol.messages import Array, Motion, Pose
 
-
 EXAMPLES = {
     Pose: Pose((0.1, 0.2, 0.3), (1.0, 0.0, 0.0, 0.0)),
     Array: Array("<f8", (1, 2), b"\0" * 16),

@@ -27,6 +27,12 @@ def test_a_late_sample_is_stale(freshness):
     assert freshness.judge(SAME_MACHINE, 1, HOUR, HOUR + 101 * MS) is Judgement.STALE
 
 
+def test_a_late_sample_with_a_made_up_number_does_not_silence_its_sender(freshness):
+    freshness.judge(SAME_MACHINE, 1, HOUR, HOUR)
+    assert freshness.judge(SAME_MACHINE, 10**6, 0, HOUR) is Judgement.STALE
+    assert freshness.judge(SAME_MACHINE, 2, HOUR, HOUR) is Judgement.FRESH
+
+
 def test_events_are_never_stale():
     assert Freshness(None, OWN).judge(SAME_MACHINE, 1, 0, HOUR) is Judgement.FRESH
 

@@ -18,6 +18,10 @@ COLLIDED = Outcome(reached=False, kicked_over=False, collision=True)
 MISSED = Outcome(reached=False, kicked_over=False, collision=False)
 
 
+def robot_state(phase):
+    return messages.RobotState(measured=POSE, reference=POSE, phase=phase)
+
+
 class Site:
     """Everything around the station, answering as a healthy system does; a run is a list of verdicts."""
 
@@ -31,7 +35,7 @@ class Site:
         self.asked = []
         self.view = View(
             now_s=0.0,
-            robot=messages.RobotState(measured=POSE, reference=POSE, phase=messages.Phase.IDLE),
+            robot=robot_state(messages.Phase.EXECUTE),
             authority=messages.AuthorityState(holder="", epoch=self.epoch, expires_in=0.0),
             safety=messages.SafetyState(emergency_stop=False),
             scene=messages.SceneState(
@@ -213,14 +217,21 @@ def test_undo_takes_the_update_back_and_tries_again():
     assert site.state.updates == 0
 
 
-@pytest.mark.parametrize("lost", ["robot", "model", "seen"])
+@pytest.mark.parametrize("lost", ["robot", "model"])
 def test_it_waits_for_who_is_missing_and_says_so(lost):
     site = Site(SCRIPTED)
-    word = {"seen": "camera"}.get(lost, lost)
     for _ in range(5):
         site.step(**{lost: None})
     assert site.state.phase is Phase.WAITING
-    assert word in site.state.notice
+    assert lost in site.state.notice
+
+
+def test_it_looks_until_the_object_is_seen():
+    site = Site(SCRIPTED)
+    site.run_to(Phase.LOOKING, seen=None)
+    for _ in range(5):
+        site.step(seen=None)
+    assert site.state.phase is Phase.LOOKING
 
 
 def test_a_failed_question_is_shown_and_asked_again():
@@ -233,15 +244,40 @@ def test_a_failed_question_is_shown_and_asked_again():
     site.run_to(Phase.EXECUTING)
 
 
-def test_a_lost_authority_is_asked_for_again_and_the_episode_repeated():
-    site = Site(SCRIPTED)
-    site.run_to(Phase.EXECUTING)
-    site.view = replace(site.view, authority=messages.AuthorityState(holder="", epoch=99, expires_in=0.0))
-    site.epoch = 99
+def lose_authority(site):
+    site.epoch += 50
+    site.view = replace(site.view, authority=messages.AuthorityState(holder="", epoch=site.epoch, expires_in=0.0))
     site.step()
     assert site.state.phase is Phase.WAITING
+
+
+def test_a_lost_authority_is_asked_for_again_and_the_episode_goes_on():
+    site = Site(SCRIPTED)
     site.run_to(Phase.EXECUTING)
-    assert site.state.epoch == 100
+    request = site.state.request
+    lose_authority(site)
+    site.run_to(Phase.EXECUTING)
+    assert site.state.epoch == site.epoch
+    assert site.state.request == request
+
+
+def test_a_robot_that_was_restarted_is_given_the_episode_again():
+    site = Site(SCRIPTED)
+    site.run_to(Phase.EXECUTING)
+    request = site.state.request
+    lose_authority(site)
+    site.run_to(Phase.RESETTING, robot=robot_state(messages.Phase.IDLE))
+    site.run_to(Phase.EXECUTING)
+    assert site.state.request == request + 1
+
+
+def test_an_operator_who_was_deciding_decides_once_the_authority_is_back():
+    site = Site(BY_HAND, [COLLIDED])
+    site.run_to(Phase.DECIDING)
+    asked = len(site.asked)
+    lose_authority(site)
+    site.run_to(Phase.DECIDING)
+    assert site.names()[asked:] == ["authority/acquire"]
 
 
 def test_an_episode_that_never_ends_is_repeated():
@@ -259,8 +295,19 @@ def test_the_emergency_stop_offers_nothing_but_its_release():
     site.step(safety=stopped)
     assert site.state.offered == {Action.RELEASE_STOP}
     site.step(safety=stopped, actions=frozenset({Action.RELEASE_STOP}))
+    assert site.state.phase is Phase.RELEASING
+
+
+def test_after_a_stop_nothing_moves_until_the_operator_says_so():
+    site = Site(BY_HAND)
     site.run_to(Phase.EXECUTING)
-    assert "safety/release_stop" in site.names()
+    stopped = messages.SafetyState(emergency_stop=True, by="someone")
+    site.step(safety=stopped, actions=frozenset({Action.RELEASE_STOP}))
+    asked = len(site.asked)
+    site.run_to(Phase.DECIDING)
+    for _ in range(5):
+        site.step()
+    assert site.names()[asked:] == ["safety/release_stop", "authority/acquire"]
 
 
 def attempt(mode, outcome, version, x=0.85):

@@ -8,23 +8,25 @@ import msgpack
 from services.identity import boot_identity
 
 HOUR_NS = 3_600_000_000_000
-NESTED = 2000
+NESTED = 100_000
 ANOTHER_VERSION = "Nonsense/9"
-NO_MESSAGES = (
-    b"",
-    b"\xc1",
-    msgpack.packb(None),
-    msgpack.packb(7),
-    msgpack.packb("text"),
-    msgpack.packb([1, 2, 3]),
-    msgpack.packb({1: 2}) + b"trailing",
-    b"\x91" * NESTED,
-    b"\xdf\xff\xff\xff\xff",  # a map of four thousand million entries
-    b"\xdd\xff\xff\xff\xff",  # a list of as many
-    b"\xc6\xff\xff\xff\xff",  # bytes of as many
-    b"\x81\xa9publisher\xcf" + b"\xff" * 8,
-)
-"""Bytes that are no message of any topic, and no request."""
+
+
+def no_messages(bound: int) -> list[bytes]:
+    """Bytes that are no message of any topic, and no request, none longer than the bound."""
+    return [
+        b"",
+        b"\xc1",
+        msgpack.packb(None),
+        msgpack.packb(7),
+        msgpack.packb("text"),
+        msgpack.packb([1, 2, 3]),
+        msgpack.packb({1: 2}) + b"trailing",
+        b"\x91" * min(bound, NESTED),
+        b"\xdf\xff\xff\xff\xff",  # a map of four thousand million entries
+        b"\xdd\xff\xff\xff\xff",  # a list of as many
+        b"\xc6\xff\xff\xff\xff",  # bytes of as many
+    ]
 
 
 def fuzz(rng: random.Random, bound: int) -> bytes:
@@ -56,8 +58,11 @@ def from_the_future(sample: bytes, now_ns: int, count: int) -> list[bytes]:
 
 
 def from_the_past(sample: bytes, now_ns: int, count: int) -> list[bytes]:
-    """Sound messages of senders on this machine that took an hour."""
-    return [_sent(sample, max(0, now_ns - HOUR_NS)) for _ in range(count)]
+    """Sound messages that took an hour, of new senders on this machine and of the real one, counted far ahead."""
+    fields = msgpack.unpackb(sample, strict_map_key=False)
+    stamp_ns = max(0, now_ns - HOUR_NS)
+    ahead = msgpack.packb({**fields, "sequence": 2**53, "stamp_ns": stamp_ns})
+    return [ahead, *(_sent(sample, stamp_ns) for _ in range(count - 1))]
 
 
 def _sent(sample: bytes, stamp_ns: int) -> bytes:

@@ -33,10 +33,11 @@ EVERYBODY = {"router", *PROCESS_NAMES}
 
 
 def eventually(seen, within_s, what):
-    """The first true value of `seen()`."""
+    """The first true value of `seen()`; `what` is waited for, as text or as a function that gives it."""
     deadline = time.monotonic() + within_s
     while not (value := seen()):
-        assert time.monotonic() < deadline, f"not within {within_s:g} s: {what}"
+        if time.monotonic() > deadline:
+            raise AssertionError(f"not within {within_s:g} s: {what() if callable(what) else what}")
         time.sleep(POLL_S)
     return value
 
@@ -259,7 +260,7 @@ class Witness:
         return eventually(
             lambda: beats if set(names) <= set(beats := self.beats()) else None,
             within_s,
-            f"heartbeats of {sorted(names)}, only {sorted(self._beats)}",
+            lambda: f"heartbeats of {sorted(names)}, only {sorted(self._beats)} came",
         )
 
     def ask(self, query, request, within_s=5.0):

@@ -1,0 +1,289 @@
+"""The bus over real Zenoh obeys the laws of the bus, and people can look at it and stop it."""
+
+import os
+import re
+import signal
+import time
+
+import msgpack
+import numpy as np
+import pytest
+
+from protocol import queries, topics
+from protocol.messages import AuthorityRenewal, EmergencyStop, MasterState, ModelState, OperatorInput, Phase
+from services.arrays import motion_to_wire
+from services.bus import Failed
+from services.clock import SystemClock
+from services.exceptions import BusError, NameTaken
+from services.zenoh_bus import connect
+from tests.system.harness import Command, Stranger, Witness, eventually, free_endpoint
+
+pytestmark = [pytest.mark.system, pytest.mark.zenoh]
+
+WITHIN_S = 10.0
+
+
+@pytest.fixture
+def bus(router):
+    """A function that opens the bus of another process."""
+    opened = []
+
+    def open_one(process, robot="robot1"):
+        opened.append(connect(router, robot, process, SystemClock()))
+        return opened[-1]
+
+    yield open_one
+    for one in opened:
+        one.close()
+
+
+def answering(server, reply):
+    """A condition that answers what has come; true once something has."""
+
+    def answered():
+        calls = server.take()
+        for call in calls:
+            call.reply(reply)
+        return calls
+
+    return answered
+
+
+def heard(sender, topic, message, subscription):
+    """Publish until the subscription has heard it: the network takes a moment to know who listens."""
+
+    def there():
+        sender.publish(topic, message)
+        return subscription.latest()
+
+    return eventually(there, WITHIN_S, f"{topic.name} is heard").message
+
+
+def test_the_latest_wins(bus):
+    sender, subscription = bus("a"), bus("b").subscribe(topics.OPERATOR_INPUT)
+    heard(sender, topics.OPERATOR_INPUT, OperatorInput(), subscription)
+    for key in ("KeyQ", "KeyW", "KeyE"):
+        sender.publish(topics.OPERATOR_INPUT, OperatorInput(keys=(key,)))
+    eventually(lambda: subscription.latest().message.keys == ("KeyE",), WITHIN_S, "the last one comes")
+    assert len(subscription.take()) == 1
+
+
+def test_what_a_topic_keeps_comes_whole_and_in_order(bus):
+    sender, subscription = bus("a"), bus("b").subscribe(topics.AUTHORITY_RENEWAL)
+    heard(sender, topics.AUTHORITY_RENEWAL, AuthorityRenewal(holder="a", epoch=0), subscription)
+    subscription.take()
+    for epoch in range(1, topics.AUTHORITY_RENEWAL.kept + 1):
+        sender.publish(topics.AUTHORITY_RENEWAL, AuthorityRenewal(holder="a", epoch=epoch))
+    eventually(lambda: subscription.latest().message.epoch == topics.AUTHORITY_RENEWAL.kept, WITHIN_S, "all come")
+    epochs = [received.message.epoch for received in subscription.take()]
+    assert epochs == list(range(1, topics.AUTHORITY_RENEWAL.kept + 1))
+
+
+def test_a_message_says_who_sent_it_and_when(bus):
+    sender, receiver = bus("a"), bus("b")
+    before = time.monotonic_ns()
+    message = heard(sender, topics.MASTER_STATE, MasterState(), receiver.subscribe(topics.MASTER_STATE))
+    assert message.publisher == sender.identity != receiver.identity
+    assert before <= message.stamp_ns <= time.monotonic_ns()
+    (figures,) = receiver.figures()
+    assert 0.0 <= figures.latency < 1.0
+
+
+@pytest.mark.parametrize(
+    ("payload", "schema", "cause"),
+    [
+        (b"\xc1", "", "malformed"),
+        (b"\0" * 2000, "", "oversized"),
+        (b"\x80", "MasterState/9", "wrong_version"),
+    ],
+)
+def test_what_is_thrown_away_is_counted_and_named_and_nothing_else_happens(bus, router, payload, schema, cause):
+    receiver = bus("b")
+    subscription = receiver.subscribe(topics.MASTER_STATE)
+    with Stranger(router) as stranger:
+        stranger.put(topics.MASTER_STATE.key("robot1", "a"), payload, schema)
+        eventually(lambda: getattr(subscription.drops, cause) == 1, WITHIN_S, "it is counted")
+    assert subscription.latest() is None
+    assert "cmd/master_state" in receiver.faults()[0]
+
+
+def test_a_question_is_answered_and_a_refusal_is_an_answer(bus):
+    server, asker = bus("model").serve(queries.UNDO), bus("station")
+    for reply in (
+        queries.Refused("nothing to take back"),
+        queries.Learnt(ModelState(kind="adaptive", version=3, demonstrations=2, updates=1, scene="table")),
+    ):
+        pending = asker.ask(queries.UNDO, queries.Undo())
+        eventually(answering(server, reply), WITHIN_S, "the question comes")
+        assert eventually(pending.poll, WITHIN_S, "the answer comes") == reply
+
+
+def test_a_question_that_nobody_answers_fails_at_once_and_says_whom_it_misses(bus):
+    pending = bus("station").ask(queries.UNDO, queries.Undo(), timeout_s=WITHIN_S)
+    outcome = eventually(pending.poll, WITHIN_S / 2, "the failure")
+    assert isinstance(outcome, Failed)
+    assert "model" in outcome.reason
+
+
+def test_a_question_whose_server_is_silent_fails_in_time(bus):
+    server = bus("model").serve(queries.UNDO)
+    pending = bus("station").ask(queries.UNDO, queries.Undo(), timeout_s=0.5)
+    outcome = eventually(pending.poll, WITHIN_S, "the failure")
+    assert isinstance(outcome, Failed)
+    assert server.take(), "the question had come"
+
+
+def test_a_name_is_taken_until_its_holder_leaves(bus, router):
+    holder = bus("robot")
+    with pytest.raises(NameTaken, match="robot1"):
+        connect(router, "robot1", "robot", SystemClock())
+    bus("robot", robot="robot2")
+    holder.close()
+    bus("robot")
+
+
+def test_a_router_that_is_not_there_is_an_error_in_time():
+    endpoint = free_endpoint()
+    with pytest.raises(BusError, match=re.escape(endpoint)):
+        connect(endpoint, "robot1", "robot", SystemClock(), timeout_s=0.5)
+
+
+def demonstration():
+    positions = np.linspace((0.4, 0.0, 0.8), (0.7, 0.1, 0.5), 75)
+    motion = motion_to_wire(positions, np.tile((1.0, 0.0, 0.0, 0.0), (75, 1)), 10.0)
+    return queries.AddDemonstration(queries.Kind.INITIAL, motion, (0.7, 0.1, 0.5), "table")
+
+
+def test_two_robots_under_one_router_do_not_hear_each_other(tmp_path, router):
+    with (
+        Command("model", "--connect", router, "--robot", "left", folder=tmp_path),
+        Command("model", "--connect", router, "--robot", "right", folder=tmp_path),
+        Witness(router, "left") as left,
+        Witness(router, "right") as right,
+        Witness(router, "none") as none,
+    ):
+        beats = [witness.next_beats({"model"}, 30.0)["model"] for witness in (left, right)]
+        assert beats[0].pid != beats[1].pid
+        left.asked(queries.ADD_DEMONSTRATION, demonstration())
+        assert left.asked(queries.DESCRIBE, queries.Describe()).state.version == 1
+        assert right.asked(queries.DESCRIBE, queries.Describe()).state.version == 0
+        eventually(lambda: left.model and left.model.version == 1, WITHIN_S, "left's state")
+        assert right.next_beats({"model"})["model"].pid == beats[1].pid
+        assert right.model.version == 0
+        assert isinstance(none.ask(queries.DESCRIBE, queries.Describe()), Failed)
+        assert none.beats() == {}
+
+
+def test_everybody_finds_a_router_that_was_killed_again(tmp_path):
+    endpoint = free_endpoint()
+    with (
+        Command("router", "--listen", endpoint, folder=tmp_path) as first,
+        Command("model", "--connect", endpoint, folder=tmp_path) as model,
+        Command("master", "--connect", endpoint, folder=tmp_path) as master,
+        Witness(endpoint) as witness,
+    ):
+        before = witness.next_beats({"model", "master"}, 30.0)
+        os.kill(first.process.pid, signal.SIGKILL)
+        first.ended(WITHIN_S)
+        assert isinstance(witness.ask(queries.DESCRIBE, queries.Describe(), 1.0), Failed)
+        with Command("router", "--listen", endpoint, folder=tmp_path):
+            after = witness.next_beats({"model", "master"}, 15.0)
+            assert {name: beat.pid for name, beat in after.items()} == {name: beat.pid for name, beat in before.items()}
+            assert witness.asked(queries.DESCRIBE, queries.Describe()).state.version == 0
+            for command in (model, master):
+                assert command.process.poll() is None
+            with pytest.raises(NameTaken):
+                connect(endpoint, "robot1", "model", SystemClock())
+
+
+def test_echo_prints_what_strangers_and_newer_versions_send(tmp_path, router):
+    key = topics.MASTER_STATE.key("robot1", "stranger")
+    foreign = msgpack.packb({"temperature": 21.5, "unit": "C"})
+    newer = msgpack.packb({"engaged": True, "epoch": 7, "colour": "a field of the next version"})
+    with (
+        Command("echo", "retouch/@v1/robot1/cmd/**", "--count", "3", "--connect", router, folder=tmp_path) as echo,
+        Stranger(router) as stranger,
+    ):
+
+        def printed():
+            stranger.put("retouch/@v1/robot1/cmd/else", foreign)
+            return "temperature" in echo.out
+
+        echo.until(printed, WITHIN_S, "the foreign message is printed")
+        while echo.process.poll() is None:
+            stranger.put(key, newer, "MasterState/2")
+            stranger.put(key, b"\xc1 no msgpack", "")
+            echo.until(
+                lambda: echo.out.count("\n") >= 2 or echo.process.poll() is not None, WITHIN_S, "more is printed"
+            )
+        assert echo.ended(WITHIN_S) == 0
+    lines = echo.out.splitlines()
+    assert len(lines) == 3
+    assert "retouch/@v1/robot1/cmd/else [?] {'temperature': 21.5, 'unit': 'C'}" in lines[0].replace(
+        "temperature:", "'temperature':"
+    ).replace("unit:", "'unit':")
+
+
+def test_a_newer_version_of_a_message_with_one_field_more_is_read(bus, router):
+    subscription = bus("b").subscribe(topics.MASTER_STATE)
+    fields = {"publisher": 1, "sequence": 1, "stamp_ns": 1, "engaged": True, "colour": "a field of the next version"}
+    with Stranger(router) as stranger:
+        stranger.put(topics.MASTER_STATE.key("robot1", "a"), msgpack.packb(fields), topics.MASTER_STATE.schema)
+        eventually(subscription.latest, WITHIN_S, "it is read")
+    assert subscription.latest().message.engaged
+
+
+def test_top_shows_the_live_processes_with_rate_age_latency_and_drops(tmp_path, router):
+    with (
+        Command("model", "--connect", router, folder=tmp_path),
+        Command("master", "--connect", router, folder=tmp_path) as master,
+        Witness(router) as witness,
+        Stranger(router) as stranger,
+    ):
+        witness.next_beats({"model", "master"}, 30.0)
+
+        def dropped():
+            stranger.put(topics.OPERATOR_INPUT.key("robot1", "stranger"), b"\xc1")
+            beat = witness.beats()["master"]
+            return next(t for t in beat.topics if t.topic == topics.OPERATOR_INPUT.name).malformed
+
+        eventually(dropped, WITHIN_S, "a drop is counted")
+        witness.bus.publish(topics.OPERATOR_INPUT, OperatorInput())
+        with Command("top", "--once", "--connect", router, folder=tmp_path) as top:
+            assert top.ended(20.0) == 0
+        for heading in ("process", "Hz", "rate", "age", "latency", "drops", "CPU", "late"):
+            assert heading in top.out
+        (row,) = (line for line in top.out.splitlines() if topics.OPERATOR_INPUT.name in line)
+        assert f":{master.process.pid}" in row
+        cells = [cell.strip() for cell in row.strip("│┃ ").split("│")]
+        assert int(cells[-1]) > 0
+        assert cells[-2].endswith("ms")
+        assert cells[-3].endswith("ms")
+        assert re.search(r"robot1\s*│\s*model", top.out)
+
+
+@pytest.mark.sim
+def test_stop_latches_and_release_releases(tmp_path, router):
+    with Command("robot", "--connect", router, folder=tmp_path), Witness(router) as witness:
+        granted = witness.asked(queries.ACQUIRE, queries.AcquireAuthority("witness"), 30.0)
+        with Command("stop", "--connect", router, folder=tmp_path) as stop:
+            assert stop.ended(20.0) == 0, stop.tail()
+        eventually(lambda: witness.safety and witness.safety.emergency_stop, WITHIN_S, "the stop has latched")
+        eventually(lambda: witness.robot.phase is Phase.STOPPED, WITHIN_S, "the robot says so")
+        refused = witness.ask(queries.ACQUIRE, queries.AcquireAuthority("witness"))
+        assert isinstance(refused, queries.Refused)
+        assert "emergency stop" in refused.reason
+        # Not pressing any more is no release.
+        witness.bus.publish(topics.EMERGENCY_STOP, EmergencyStop(pressed=False, by="witness"))
+        witness.next_beats({"robot"})
+        assert witness.safety.emergency_stop
+
+        with Command("stop", "--release", "--connect", router, folder=tmp_path) as release:
+            assert release.ended(20.0) == 0, release.tail()
+        eventually(lambda: witness.safety and not witness.safety.emergency_stop, WITHIN_S, "the stop is released")
+        stale = witness.ask(queries.RESET, queries.Reset(granted.epoch))
+        assert isinstance(stale, queries.Refused), "who held the authority before has to ask for it again"
+        assert witness.asked(queries.ACQUIRE, queries.AcquireAuthority("witness")).epoch > granted.epoch
+    with Command("stop", "--connect", router, folder=tmp_path) as alone:
+        assert alone.ended(20.0) == 2
+        assert "did not confirm the stop" in alone.err
