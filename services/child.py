@@ -26,7 +26,7 @@ class Job:
     Attributes:
         name: prefix of its log lines.
         arguments: of the `retouch` command.
-        restart: whether it should live as long as the supervisor; otherwise it has to end with 0.
+        restart: whether it should live as long as the supervisor; otherwise it is done when it ends with 0.
     """
 
     name: str
@@ -67,9 +67,7 @@ class Child:
     @property
     def gave_up(self) -> bool:
         """It ended for a reason that a restart does not cure."""
-        if self.exit_code is None:
-            return False
-        return self.exit_code == EXIT_BAD_INPUT or (not self.job.restart and self.exit_code != 0)
+        return self.exit_code == EXIT_BAD_INPUT
 
     def poll(self, now_ns: int) -> None:
         """Start what is due, notice what has died."""
@@ -83,11 +81,11 @@ class Child:
         if self._reader is not None:
             self._reader.join(timeout=1.0)
         self._process, self.exit_code, self._due_ns = None, code, None
-        if not self.job.restart or code == EXIT_BAD_INPUT:
+        if code == EXIT_BAD_INPUT or (code == 0 and not self.job.restart):
             return
         steady = now_ns - self._started_ns > STEADY_AFTER_S * 1e9
-        self._failures = 0 if steady else self._failures + 1
-        delay = BACK_OFF_S[min(self._failures, len(BACK_OFF_S)) - 1] if self._failures else BACK_OFF_S[0]
+        self._failures = 1 if steady else self._failures + 1
+        delay = BACK_OFF_S[min(self._failures, len(BACK_OFF_S)) - 1]
         self._due_ns = now_ns + int(delay * 1e9)
         self.restarts += 1
         ending = f"was killed by signal {-code}" if code < 0 else f"ended with code {code}"
@@ -127,8 +125,9 @@ class Child:
 
     def _forward(self, process: subprocess.Popen[str]) -> None:
         assert process.stdout is not None
-        for line in process.stdout:
-            text = line.rstrip()
-            if text:
-                self.last_line = text
-                self._say(self.job.name, text)
+        with process.stdout as lines:
+            for line in lines:
+                text = line.rstrip()
+                if text:
+                    self.last_line = text
+                    self._say(self.job.name, text)

@@ -299,7 +299,7 @@ class Supervisor:
         line = child.last_line.removeprefix("retouch: ") or f"ended with code {child.exit_code}"
         self._write_report(f"{child.job.name}: {line}")
         sys.stderr.write(f"retouch: {child.job.name}: {line}\n")
-        return EXIT_BAD_INPUT if child.exit_code == EXIT_BAD_INPUT else 1
+        return EXIT_BAD_INPUT
 
     def _finished(self, teaching: TeachingState) -> int:
         if teaching.loop_closed:

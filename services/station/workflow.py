@@ -33,6 +33,7 @@ SAME_CONDITION_M = 0.02
 IDLE_S = 3.0
 """A robot that is idle for so long while an episode should run has forgotten it: it was restarted."""
 
+_RUNNING = frozenset({RobotPhase.RAMP, RobotPhase.EXECUTE, RobotPhase.HOLD})
 _RESUMED = frozenset({Phase.DECIDING, Phase.EXECUTING})
 
 _WITHOUT_AUTHORITY = frozenset({Phase.WAITING, Phase.ACQUIRING, Phase.RELEASING, Phase.FINISHED})
@@ -126,6 +127,13 @@ def _acquiring(state: Workflow, view: View, settings: Settings) -> Step:
 
 def _resetting(state: Workflow, view: View, settings: Settings) -> Step:
     del settings
+    if not state.asking and view.robot is not None and view.robot.phase in _RUNNING:
+        # Of an episode that was lost; its result is nobody's.
+        finish = view.now_s >= state.retry_s
+        return Step(
+            replace(state, retry_s=view.now_s + RETRY_S) if finish else state,
+            Ask(queries.FINISH, queries.Finish(state.epoch)) if finish else None,
+        )
     placed = state.placed or view.drawn
     variant = view.scene.variants[-1] if view.scene is not None and view.scene.variants else None
     state = replace(state, placed=placed)

@@ -44,6 +44,9 @@ RATE_HZ = 30.0
 # What stands still is drawn again this often: whoever opens the live view late has not seen the first time.
 _REPEAT_S = 1.0
 
+# Numbers over time and the force's arrow: every second step, since nobody sees more and each costs as much as a joint.
+_SERIES_S = 0.06
+
 
 def build(bus: Bus, clock: Clock, configuration: Configuration) -> Service:
     """The viewer process.
@@ -87,6 +90,7 @@ class ViewerService:
         self._teaching = News(bus.subscribe(TEACHING_STATE))
         self._images = (News(bus.subscribe(HEAD_IMAGE)), News(bus.subscribe(WRIST_IMAGE)))
         self._changes = Changes(_REPEAT_S)
+        self._pace = Changes(_SERIES_S)
         self._joint_names: tuple[str, ...] = ()
         self._unusable = 0
         run.at(0)
@@ -139,14 +143,15 @@ class ViewerService:
             if self._model is not None:
                 self._model.move(time_s, robot.joint_names, robot.q)
             scene.log_grasp(self._stream, robot.measured)
-        series.log_joints(self._stream, robot.q)
-        series.log_correction(self._stream, robot.offset)
-        series.log_latency(self._stream, robot.applied_latency)
         self._write(*self._journal.robot(robot))
+        if self._pace.due("robot", None, now_ns):
+            series.log_joints(self._stream, robot.q)
+            series.log_correction(self._stream, robot.offset)
+            series.log_latency(self._stream, robot.applied_latency)
 
     def _log_master(self, now_ns: int) -> None:
         master = self._master.take(now_ns)
-        if master is None:
+        if master is None or not self._pace.due("master", None, now_ns):
             return
         series.log_force(self._stream, master.force)
         robot = self._robot.known

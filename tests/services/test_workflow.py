@@ -35,7 +35,7 @@ class Site:
         self.asked = []
         self.view = View(
             now_s=0.0,
-            robot=robot_state(messages.Phase.EXECUTE),
+            robot=robot_state(messages.Phase.IDLE),
             authority=messages.AuthorityState(holder="", epoch=self.epoch, expires_in=0.0),
             safety=messages.SafetyState(emergency_stop=False),
             scene=messages.SceneState(
@@ -66,7 +66,8 @@ class Site:
             outcome = self.answer(step.ask)
             self.view = replace(self.view, outcome=outcome)
         elif self.state.phase is Phase.EXECUTING and before is Phase.EXECUTING and self.verdicts:
-            self.view = replace(self.view, result=self.result(self.verdicts.pop(0)))
+            result = self.result(self.verdicts.pop(0))
+            self.view = replace(self.view, result=result, robot=robot_state(messages.Phase.IDLE))
         return step
 
     def answer(self, ask):
@@ -89,7 +90,11 @@ class Site:
                 self.version += 1
                 return queries.Learnt(replace_version(self.view.model, self.version))
             case queries.EXECUTE:
+                self.view = replace(self.view, robot=robot_state(messages.Phase.EXECUTE))
                 return queries.EpisodeStarted(1)
+            case queries.FINISH:
+                self.view = replace(self.view, robot=robot_state(messages.Phase.IDLE))
+                return queries.Accepted()
             case _:
                 return queries.Accepted()
 
@@ -286,6 +291,15 @@ def test_an_episode_that_never_ends_is_repeated():
     site.now_s += SCRIPTED.autonomous_s + EPISODE_GRACE_S
     site.step()
     assert site.state.phase is Phase.WAITING
+    asked = len(site.asked)
+    site.run_to(Phase.EXECUTING)
+    assert site.names()[asked:] == [
+        "authority/acquire",
+        "cmd/finish",
+        "cmd/reset",
+        "model/predict",
+        "cmd/execute",
+    ]
 
 
 def test_the_emergency_stop_offers_nothing_but_its_release():

@@ -1,0 +1,54 @@
+"""Ctrl-C and SIGTERM end everything, soon and cleanly, and what happened so far is told."""
+
+import json
+import signal
+import time
+
+import pytest
+
+from services.processes import PROCESS_NAMES
+from tests.system.harness import START_S, Command, Witness, configured, free_endpoint, reachable
+
+pytestmark = [pytest.mark.system, pytest.mark.zenoh]
+
+STOP_S = 2.0
+"""Within which a process obeys."""
+
+
+@pytest.mark.sim
+def test_an_interrupted_system_ends_within_seconds_and_nothing_had_to_be_killed(tmp_path):
+    endpoint = free_endpoint()
+    arguments = ("--fresh", "--no-browser", "--json", "out.json", "--config", configured(tmp_path, endpoint))
+    with Command("up", *arguments, folder=tmp_path) as up:
+        with Witness(endpoint) as witness:
+            witness.next_beats(PROCESS_NAMES, START_S)
+        interrupted = time.monotonic()
+        up.process.send_signal(signal.SIGINT)
+        assert up.ended(10.0) == 0
+        assert time.monotonic() - interrupted < 2 * STOP_S, "the processes, then the router"
+        assert up.left() == []
+    assert "did not stop in time" not in up.out
+    assert up.err == ""
+    report = json.loads((tmp_path / "out.json").read_text())
+    assert (report["loop_closed"], report["reason"]) == (False, "interrupted")
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_a_process_that_stands_alone_ends_with_0(tmp_path, number):
+    endpoint = free_endpoint()
+    with Command("router", "--listen", endpoint, folder=tmp_path) as router:
+        router.until(lambda: reachable(endpoint), START_S, "the router listens")
+        with Command("master", "--connect", endpoint, folder=tmp_path) as master, Witness(endpoint) as witness:
+            witness.next_beats({"master"}, START_S)
+            for command in (master, router):
+                command.process.send_signal(number)
+                assert command.ended(STOP_S) == 0
+                assert "Traceback" not in command.err
+
+
+def test_an_interrupted_run_that_should_have_closed_the_loop_has_failed(tmp_path):
+    arguments = ("--headless", "--once", "--only", "master", "--config", configured(tmp_path, free_endpoint()))
+    with Command("up", *arguments, folder=tmp_path) as up:
+        up.until(lambda: "master | INFO started" in up.out, START_S, "the master has started")
+        up.process.terminate()
+        assert up.ended(10.0) == 1
