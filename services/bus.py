@@ -11,7 +11,7 @@ from typing import Any, Generic, Protocol, TypeVar
 import msgspec
 
 from protocol.codec import decode, decode_request, encode_reply
-from protocol.exceptions import MalformedMessage, OversizedMessage, ProtocolError, WrongVersion
+from protocol.exceptions import OversizedMessage, ProtocolError, WrongVersion
 from protocol.messages import Message, TopicFigures
 from protocol.queries import Query, Refused
 from protocol.topics import Topic
@@ -37,9 +37,12 @@ class Received(Generic[M]):
         return (now_ns - self.received_ns) / 1e9
 
 
+_CAUSES: dict[type[ProtocolError], str] = {OversizedMessage: "oversized", WrongVersion: "wrong_version"}
+
+
 @dataclass
 class Drops:
-    """What a subscription threw away, by cause."""
+    """What was thrown away, by cause."""
 
     malformed: int = 0
     oversized: int = 0
@@ -47,6 +50,11 @@ class Drops:
     stale: int = 0
     repeated: int = 0
     future: int = 0
+
+    def count(self, cause: ProtocolError | Judgement) -> None:
+        """One more was thrown away."""
+        name = cause.value if isinstance(cause, Judgement) else _CAUSES.get(type(cause), "malformed")
+        setattr(self, name, getattr(self, name) + 1)
 
 
 class Subscription(Generic[M]):
@@ -72,21 +80,13 @@ class Subscription(Generic[M]):
         with self._lock:
             try:
                 message = decode(self.topic, payload, schema)
-            except OversizedMessage as error:
-                self.drops.oversized += 1
-                self._fault = str(error)
-                return
-            except WrongVersion as error:
-                self.drops.wrong_version += 1
-                self._fault = str(error)
-                return
-            except MalformedMessage as error:
-                self.drops.malformed += 1
+            except ProtocolError as error:
+                self.drops.count(error)
                 self._fault = str(error)
                 return
             judgement = self._freshness.judge(message.publisher, message.sequence, message.stamp_ns, now_ns)
             if judgement is not Judgement.FRESH:
-                setattr(self.drops, judgement.value, getattr(self.drops, judgement.value) + 1)
+                self.drops.count(judgement)
                 return
             self._count += 1
             self._latest = Received(message, now_ns)
@@ -154,19 +154,24 @@ class Server(Generic[Req, Rep]):
     def __init__(self, query: Query[Req, Rep]) -> None:
         self._query = query
         self._calls: deque[Call[Req, Rep]] = deque()
-        self.malformed = 0
+        self.drops = Drops()
+        self._fault = ""
+        self._count = 0
+        self._counted_from_ns = 0
 
     def receive(self, payload: bytes, schema: str, respond: Callable[[bytes], None]) -> None:
         """Queue the request; what is no request, or one too many, is refused at once."""
         try:
             request = decode_request(self._query, payload, schema)
         except ProtocolError as error:
-            self.malformed += 1
-            respond(encode_reply(self._query, Refused(str(error))))
+            self.drops.count(error)
+            self._fault = str(error)
+            respond(encode_reply(self._query, Refused(self._fault)))
             return
         if len(self._calls) >= CALLS_KEPT:
             respond(encode_reply(self._query, Refused(f"too many requests wait for {self._query.name}")))
             return
+        self._count += 1
         self._calls.append(Call(self._query, request, respond))
 
     def take(self) -> list[Call[Req, Rep]]:
@@ -175,6 +180,18 @@ class Server(Generic[Req, Rep]):
         while self._calls:
             taken.append(self._calls.popleft())
         return taken
+
+    def take_fault(self) -> str:
+        """The newest reason for refusing bytes that are no request since the last call; empty where there is none."""
+        fault, self._fault = self._fault, ""
+        return fault
+
+    def figures(self, now_ns: int) -> TopicFigures:
+        """Requests a second since the last call, and all that were none so far."""
+        count, since = self._count, self._counted_from_ns
+        self._count, self._counted_from_ns = 0, now_ns
+        rate = count / ((now_ns - since) / 1e9) if since and now_ns > since else 0.0
+        return TopicFigures(topic=self._query.name, rate_hz=rate, age=-1.0, latency=-1.0, **vars(self.drops))
 
 
 @dataclass(frozen=True)
@@ -225,7 +242,7 @@ class Bus(Protocol):
         ...
 
     def figures(self) -> tuple[TopicFigures, ...]:
-        """What was received on each topic since the last call."""
+        """What was received on each topic, and asked on each query, since the last call."""
         ...
 
     def faults(self) -> list[str]:

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import msgspec
 
+from protocol.queries import Adapt
 from services.exceptions import ConfigurationError
 
 Port = Annotated[int, msgspec.Meta(ge=1, le=65535)]
@@ -104,6 +105,7 @@ class StationSection(_Section, frozen=True):
         updates_allowed: updates of one run.
         autonomous_s: duration of an autonomous execution [s].
         refine_s: duration of an execution under correction [s].
+        adapt: which way-point a correction moves: "next" (eq. 15-17), or "current" (eq. B.7) for comparison.
         scripted: the workflow's buttons are pressed by a script; there is no page.
         once: finish when the loop has closed, instead of going on with another object position.
     """
@@ -114,6 +116,7 @@ class StationSection(_Section, frozen=True):
     updates_allowed: Annotated[int, msgspec.Meta(ge=1)] = 8
     autonomous_s: Positive = 10.0
     refine_s: Positive = 20.0
+    adapt: Adapt = Adapt.NEXT
     scripted: bool = False
     once: bool = False
 

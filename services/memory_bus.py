@@ -45,6 +45,7 @@ class MemoryBus:
         self._network = network
         self._outbox = Outbox(new_publisher())
         self._own: list[Subscription[Any]] = []
+        self._servers: list[Server[Any, Any]] = []
 
     @property
     def identity(self) -> int:
@@ -67,6 +68,7 @@ class MemoryBus:
         """Answer a query."""
         server = Server(query)
         self._network.servers[query.name] = server
+        self._servers.append(server)
         return server
 
     def ask(self, query: Query[Req, Rep], request: Req, timeout_s: float = 2.0) -> Pending[Rep]:
@@ -84,11 +86,15 @@ class MemoryBus:
     def figures(self) -> tuple[TopicFigures, ...]:
         """What was received since the last call."""
         now = self._network.clock.now_ns()
-        return tuple(s.figures(now) for s in self._own)
+        return tuple(inlet.figures(now) for inlet in self._inlets)
 
     def faults(self) -> list[str]:
         """What was thrown away since the last call."""
-        return [fault for fault in (s.take_fault() for s in self._own) if fault]
+        return [fault for fault in (inlet.take_fault() for inlet in self._inlets) if fault]
+
+    @property
+    def _inlets(self) -> list[Subscription[Any] | Server[Any, Any]]:
+        return [*self._own, *self._servers]
 
     def close(self) -> None:
         """Leave."""

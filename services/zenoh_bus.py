@@ -148,7 +148,7 @@ class ZenohBus:
         self._clock = clock
         self._outbox = Outbox(new_publisher())
         self._publishers: dict[str, zenoh.Publisher] = {}
-        self._subscriptions: list[Subscription[Any]] = []
+        self._inlets: list[Subscription[Any] | Server[Any, Any]] = []
         self._token: zenoh.LivelinessToken | None = None
 
     @property
@@ -183,7 +183,7 @@ class ZenohBus:
             subscription.receive(sample.payload.to_bytes(), _schema(sample.encoding), self._clock.now_ns())
 
         self._session.declare_subscriber(topic.key(self._robot, "*"), store)
-        self._subscriptions.append(subscription)
+        self._inlets.append(subscription)
         return subscription
 
     def serve(self, query: Query[Req, Rep]) -> Server[Req, Rep]:
@@ -197,6 +197,7 @@ class ZenohBus:
             server.receive(payload, schema, _responder(call, key))
 
         self._session.declare_queryable(key, store, complete=True)
+        self._inlets.append(server)
         return server
 
     def ask(self, query: Query[Req, Rep], request: Req, timeout_s: float = 2.0) -> Pending[Rep]:
@@ -225,13 +226,13 @@ class ZenohBus:
         return pending
 
     def figures(self) -> tuple[TopicFigures, ...]:
-        """What was received on each topic since the last call."""
+        """What was received on each topic, and asked on each query, since the last call."""
         now = self._clock.now_ns()
-        return tuple(s.figures(now) for s in self._subscriptions)
+        return tuple(inlet.figures(now) for inlet in self._inlets)
 
     def faults(self) -> list[str]:
-        """What was thrown away since the last call as malformed, oversized or of another version, a line each topic."""
-        return [fault for fault in (s.take_fault() for s in self._subscriptions) if fault]
+        """What was thrown away since the last call as malformed, oversized or of another version, a line each key."""
+        return [fault for fault in (inlet.take_fault() for inlet in self._inlets) if fault]
 
     def close(self) -> None:
         """Leave the network."""

@@ -59,6 +59,7 @@ def settings(section: StationSection) -> Settings:
         refine_s=section.refine_s,
         refinements_allowed=section.refinements_allowed,
         updates_allowed=section.updates_allowed,
+        adapt=section.adapt,
         scripted=section.scripted,
         once=section.once,
     )

@@ -10,7 +10,7 @@ import msgspec
 
 from protocol import messages
 from protocol.messages import Attempt, EpisodeResult, Mode, ModelState, Motion, ObjectPose, Outcome, Vector3
-from protocol.queries import Query
+from protocol.queries import Adapt, Query
 
 
 class Action(Enum):
@@ -53,6 +53,7 @@ class Settings:
         refine_s: duration of an execution under correction [s].
         refinements_allowed: attempts at one update.
         updates_allowed: updates at one object position.
+        adapt: which way-point a correction moves.
         scripted: the recommended action is taken at once.
         once: the recommended action after the loop has closed is to end.
     """
@@ -62,6 +63,7 @@ class Settings:
     refine_s: float = 20.0
     refinements_allowed: int = 10
     updates_allowed: int = 8
+    adapt: Adapt = Adapt.NEXT
     scripted: bool = False
     once: bool = False
 

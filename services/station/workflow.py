@@ -25,7 +25,7 @@ RETRY_S = 0.5
 LOOK_S = 0.5
 PICTURES_NEEDED = 5
 EPISODE_GRACE_S = 45.0
-"""How much longer than its motion an episode may take (ramp, holds) before it counts as lost."""
+"""How much longer than its motion a scripted episode may take (ramp, holds) before it counts as lost."""
 
 SAME_CONDITION_M = 0.02
 """Two sightings of an object that nobody moved differ by a few millimetres."""
@@ -166,7 +166,7 @@ def _starting(state: Workflow, view: View, settings: Settings) -> Step:
     if not state.asking:
         state = replace(state, request=state.request + 1)
     motion = msgspec.structs.replace(prediction.motion, duration=_duration(state.mode, settings))
-    request = queries.Execute(state.epoch, state.request, state.mode, motion)
+    request = queries.Execute(state.epoch, state.request, state.mode, motion, settings.adapt)
     reply = _asked(state, view, queries.EXECUTE, request)
     return reply if isinstance(reply, Step) else Step(_to(state, Phase.EXECUTING, view))
 
@@ -180,7 +180,9 @@ def _executing(state: Workflow, view: View, settings: Settings) -> Step:
         return _judged(state, view, view.result)
     elapsed = view.now_s - state.since_s
     forgotten = view.robot is not None and view.robot.phase is RobotPhase.IDLE and elapsed > IDLE_S
-    if forgotten or elapsed > _duration(state.mode, settings) + EPISODE_GRACE_S:
+    # A person may let the robot hold for as long as they like; a script that does is broken.
+    stuck = settings.scripted and elapsed > _duration(state.mode, settings) + EPISODE_GRACE_S
+    if forgotten or stuck:
         return Step(_to(state, Phase.WAITING, view, notice="The episode was lost."))
     if Action.FINISH in view.actions:
         return Step(state, Ask(queries.FINISH, queries.Finish(state.epoch)))

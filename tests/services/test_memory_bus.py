@@ -75,6 +75,19 @@ def test_a_question_is_answered(network):
     assert pending.poll() == queries.Refused("nothing to take back")
 
 
+def test_what_is_no_request_is_refused_counted_and_named(network, clock):
+    bus = network.bus()
+    server, answers = bus.serve(queries.UNDO), []
+    for payload, schema in ((b"\xc1", ""), (bytes(queries.UNDO.max_bytes + 1), ""), (b"\x80", "Undo/9")):
+        server.receive(payload, schema, answers.append)
+    assert server.take() == []
+    assert len(answers) == 3
+    (figures,) = bus.figures()
+    assert (figures.malformed, figures.oversized, figures.wrong_version) == (1, 1, 1)
+    assert "model/undo" in bus.faults()[0]
+    assert bus.faults() == []
+
+
 def test_a_question_that_nobody_answers_fails(network):
     assert isinstance(network.bus().ask(queries.UNDO, queries.Undo()).poll(), Failed)
 

@@ -302,6 +302,14 @@ def test_an_episode_that_never_ends_is_repeated():
     ]
 
 
+def test_a_person_may_let_the_robot_hold_for_as_long_as_they_like():
+    site = Site(BY_HAND)
+    site.run_to(Phase.EXECUTING)
+    site.now_s += 3600.0
+    site.step()
+    assert site.state.phase is Phase.EXECUTING
+
+
 def test_the_emergency_stop_offers_nothing_but_its_release():
     site = Site(SCRIPTED)
     site.run_to(Phase.EXECUTING)

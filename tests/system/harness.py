@@ -23,7 +23,7 @@ from services.processes import PROCESS_NAMES
 from services.zenoh_bus import ENCODING, Passing, ZenohBus, close_session, open_session, watch
 
 POLL_S = 0.01
-START_S = 60.0
+START_S = 120.0
 """A whole system is up within this time, on a machine that is busy with something else too."""
 
 MARK = "RETOUCH_SYSTEM_TEST"
