@@ -57,7 +57,7 @@ def _scene() -> rrb.Spatial3DView:
             target_frame=f"tf#{entities.WORLD}", show_axes=False, show_bounding_box=False
         ),
         eye_controls=rrb.EyeControls3D(
-            kind=rrb.Eye3DKind.Orbital, position=(-0.1, -1.5, 1.35), look_target=(0.5, 0.0, 0.66), eye_up=(0, 0, 1)
+            kind=rrb.Eye3DKind.Orbital, position=(0.05, -0.95, 1.15), look_target=(0.62, 0.06, 0.62), eye_up=(0, 0, 1)
         ),
     )
 

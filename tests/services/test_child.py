@@ -83,6 +83,7 @@ def test_one_that_ran_steadily_comes_back_at_once(child_of, said):
     assert said.lines[-1][1].endswith(f"starts again in {BACK_OFF_S[0]:g} s")
 
 
+@pytest.mark.system
 def test_one_that_cannot_start_says_why_and_is_left_alone(child_of, said):
     child = child_of("frobnicate")
     child.poll(START_NS)
@@ -96,6 +97,7 @@ def test_one_that_cannot_start_says_why_and_is_left_alone(child_of, said):
     assert child.restarts == 0
 
 
+@pytest.mark.system
 def test_a_task_is_done_when_it_ends_with_0_but_not_when_it_is_killed(child_of):
     task = child_of("topics", restart=False)
     task.poll(START_NS)

@@ -13,6 +13,7 @@ from protocol.messages import Mode, Phase
 from services.arrays import motion_to_wire
 from tests.system.harness import (
     EVERYBODY,
+    POLL_S,
     START_S,
     Command,
     Witness,
@@ -25,6 +26,7 @@ pytestmark = [pytest.mark.system, pytest.mark.zenoh]
 
 BACK_S = 30.0
 EPISODE_S = 90.0
+HOLD_S = 10.0
 STILL_M = 1e-3
 STILL_SAMPLES = 30
 
@@ -61,20 +63,24 @@ class Run:
 
     def holds(self, reason):
         """Wait until the robot holds for this reason, and see that the measured pose stands still meanwhile."""
-        self.up.until(lambda: self._holding(reason), 5.0, f"the robot holds: {reason}")
-        states = {}
-        deadline = time.monotonic() + 5.0
-        while len(states) < STILL_SAMPLES and (state := self._holding(reason)):
-            states[state.sequence] = state
-            assert time.monotonic() < deadline, "no more states came"
-            time.sleep(0.005)
-        positions = np.array([state.measured.position for state in states.values()])[STILL_SAMPLES // 3 :]
-        assert len(positions) > 5, f"held for {len(states)} states only"
-        assert np.ptp(positions, axis=0).max() < STILL_M
 
-    def _holding(self, reason):
-        robot = self.witness.robot
-        return robot if robot and robot.phase is Phase.HOLD and reason in robot.hold_reason else None
+        def holding(robot):
+            return robot.phase is Phase.HOLD and reason in robot.hold_reason
+
+        self.up.until(lambda: (robot := self.witness.robot) and holding(robot), HOLD_S, f"the robot holds: {reason}")
+        positions = {}
+        deadline = time.monotonic() + 5.0
+        while len(positions) < STILL_SAMPLES and time.monotonic() < deadline:
+            robot = self.witness.robot
+            if robot and not holding(robot):
+                break
+            if robot:
+                positions[robot.sequence] = robot.measured.position
+            time.sleep(POLL_S)
+        # The arm comes to rest in the first of them.
+        still = np.array(list(positions.values()))[STILL_SAMPLES // 3 :]
+        assert len(still) > 5, f"held for {len(positions)} states only"
+        assert np.ptp(still, axis=0).max() < STILL_M
 
 
 @pytest.mark.sim

@@ -1,0 +1,116 @@
+"""A person at the page: sees the prediction fail, corrects it with the keyboard while it runs, sees it learnt."""
+
+import shutil
+
+import numpy as np
+import pytest
+
+from protocol import topics
+from protocol.messages import Mode, Phase
+from services.arrays import motion_from_wire
+from services.config import load
+from sim.correction import plan
+from sim.scenes import DISHWASHER
+from tests.system.harness import START_S, Command, Witness, configured, eventually, free_endpoint
+
+pytestmark = [pytest.mark.system, pytest.mark.browser, pytest.mark.zenoh, pytest.mark.sim]
+
+FLAGS = ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-sync"]
+EPISODE_S = 120.0
+AXES = (("q", "a"), ("w", "s"), ("e", "d"))
+TOLERANCE_M = 0.008
+LEAD = 0.03
+"""A person looks a little ahead: share of the motion."""
+
+
+class Person:
+    """Looks at where the robot is and where it should be, and holds the keys that lead there.
+
+    Args:
+        page: the browser's page.
+        witness: of the robot's network, in place of eyes.
+    """
+
+    def __init__(self, page, witness):
+        self._page = page
+        self._witness = witness
+        self._execution = witness.bus.subscribe(topics.EXECUTION)
+        self._seen = witness.bus.subscribe(topics.OBJECT_POSE)
+        self._held = set()
+        self._correction = None
+
+    def correct(self):
+        """One look, and the keys that it calls for."""
+        robot = self._witness.robot
+        if robot is None or robot.mode is not Mode.REFINE or robot.phase is not Phase.EXECUTE:
+            self._hold(set())
+            return
+        wanted = self._wanted(robot.progress)
+        if wanted is None:
+            return
+        error = wanted - np.array(robot.offset)
+        self._hold({AXES[i][0 if error[i] > 0.0 else 1] for i in range(3) if abs(error[i]) > TOLERANCE_M})
+
+    def _wanted(self, progress):
+        if self._correction is None:
+            received, seen = self._execution.latest(), self._seen.latest()
+            if received is None or received.message.mode is not Mode.REFINE or seen is None:
+                return None
+            place = np.array(seen.message.pose.position)
+            ways = [DISHWASHER.corridor(variant, place).positions for variant in DISHWASHER.variants]
+            self._correction = plan(motion_from_wire(received.message.prediction)[0], ways[1], ways)
+        return self._correction.displacement(min(1.0, progress + LEAD))
+
+    def _hold(self, keys):
+        for key in self._held - keys:
+            self._page.keyboard.up(key)
+        for key in keys - self._held:
+            self._page.keyboard.down(key)
+        self._held = keys
+
+
+@pytest.fixture
+def page():
+    """A page of a real Chromium."""
+    playwright = pytest.importorskip("playwright.sync_api")
+    executable = shutil.which("chromium")
+    if executable is None:
+        pytest.skip("no chromium in PATH")
+    with playwright.sync_playwright() as started:
+        browser = started.chromium.launch(executable_path=executable, args=FLAGS)
+        yield browser.new_page(viewport={"width": 1280, "height": 720})
+        browser.close()
+
+
+def test_one_correction_by_keyboard_is_learnt(tmp_path, page):
+    endpoint = free_endpoint()
+    configuration = configured(tmp_path, endpoint)
+    station = load(configuration).station
+    # Without a graphics card the 3-D view alone takes both cores; the tests of the viewer look at it.
+    page.route(lambda url: url.startswith("http://localhost:"), lambda route: route.abort())
+    with (
+        Command("up", "--fresh", "--no-browser", "--config", configuration, folder=tmp_path) as up,
+        Witness(endpoint) as witness,
+    ):
+        up.until(lambda: witness.teaching, START_S, "the station is there")
+        page.goto(f"http://{station.host}:{station.port}/")
+
+        eventually(lambda: decides(page, witness, 1), EPISODE_S, up.tail)
+        assert witness.teaching.attempts[0].verdict.collision
+        page.locator("[data-action=refine]").click()
+        person = Person(page, witness)
+        eventually(lambda: person.correct() or decides(page, witness, 3), 2 * EPISODE_S, up.tail)
+
+        _, refined, last = witness.teaching.attempts
+        assert refined.operator_input
+        assert refined.verdict.success
+        assert last.verdict.success
+        assert not last.operator_input
+        assert witness.teaching.loop_closed
+
+
+def decides(page, witness, attempts):
+    """The workflow waits for the operator after so many episodes; the browser lives on meanwhile."""
+    page.wait_for_timeout(20)
+    teaching = witness.teaching
+    return teaching is not None and teaching.phase == "deciding" and len(teaching.attempts) >= attempts
