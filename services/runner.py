@@ -12,7 +12,7 @@ import threading
 import time
 from collections import deque
 from types import FrameType
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from protocol.messages import Figure, Heartbeat
 from protocol.topics import HEARTBEAT
@@ -43,6 +43,15 @@ class Service(Protocol):
 
     def close(self) -> None:
         """Give back what is not the bus'."""
+        ...
+
+
+@runtime_checkable
+class Paced(Protocol):
+    """A service that moves its ticks to where its input comes."""
+
+    def take_slew_ns(self) -> int:
+        """By how much the next tick is to begin later, or earlier where negative."""
         ...
 
 
@@ -125,7 +134,7 @@ def run(service: Service, bus: Bus, clock: Clock, process: str, stop: threading.
                 for fault in bus.faults():
                     log.warning("dropped: %s", fault)
                 heartbeat_due = ended + round(1e9 / HEARTBEAT.rate_hz)
-            due += ticks.period_ns
+            due += ticks.period_ns + (service.take_slew_ns() if isinstance(service, Paced) else 0)
             behind = clock.now_ns() - due
             if behind > ticks.period_ns:
                 due += behind // ticks.period_ns * ticks.period_ns

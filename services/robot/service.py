@@ -22,6 +22,7 @@ from services.robot.authority import Lease
 from services.robot.backend import CONTROL_PERIOD
 from services.robot.control import Control
 from services.robot.kinematics import Kinematics
+from services.robot.pace import Pace
 from services.robot.refusal import Refusal
 from services.robot.reports import Reports
 from services.robot.rollout import simulated_arm
@@ -100,6 +101,7 @@ class RobotService:
         self._control = control
         self._reports = Reports(bus, control)
         self._kinematics = kinematics
+        self._pace = Pace(round(CONTROL_PERIOD * 1e9))
         self._master = bus.subscribe(topics.MASTER_STATE)
         self._renewal = bus.subscribe(topics.AUTHORITY_RENEWAL)
         self._emergency_stop = bus.subscribe(topics.EMERGENCY_STOP)
@@ -122,10 +124,16 @@ class RobotService:
         self._hear()
         self._answer_all(now_ns)
         sample = self._sample_of_this_epoch()
+        if sample is not None:
+            self._pace.heard(now_ns, sample.received_ns)
         tick = self._control.tick(now_ns, sample)
         self._measure(tick, sample)
         applied = self._applied.message.sequence if self._applied is not None else 0
         self._reports.publish(now_ns, tick, applied, self._applied_latency)
+
+    def take_slew_ns(self) -> int:
+        """See `Pace`."""
+        return self._pace.take_slew_ns()
 
     def figures(self) -> tuple[Figure, ...]:
         """Since the last call: latency from the master's stamp to the command, inverse kinematics, contacts, clamps."""

@@ -1,6 +1,5 @@
 """One real page for all browser tests, and a fresh tab for each."""
 
-import shutil
 import socket
 import sys
 import time
@@ -10,14 +9,6 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-CHROMIUM_FLAGS = (
-    "--no-sandbox",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-)
 WITHIN_S = 5.0
 
 
@@ -62,19 +53,6 @@ def station():
     yield page, feed
     feed.close()
     page.close()
-
-
-@pytest.fixture(scope="session")
-def browser():
-    """A headless Chromium."""
-    playwright = pytest.importorskip("playwright.sync_api")
-    executable = shutil.which("chromium")
-    if executable is None:
-        pytest.skip("no chromium in PATH")
-    with playwright.sync_playwright() as started:
-        chromium = started.chromium.launch(executable_path=executable, args=list(CHROMIUM_FLAGS))
-        yield chromium
-        chromium.close()
 
 
 class Tab:

@@ -143,6 +143,7 @@ def test_nothing_to_learn_from_is_refused():
         AdaptiveProMP.fit([])
 
 
+@pytest.mark.data
 def test_one_recorded_refinement_leaves_at_most_four_percent(recordings, refinements):
     """The thesis' model leaves 61 % of the gap on the same data (test_promp)."""
     model = AdaptiveProMP.fit(recordings("dishwasher_experiment")[:2])
@@ -151,6 +152,7 @@ def test_one_recorded_refinement_leaves_at_most_four_percent(recordings, refinem
     assert max(left) < 0.10
 
 
+@pytest.mark.data
 def test_recorded_refinements_keep_working_one_after_another(recordings, refinements):
     initial = AdaptiveProMP.fit(recordings("dishwasher_experiment")[:2])
     left = []
@@ -162,6 +164,7 @@ def test_recorded_refinements_keep_working_one_after_another(recordings, refinem
     assert np.median(left) < 0.10
 
 
+@pytest.mark.data
 @pytest.mark.parametrize(
     "name", ["one_plane", "constant_initial_pose", "dishwasher", "dishwasher_moved_backwards", "dishwasher_experiment"]
 )

@@ -79,6 +79,7 @@ def test_nothing_to_learn_from_and_an_unseen_object_are_refused(demonstrations):
         ConditionedProMP.fit(demonstrations).predict(np.full(3, np.nan), *start(demonstrations[0]))
 
 
+@pytest.mark.data
 def test_averaging_leaves_most_of_the_error_as_the_thesis_measured(recordings, refinements):
     model = ConditionedProMP.fit(recordings("dishwasher_experiment")[:2])
     left = [_gap(model.updated(first), first) / _gap(model, first) for first, *_ in refinements]

@@ -118,6 +118,7 @@ def test_what_does_not_obey_is_killed_and_what_was_told_to_end_stays_away(child_
     child.poll(START_NS)
     pid = child.pid
     os.kill(pid, signal.SIGSTOP)
+    os.waitpid(pid, os.WUNTRACED)  # it has stopped: signals sent at once would be delivered in any order
     child.terminate()
     child.wait(0.05)
     assert said.lines[-1] == ("worker", "did not stop in time and was killed")

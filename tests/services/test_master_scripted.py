@@ -163,6 +163,7 @@ def test_a_thread_keeps_the_loop_going_and_stops():
     assert {figure.name: figure.value for figure in thread.figures()}["haptic_ticks"] == after
 
 
+@pytest.mark.sim
 def test_the_hand_leads_the_robot_along_the_safe_way():
     site = Site()
     errors = []
@@ -175,6 +176,7 @@ def test_the_hand_leads_the_robot_along_the_safe_way():
     assert np.linalg.norm(site.robot - SAFE[-1]) < 0.015
 
 
+@pytest.mark.sim
 def test_the_hand_lets_go_at_the_episodes_end_and_the_stylus_returns():
     site = Site()
     for _ in range(400):
@@ -188,6 +190,7 @@ def test_the_hand_lets_go_at_the_episodes_end_and_the_stylus_returns():
     np.testing.assert_allclose(state.displacement, 0.0, atol=1e-3)
 
 
+@pytest.mark.sim
 def test_a_master_that_died_takes_over_where_the_robot_stands():
     site = Site()
     while site.progress < 0.4:
@@ -210,6 +213,7 @@ def test_a_master_that_died_takes_over_where_the_robot_stands():
     assert np.linalg.norm(site.robot - SAFE[-1]) < 0.015
 
 
+@pytest.mark.sim
 def test_a_cut_link_is_sat_out_with_the_hand_on_the_stylus():
     """Nothing is said while the robot is not heard; then the correction goes on from where it stands."""
     site = Site()

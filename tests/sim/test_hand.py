@@ -110,6 +110,7 @@ def test_exaggeration_multiplies_the_correction():
     np.testing.assert_allclose(double.displacements, 2.0 * natural.displacements)
 
 
+@pytest.mark.sim
 @pytest.mark.parametrize("name", SCENES)
 def test_the_robot_ends_up_on_the_safe_way_and_at_the_object(name):
     """A prediction that goes wrong by more than 0.1 m and ends 0.03 m beside the object is put right."""
@@ -126,6 +127,7 @@ def test_the_robot_ends_up_on_the_safe_way_and_at_the_object(name):
     assert np.linalg.norm(episode.robot - safe[-1]) < 0.01
 
 
+@pytest.mark.sim
 def test_the_hand_keeps_to_human_speed_and_trembles_little():
     learnt, safe = ways("dishwasher")
     correction = plan(predicted(learnt), safe, [learnt, safe])
@@ -171,6 +173,7 @@ def test_surprises_are_acted_on_after_the_reaction_time_only():
     assert np.all(np.array(pushed_target) < np.array(quiet_target))
 
 
+@pytest.mark.sim
 def test_coming_back_in_the_middle_the_clutch_closes_where_the_robot_stands():
     """A new stylus starts at zero while the robot holds a correction: it takes over without a jump."""
     learnt, safe = ways("dishwasher")

@@ -1,7 +1,5 @@
 """A person at the page: sees the prediction fail, corrects it with the keyboard while it runs, sees it learnt."""
 
-import shutil
-
 import numpy as np
 import pytest
 
@@ -15,7 +13,6 @@ from tests.system.harness import START_S, Command, Witness, configured, eventual
 
 pytestmark = [pytest.mark.system, pytest.mark.browser, pytest.mark.zenoh, pytest.mark.sim]
 
-FLAGS = ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-sync"]
 EPISODE_S = 120.0
 AXES = (("q", "a"), ("w", "s"), ("e", "d"))
 TOLERANCE_M = 0.008
@@ -70,16 +67,11 @@ class Person:
 
 
 @pytest.fixture
-def page():
+def page(browser):
     """A page of a real Chromium."""
-    playwright = pytest.importorskip("playwright.sync_api")
-    executable = shutil.which("chromium")
-    if executable is None:
-        pytest.skip("no chromium in PATH")
-    with playwright.sync_playwright() as started:
-        browser = started.chromium.launch(executable_path=executable, args=FLAGS)
-        yield browser.new_page(viewport={"width": 1280, "height": 720})
-        browser.close()
+    opened = browser.new_page(viewport={"width": 1280, "height": 720})
+    yield opened
+    opened.close()
 
 
 def test_one_correction_by_keyboard_is_learnt(tmp_path, page):
