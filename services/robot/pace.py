@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-MARGIN_NS = 1_500_000
+MARGIN_NS = 2_500_000
 """How long before a control period a sample should come: more than most of its jitter."""
 
 DEADBAND_NS = 300_000
