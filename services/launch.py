@@ -1,14 +1,10 @@
-"""`retouch up`: starts the processes, watches over them, says what happens, stops them cleanly."""
+"""`retouch up`: what to start, with which configuration, in which folder."""
 
 from __future__ import annotations
 
 import argparse
-import shutil
-import sys
 import threading
 import time
-import webbrowser
-from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -16,24 +12,14 @@ from typing import Self
 
 import msgspec
 from rich.console import Console
-from rich.live import Live
 
-from protocol import topics
-from protocol.messages import Heartbeat, Phase, TeachingState
-from services.bus import Subscription
-from services.child import EXIT_BAD_INPUT, Child, Job
-from services.clock import SystemClock
+from services.child import Child, Job
 from services.config import Configuration, save
 from services.exceptions import CommandFailed
 from services.processes import PROCESS_NAMES
-from services.report import Report, attempt_line, attempt_reports, write
 from services.runner import stop_on_signals
-from services.status import status_table
-from services.zenoh_bus import ZenohBus, open_session
+from services.supervisor import ROUTER, Supervisor
 
-POLL_S = 0.1
-STOP_S = 2.0
-ROUTER = "router"
 TEACHER = "teach"
 
 
@@ -105,41 +91,6 @@ class Voice:
         self._log.close()
 
 
-class Watch:
-    """What the supervisor hears of the network.
-
-    Args:
-        bus: a session of its own.
-    """
-
-    def __init__(self, bus: ZenohBus) -> None:
-        self._bus = bus
-        self.teaching = bus.subscribe(topics.TEACHING_STATE)
-        self.robot = bus.subscribe(topics.ROBOT_STATE)
-        self.recording = bus.subscribe(topics.RECORDING)
-        self._heartbeats: Subscription[Heartbeat] = bus.subscribe(topics.HEARTBEAT)
-        self.beats: dict[str, Heartbeat] = {}
-
-    def update(self) -> None:
-        """Take what has come."""
-        for received in self._heartbeats.take():
-            self.beats[received.message.process] = received.message
-
-    def teaching_state(self) -> TeachingState | None:
-        """The newest state of the workflow."""
-        received = self.teaching.latest()
-        return received.message if received is not None else None
-
-    def moved(self) -> bool:
-        """Whether the robot is in motion."""
-        received = self.robot.latest()
-        return received is not None and received.message.phase in (Phase.RAMP, Phase.EXECUTE)
-
-    def close(self) -> None:
-        """Leave the network."""
-        self._bus.close()
-
-
 def launch(configuration: Configuration, options: Launch) -> int:
     """Run until interrupted, or until a scripted run has ended; 0 where it did what it was started for.
 
@@ -155,9 +106,18 @@ def launch(configuration: Configuration, options: Launch) -> int:
     console = Console(stderr=False)
     voice = Voice(console, folder / "log.txt")
     children = [Child(job, voice.say) for job in _jobs(options, resolved)]
-    supervisor = Supervisor(configuration, options, children, voice.say, started)
+    supervisor = Supervisor(
+        configuration,
+        children,
+        voice.say,
+        started=started,
+        report=options.json,
+        ends=options.once or options.headless,
+        interrupted=1 if options.once else 0,
+        browser=options.browser,
+    )
     try:
-        code = supervisor.run(stop, console)
+        code = supervisor.run(stop, console, table=console.is_terminal and not options.headless)
     finally:
         supervisor.stop()
         voice.close()
@@ -193,135 +153,3 @@ def _jobs(options: Launch, resolved: Path) -> list[Job]:
     if "model" in options.processes:
         jobs.append(Job(TEACHER, (TEACHER, *configured), restart=False))
     return jobs
-
-
-class Supervisor:
-    """Watches over the children of one run.
-
-    Args:
-        configuration: of the run.
-        options: how to run.
-        children: to start and keep alive.
-        say: prints a line of a process.
-        started: when the command began, monotonic [s].
-    """
-
-    def __init__(
-        self,
-        configuration: Configuration,
-        options: Launch,
-        children: list[Child],
-        say: Callable[[str, str], None],
-        started: float,
-    ) -> None:
-        self._configuration = configuration
-        self._options = options
-        self._children = children
-        self._say = say
-        self._started = started
-        self._watch: Watch | None = None
-        self._first_motion_s = -1.0
-        self._told = 0
-        self._phase = ""
-        self._browser = options.browser
-
-    def run(self, stop: threading.Event, console: Console) -> int:
-        """Poll until the end; the exit code."""
-        clock = SystemClock()
-        live = Live(console=console, auto_refresh=False) if console.is_terminal and not self._options.headless else None
-        if live is not None:
-            live.start()
-        try:
-            while not stop.is_set():
-                for child in self._children:
-                    child.poll(clock.now_ns())
-                failed = next((child for child in self._children if child.gave_up), None)
-                if failed is not None:
-                    return self._given_up(failed)
-                self._listen()
-                if live is not None and self._watch is not None:
-                    live.update(status_table(self._children, self._watch.beats), refresh=True)
-                teaching = self._watch.teaching_state() if self._watch is not None else None
-                if teaching is not None and teaching.finished and (self._options.once or self._options.headless):
-                    return self._finished(teaching)
-                stop.wait(POLL_S)
-        finally:
-            if live is not None:
-                live.stop()
-        self._say("retouch", "stopping")
-        return self._write_report("interrupted") or 0
-
-    def stop(self) -> None:
-        """Stop every process; the ones that do not obey are killed."""
-        if self._watch is not None:
-            self._watch.close()
-        # The router goes last: a process that leaves the network cleanly needs it.
-        routers = [child for child in self._children if child.job.name == ROUTER]
-        for group in ([child for child in self._children if child not in routers], routers):
-            for child in group:
-                child.terminate()
-            deadline = time.monotonic() + STOP_S
-            for child in group:
-                child.wait(max(0.05, deadline - time.monotonic()))
-
-    def _listen(self) -> None:
-        if self._watch is None:
-            if self._options.router and not self._children[0].alive:
-                return
-            configuration = self._configuration
-            try:
-                session = open_session(configuration.connect, timeout_s=0.5)
-            except Exception:  # noqa: BLE001
-                return
-            self._watch = Watch(ZenohBus(session, configuration.name, f"supervisor-{id(self)}", SystemClock()))
-        self._watch.update()
-        if self._first_motion_s < 0.0 and self._watch.moved():
-            self._first_motion_s = time.monotonic() - self._started
-            self._say("retouch", f"first motion after {self._first_motion_s:.1f} s")
-        teaching = self._watch.teaching_state()
-        if teaching is None:
-            return
-        if teaching.phase != self._phase:
-            self._phase = teaching.phase
-            self._say("teaching", teaching.text)
-        for number, attempt in enumerate(teaching.attempts[self._told :], self._told + 1):
-            self._say("teaching", attempt_line(number, attempt))
-        self._told = max(self._told, len(teaching.attempts))
-        if self._browser:
-            self._browser = False
-            station = self._configuration.station
-            url = f"http://{station.host}:{station.port}/"
-            self._say("retouch", f"the operator's page is {url}")
-            if shutil.which("xdg-open") or sys.platform == "darwin":
-                webbrowser.open(url)
-
-    def _given_up(self, child: Child) -> int:
-        line = child.last_line.removeprefix("retouch: ") or f"ended with code {child.exit_code}"
-        self._write_report(f"{child.job.name}: {line}")
-        sys.stderr.write(f"retouch: {child.job.name}: {line}\n")
-        return EXIT_BAD_INPUT
-
-    def _finished(self, teaching: TeachingState) -> int:
-        if teaching.loop_closed:
-            self._say("retouch", f"the loop has closed in {len(teaching.attempts)} episodes")
-        else:
-            self._say("retouch", f"the loop did not close: {teaching.reason}")
-        self._write_report(teaching.reason)
-        return 0 if teaching.loop_closed else 1
-
-    def _write_report(self, reason: str) -> int:
-        teaching = self._watch.teaching_state() if self._watch is not None else None
-        recording = self._watch.recording.latest() if self._watch is not None else None
-        closed = teaching is not None and teaching.loop_closed
-        report = Report(
-            loop_closed=closed,
-            reason="" if closed else reason,
-            processes={c.job.name: c.pid for c in self._children if c.pid is not None and c.job.restart},
-            restarts={c.job.name: c.restarts for c in self._children},
-            recording=recording.message.path if recording is not None else "",
-            attempts=attempt_reports(teaching),
-            first_motion_s=self._first_motion_s,
-        )
-        if self._options.json is not None:
-            write(report, self._options.json)
-        return 0 if closed or not self._options.once else 1

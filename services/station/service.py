@@ -144,6 +144,7 @@ class StationService:
     def _view(self, now_ns: int, pressed: list[str]) -> View:
         ears = self._ears
         scene = _message(ears.scene.latest())
+        sighting = ears.seen.latest()
         known = {action.value: action for action in Action}
         return View(
             now_s=now_ns / 1e9,
@@ -153,6 +154,7 @@ class StationService:
             scene=scene,
             model=ears.model.fresh(now_ns),
             seen=ears.seen.fresh(now_ns),
+            seen_s=sighting.received_ns / 1e9 if sighting is not None else 0.0,
             result=_message(ears.results.latest()),
             outcome=self._outcome(),
             actions=frozenset(known[name] for name in pressed if name in known),

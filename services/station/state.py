@@ -88,6 +88,7 @@ class View:
         scene: in which it stands.
         model: the model's state.
         seen: the object, as perceived.
+        seen_s: when that came [s].
         result: of the newest episode.
         outcome: of the query asked last, in the step in which it came.
         actions: what the operator pressed since the last step.
@@ -101,6 +102,7 @@ class View:
     scene: messages.SceneState | None = None
     model: ModelState | None = None
     seen: ObjectPose | None = None
+    seen_s: float = 0.0
     result: EpisodeResult | None = None
     outcome: Any = None
     actions: frozenset[Action] = frozenset()

@@ -22,7 +22,9 @@ from services.bus import Failed
 from services.station.state import Action, Ask, Phase, Settings, Step, View, Workflow
 
 RETRY_S = 0.5
-LOOK_S = 0.5
+LOOK_S = 0.8
+"""A sighting counts once all pictures that it rests on were taken after the reset: nine at 15 Hz, and their way here."""
+
 PICTURES_NEEDED = 5
 EPISODE_GRACE_S = 45.0
 """How much longer than its motion a scripted episode may take (ramp, holds) before it counts as lost."""
@@ -144,7 +146,7 @@ def _resetting(state: Workflow, view: View, settings: Settings) -> Step:
 def _looking(state: Workflow, view: View, settings: Settings) -> Step:
     del settings
     seen = view.seen
-    if seen is None or seen.pictures < PICTURES_NEEDED or view.now_s - state.since_s < LOOK_S:
+    if seen is None or seen.pictures < PICTURES_NEEDED or view.seen_s - state.since_s < LOOK_S:
         return Step(state)
     return Step(_to(state, Phase.PREDICTING, view, looked=seen.pose.position))
 

@@ -58,7 +58,8 @@ class Site:
         """Advance by a second; a question is answered in the next step."""
         self.now_s += 1.0
         before = self.state.phase
-        step = advance(self.state, replace(self.view, now_s=self.now_s, **seen), self.settings)
+        now = {"now_s": self.now_s, "seen_s": self.now_s}
+        step = advance(self.state, replace(self.view, **(now | seen)), self.settings)
         self.state = step.state
         self.view = replace(self.view, outcome=None, result=None)
         if step.ask is not None:
@@ -247,6 +248,16 @@ def test_a_failed_question_is_shown_and_asked_again():
     site.step()
     assert "nobody answers" in site.state.notice
     site.run_to(Phase.EXECUTING)
+
+
+def test_where_the_object_was_before_the_reset_does_not_count():
+    site = Site(SCRIPTED)
+    site.run_to(Phase.LOOKING)
+    before = site.now_s
+    for _ in range(5):
+        site.step(seen_s=before)
+    assert site.state.phase is Phase.LOOKING
+    site.run_to(Phase.PREDICTING)
 
 
 def lose_authority(site):
