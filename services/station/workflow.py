@@ -23,7 +23,7 @@ from services.station.state import Action, Ask, Phase, Settings, Step, View, Wor
 
 RETRY_S = 0.5
 LOOK_S = 0.8
-"""A sighting counts once all pictures that it rests on were taken after the reset: nine at 15 Hz, and their way here."""
+"""A sighting counts once all its pictures were taken after the reset: nine at 15 Hz, and their way here."""
 
 PICTURES_NEEDED = 5
 EPISODE_GRACE_S = 45.0
