@@ -32,10 +32,12 @@ class Order:
     Attributes:
         episode: counted since the process started.
         execute: the request.
+        holder: of the authority who asked.
     """
 
     episode: int
     execute: Execute
+    holder: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,9 +71,12 @@ class Control:
         self._object_position: Array = scene.training_positions[0]
 
     def acquire(self, request: AcquireAuthority, now_ns: int) -> int:
-        """Give the authority to a holder; the epoch."""
+        """Give the authority to a holder; the epoch. An episode of another holder's does not go on under it."""
         self._check_stop()
-        return self.lease.acquire(request.holder, now_ns, take_over=request.take_over)
+        epoch = self.lease.acquire(request.holder, now_ns, take_over=request.take_over)
+        if self.order is not None and self.order.holder != request.holder:
+            self.arm.finish(f"{request.holder} took the authority over from {self.order.holder}")
+        return epoch
 
     def release(self, request: ReleaseAuthority) -> None:
         """Take the authority back from its holder."""
@@ -85,7 +90,7 @@ class Control:
         except ServiceError as error:
             raise Refusal(f"the prediction cannot be executed: {error}") from error
         prediction = admit_prediction(*motion, self.arm.measured)
-        self.order = Order(self.order.episode + 1 if self.order is not None else 1, request)
+        self.order = Order(self.order.episode + 1 if self.order is not None else 1, request, self.lease.holder)
         self.finished = None
         self.arm.begin(prediction, look_ahead(prediction) if request.adapt is Adapt.NEXT else 0.0)
         return self.order.episode

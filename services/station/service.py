@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 
 log = logging.getLogger(__name__)
 
-HOLDER = "station"
 QUERY_TIMEOUT_S = 5.0
 STOP = "stop"
 STOP_REPEATS = 10
@@ -54,7 +53,8 @@ def _open_page(section: StationSection, robot: str, clock: Clock) -> Page:
 def settings(section: StationSection) -> Settings:
     """The workflow's settings as configured."""
     return Settings(
-        holder=HOLDER,
+        # A station that was restarted is another one: the robot ends what it does not know of.
+        holder=f"station-{secrets.token_hex(2)}",
         autonomous_s=section.autonomous_s,
         refine_s=section.refine_s,
         refinements_allowed=section.refinements_allowed,
@@ -181,7 +181,7 @@ class StationService:
         every = round(self.rate_hz / topics.EMERGENCY_STOP.rate_hz)
         if self._stops_to_send and (pressed or self._ticks % every == 0):
             self._stops_to_send -= 1
-            message = messages.EmergencyStop(pressed=True, by=HOLDER, reason="the operator pressed stop")
+            message = messages.EmergencyStop(pressed=True, by=self._settings.holder, reason="the operator pressed stop")
             self._bus.publish(topics.EMERGENCY_STOP, message)
 
     def _publish(self, view: View) -> None:
@@ -189,13 +189,13 @@ class StationService:
             return
         self._bus.publish(topics.TEACHING_STATE, teaching_state(self._workflow, view, self._settings))
         if self._workflow.epoch and self._workflow.phase is not Phase.FINISHED:
-            renewal = messages.AuthorityRenewal(holder=HOLDER, epoch=self._workflow.epoch)
+            renewal = messages.AuthorityRenewal(holder=self._settings.holder, epoch=self._workflow.epoch)
             self._bus.publish(topics.AUTHORITY_RENEWAL, renewal)
 
     def _page_view(self, now_ns: int, view: View) -> PageView:
         ears = self._ears
         robot = ears.robot.latest()
-        mine = view.authority is not None and view.authority.holder == HOLDER
+        mine = view.authority is not None and view.authority.holder == self._settings.holder
         base = PageView(
             teaching=teaching_state(self._workflow, view, self._settings),
             verdict=_message(ears.verdict.latest()),

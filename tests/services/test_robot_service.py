@@ -103,6 +103,29 @@ def test_an_autonomous_episode_runs_to_its_end_and_is_reported_until_the_next_on
     assert site.take_results() == []
 
 
+def test_an_episode_does_not_go_on_under_another_operator(site):
+    site.acquire("ann")
+    site.execute()
+    site.run(1.0)
+    site.acquire("bob", take_over=True)
+    site.run(1.0, renew=False)
+    result = site.take_results()[0]
+    assert not result.completed
+    assert "bob took the authority over from ann" in result.reason
+    assert site.state.phase is Phase.IDLE
+
+
+def test_an_episode_goes_on_when_its_operator_is_back(site):
+    site.acquire("ann")
+    site.execute()
+    site.run(1.0)
+    site.run(2.0, renew=False)
+    assert site.state.phase is Phase.HOLD
+    site.acquire("ann")
+    site.run(3.0)
+    assert site.take_results()[0].completed
+
+
 def test_the_operators_displacement_becomes_the_refinement(site):
     site.acquire()
     site.execute(Mode.REFINE)
