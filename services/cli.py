@@ -102,7 +102,7 @@ def _add_up(commands: argparse._SubParsersAction[_Parser], common: _Parser) -> N
     up = commands.add_parser("up", parents=[common], help="start everything and watch over it")
     _add_scene(up)
     up.add_argument("--headless", action="store_true", help="a scripted operator instead of the page")
-    up.add_argument("--once", action="store_true", help="end with the teaching run: with --headless, when the loop has closed")
+    up.add_argument("--once", action="store_true", help="end when the loop has closed (headless), or the run is ended")
     up.add_argument("--fresh", action="store_true", help="start from an empty model, kept in the run's folder")
     up.add_argument("--json", type=Path, metavar="FILE", help="write what happened")
     up.add_argument("--listen", metavar="ENDPOINT", help="where other machines may join (default: this machine only)")

@@ -1,7 +1,6 @@
 """The viewer's failures.
 
 ViewerError
-├── PortInUse        another program listens where the live view should be
 ├── WebFilesMissing  the Rerun SDK did not give its web viewer's files
 └── CannotReplay     a recording that cannot be opened
 """
@@ -15,19 +14,6 @@ from services.exceptions import ServiceError
 
 class ViewerError(ServiceError):
     """Base of what the viewer raises for a person to read."""
-
-
-class PortInUse(ViewerError):
-    """Nothing can listen at the port."""
-
-    def __init__(self, host: str, port: int, setting: str) -> None:
-        self.host = host
-        self.port = port
-        self.setting = setting
-        super().__init__(
-            f"cannot listen on {host}:{port}: the port is in use or the address not this machine's;"
-            f" set another one in the configuration: {setting}"
-        )
 
 
 class WebFilesMissing(ViewerError):

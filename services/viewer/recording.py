@@ -10,9 +10,10 @@ from pathlib import Path
 import rerun as rr
 
 from services.config import ViewerSection
+from services.exceptions import PortInUse
 from services.viewer import entities
 from services.viewer.blueprint import blueprint
-from services.viewer.exceptions import PortInUse, ViewerError
+from services.viewer.exceptions import ViewerError
 
 # Enough for a page that is opened late to be live within two seconds; a large buffer would be played back first.
 _LATE_JOINERS_MEMORY = "32MiB"
@@ -105,5 +106,5 @@ def _check_free(host: str, port: int, setting: str) -> None:
         probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             probe.bind((host, port))
-        except OSError:
-            raise PortInUse(host, port, setting) from None
+        except OSError as error:
+            raise PortInUse("the live stream", host, port, setting, error.strerror or "") from None

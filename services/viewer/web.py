@@ -13,7 +13,7 @@ from string import Template
 from typing import Any
 
 from services.config import Configuration
-from services.viewer.exceptions import PortInUse
+from services.exceptions import PortInUse
 from services.viewer.recording import public_host
 from services.viewer.web_files import FILES
 
@@ -65,8 +65,9 @@ class WebServer:
 
         try:
             self._server = _Server((section.host, section.web_port), Handler)
-        except OSError:
-            raise PortInUse(section.host, section.web_port, "[viewer] web_port") from None
+        except OSError as error:
+            reason = error.strerror or ""
+            raise PortInUse("the live view", section.host, section.web_port, "[viewer] web_port", reason) from None
         self.url = f"http://{host}:{section.web_port}/"
         self._thread = threading.Thread(target=self._server.serve_forever, name="live view's page", daemon=True)
         self._thread.start()

@@ -195,8 +195,8 @@ def test_the_sdks_files_are_served_compressed_and_no_other_file_is(system, confi
 
 @pytest.mark.parametrize("setting", ["web_port", "stream_port"])
 def test_a_port_in_use_is_named_with_its_setting(configuration, files, monkeypatch, setting):
+    from services.exceptions import PortInUse
     from services.viewer import service
-    from services.viewer.exceptions import PortInUse
 
     monkeypatch.setattr(service, "web_files", lambda: files)
     clock = ManualClock()
