@@ -143,8 +143,8 @@ def test_another_recording_loads_the_live_view_anew(tab, station, viewer):
 def test_the_traffic_light_follows_the_view(tab, station, light, word):
     _, feed = station
     feed.view = replace(feed.view, teaching=msgspec.structs.replace(feed.view.teaching, light=light, text="so it is"))
+    tab.page.wait_for_selector(".light-text:text-is('so it is')")
     tab.page.wait_for_selector(f".light[data-light={light.value}] .light-word:text-is('{word}')")
-    assert tab.page.inner_text(".light-text") == "so it is"
 
 
 def test_the_counters_follow_the_view(tab, station):
