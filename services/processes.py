@@ -13,25 +13,23 @@ class Process:
         name: of the command that starts it, and the last chunk of the keys that it publishes on.
         module: whose `build(bus, clock, configuration)` makes the service.
         about: one line for `--help`.
-        beside: where it usually runs.
         nice: how far it stands back from the processor; drawing must not disturb control.
     """
 
     name: str
     module: str
     about: str
-    beside: str
     nice: int = 0
 
 
 PROCESSES: tuple[Process, ...] = (
-    Process("robot", "services.robot.service", "own the arm: execute, correct, judge, keep safe", "robot"),
-    Process("camera", "services.camera.service", "draw the head and wrist pictures", "robot", nice=5),
-    Process("perception", "services.perception.service", "find the object in the pictures", "robot", nice=5),
-    Process("model", "services.model.service", "own the learnt model and its database", "anywhere"),
-    Process("master", "services.master.service", "own the operator's input device", "operator"),
-    Process("viewer", "services.viewer.service", "show and record with Rerun", "operator", nice=5),
-    Process("station", "services.station.service", "serve the operator's page, run the teaching workflow", "operator"),
+    Process("robot", "services.robot.service", "own the arm: execute, correct, judge, keep safe"),
+    Process("camera", "services.camera.service", "draw the head and wrist pictures", nice=5),
+    Process("perception", "services.perception.service", "find the object in the pictures", nice=5),
+    Process("model", "services.model.service", "own the learnt model and its database"),
+    Process("master", "services.master.service", "own the operator's input device"),
+    Process("viewer", "services.viewer.service", "show and record with Rerun", nice=5),
+    Process("station", "services.station.service", "serve the operator's page, run the teaching workflow"),
 )
 
 PROCESS_NAMES = tuple(process.name for process in PROCESSES)

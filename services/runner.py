@@ -121,6 +121,7 @@ def run(service: Service, bus: Bus, clock: Clock, process: str, stop: threading.
     """
     sys.setswitchinterval(SWITCH_INTERVAL_S)
     ticks = TickStatistics(service.rate_hz)
+    paced = service if isinstance(service, Paced) else None
     due = clock.now_ns()
     heartbeat_due = due
     try:
@@ -134,7 +135,7 @@ def run(service: Service, bus: Bus, clock: Clock, process: str, stop: threading.
                 for fault in bus.faults():
                     log.warning("dropped: %s", fault)
                 heartbeat_due = ended + round(1e9 / HEARTBEAT.rate_hz)
-            due += ticks.period_ns + (service.take_slew_ns() if isinstance(service, Paced) else 0)
+            due += ticks.period_ns + (paced.take_slew_ns() if paced is not None else 0)
             behind = clock.now_ns() - due
             if behind > ticks.period_ns:
                 due += behind // ticks.period_ns * ticks.period_ns
