@@ -23,9 +23,9 @@ from scipy.linalg import cho_factor, cho_solve
 from scipy.spatial.distance import cdist
 
 from lfd.alignment import align
-from lfd.arrays import Array, checked, checked_quaternions, frozen
+from lfd.arrays import Array, frozen
 from lfd.basis import GaussianBasis
-from lfd.demonstration import Demonstration
+from lfd.demonstration import Demonstration, Situation
 from lfd.encoding import Encoding, reference_rotation
 from lfd.exceptions import TooFewDemonstrations
 from lfd.model import PREDICTION_POINTS, Prediction
@@ -114,17 +114,12 @@ class AdaptiveProMP:
             novelty=frozen(np.append(self.novelty, novelty)),
         )
 
-    def predict(
-        self, object_position: Array, start_position: Array, start_orientation: Array, n: int = PREDICTION_POINTS
-    ) -> Prediction:
+    def predict(self, situation: Situation, n: int = PREDICTION_POINTS) -> Prediction:
         """See `MovementModel.predict`; the prediction begins exactly at the start pose."""
-        target = checked("object_position", object_position, (3,))
-        start = checked("start_position", start_position, (3,))
-        orientation = checked_quaternions("start_orientation", start_orientation, (4,))
-        s = target - start
+        s = situation.condition
         k = self._kernel(s[None], self.conditions)[0]
         vector = self._trend(s[None])[0] + k @ self._residual_gain
-        trajectory = self.encoding.decode(vector, (start, orientation), target, n)
+        trajectory = self.encoding.decode(vector, situation, n)
         variance = self._variance(s, k)
         return Prediction(
             trajectory,

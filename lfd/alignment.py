@@ -9,7 +9,7 @@ from scipy.cluster.hierarchy import fcluster, linkage
 from scipy.spatial.distance import cdist
 
 from lfd.arrays import Array
-from lfd.demonstration import Demonstration, relative_to_object, to_base
+from lfd.demonstration import Demonstration, relative_to_origin, to_base
 from lfd.resampling import at_phases
 from lfd.trajectory import Trajectory
 
@@ -88,7 +88,7 @@ def reference(trajectories: Sequence[Trajectory]) -> int:
 
 
 def group_by_condition(conditions: Array, tolerance: float = SAME_CONDITION) -> list[list[int]]:
-    """Indices of equal conditions (M, 3) [m], grouped, in order of first appearance.
+    """Indices of equal conditions (M, c), grouped, in order of first appearance.
 
     Transitive: a chain of conditions, each within the tolerance of the next, is one group. The thesis compares pairs
     (equation (21)) and leaves open what follows when a = b and b = c but not a = c.
@@ -109,12 +109,12 @@ def align(demonstrations: Sequence[Demonstration], tolerance: float = SAME_CONDI
     predicts worse on its own recordings.
     """
     aligned = list(demonstrations)
-    conditions = np.array([d.condition for d in demonstrations]).reshape(-1, 3)
+    conditions = np.array([d.condition for d in demonstrations])
     for group in group_by_condition(conditions, tolerance):
-        members = {i: relative_to_object(aligned[i].trajectory, aligned[i].object_position) for i in group}
+        members = {i: relative_to_origin(aligned[i].trajectory, aligned[i].origin) for i in group}
         chosen = group[reference(list(members.values()))]
         for i in group:
             if i != chosen:
-                warped = to_base(warp(members[i], onto=members[chosen]), aligned[i].object_position)
+                warped = to_base(warp(members[i], onto=members[chosen]), aligned[i].origin)
                 aligned[i] = replace(aligned[i], trajectory=warped)
     return aligned

@@ -7,7 +7,7 @@ import numpy as np
 
 from lfd.arrays import Array, checked_quaternions
 from lfd.basis import GaussianBasis, weights
-from lfd.demonstration import Demonstration, relative_to_object
+from lfd.demonstration import Demonstration, Situation, relative_to_origin
 from lfd.resampling import resample
 from lfd.rotations import conjugate, exp_map, log_map, mean_rotation, multiply, sign_continuous
 from lfd.trajectory import Trajectory
@@ -20,7 +20,7 @@ def reference_rotation(demonstrations: Sequence[Demonstration]) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class Encoding:
-    """Weights of positions relative to the object, of orientations, and the duration, in one vector.
+    """Weights of positions relative to the origin, of orientations, and the duration, in one vector.
 
     Orientations enter as rotation vectors about one reference rotation (log map), not as the quaternion components
     of the thesis: those lose their unit norm when averaged and mix up q with -q. Durations enter as logarithms, so
@@ -45,30 +45,29 @@ class Encoding:
     def encode(self, demonstration: Demonstration) -> Array:
         """The vector of a demonstration, shape (6 N + 1,): N x 6 weights row by row, then ln(duration / s)."""
         trajectory = resample(demonstration.trajectory, self.samples)
-        relative = relative_to_object(trajectory, demonstration.object_position)
+        relative = relative_to_origin(trajectory, demonstration.origin)
         outputs = np.hstack([relative.positions, self._rotation_vectors(relative.orientations)])
         if self.anchored:
             outputs = outputs - np.outer(1.0 - trajectory.phases, outputs[0])
         w = weights(self.rows(trajectory.phases), outputs)
         return np.append(w.ravel(), np.log(trajectory.duration))
 
-    def decode(self, x: Array, start_pose: tuple[Array, Array], object_position: Array, n: int) -> Trajectory:
+    def decode(self, x: Array, situation: Situation, n: int) -> Trajectory:
         """The trajectory of n points in the base frame that the vector x (6 N + 1,) stands for.
 
         Args:
             x: As of `encode`.
-            start_pose: Position (3,) [m] and orientation (4,) at t = 0 in the base frame; used if anchored.
-            object_position: In the base frame, shape (3,) [m].
+            situation: Whose origin the motion is relative to, and whose start pose it begins at, if anchored.
             n: Number of points.
         """
         phases = np.linspace(0.0, 1.0, n)
         outputs = self.rows(phases) @ x[:-1].reshape(self.basis.count, 6)
         if self.anchored:
-            position, orientation = start_pose
-            start = np.concatenate([position - object_position, self._rotation_vectors(orientation[None])[0]])
-            outputs = outputs + np.outer(1.0 - phases, start)
+            relative = situation.start_position - situation.origin
+            turned = self._rotation_vectors(situation.start_orientation[None])[0]
+            outputs = outputs + np.outer(1.0 - phases, np.concatenate([relative, turned]))
         return Trajectory(
-            positions=outputs[:, :3] + object_position,
+            positions=outputs[:, :3] + situation.origin,
             orientations=multiply(self.rotation, exp_map(outputs[:, 3:])),
             duration=float(np.exp(x[-1])),
         )

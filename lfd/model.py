@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Protocol, Self
 
 from lfd.arrays import Array, checked
-from lfd.demonstration import Demonstration
+from lfd.demonstration import Demonstration, Situation
 from lfd.exceptions import OutOfRange
 from lfd.trajectory import Trajectory
 
@@ -50,20 +50,15 @@ class MovementModel(Protocol):
         """The model that has also learnt `demonstration`, the motion that a refinement led to."""
         ...
 
-    def predict(
-        self, object_position: Array, start_position: Array, start_orientation: Array, n: int = PREDICTION_POINTS
-    ) -> Prediction:
-        """The motion from a start pose to an object.
+    def predict(self, situation: Situation, n: int = PREDICTION_POINTS) -> Prediction:
+        """The motion for a situation.
 
         Args:
-            object_position: In the base frame, shape (3,) [m].
-            start_position: Of the end effector in the base frame, shape (3,) [m].
-            start_orientation: Of the end effector in the base frame, unit quaternion (w, x, y, z).
+            situation: Condition, origin and start pose.
             n: Number of points.
 
         Raises:
-            WrongShape: An array has the wrong shape.
-            NotFinite: A number is NaN or infinite.
-            NotUnitQuaternion: The orientation is not a unit quaternion.
+            WrongShape: The condition has another dimension than those of the demonstrations.
+            TooFewPoints: n is less than 2.
         """
         ...

@@ -7,9 +7,9 @@ from typing import Self
 import numpy as np
 
 from lfd.alignment import align
-from lfd.arrays import Array, checked, checked_quaternions
+from lfd.arrays import Array
 from lfd.basis import GaussianBasis
-from lfd.demonstration import Demonstration
+from lfd.demonstration import Demonstration, Situation
 from lfd.encoding import Encoding, reference_rotation
 from lfd.exceptions import TooFewDemonstrations
 from lfd.gaussian import JointGaussian, condition, welford
@@ -74,16 +74,11 @@ class ConditionedProMP:
         """The model after one step of Welford's method: the new motion counts as much as each earlier one."""
         return replace(self, joint=welford(self.joint, _sample(self.encoding, demonstration)))
 
-    def predict(
-        self, object_position: Array, start_position: Array, start_orientation: Array, n: int = PREDICTION_POINTS
-    ) -> Prediction:
+    def predict(self, situation: Situation, n: int = PREDICTION_POINTS) -> Prediction:
         """Equations (12) and (13), see `MovementModel.predict`; the start orientation is not used."""
-        target = checked("object_position", object_position, (3,))
-        start = checked("start_position", start_position, (3,))
-        orientation = checked_quaternions("start_orientation", start_orientation, (4,))
-        s = CONDITION_SCALE * (target - start)
+        s = CONDITION_SCALE * situation.condition
         given = condition(self.joint, s, self.options.conditioning_noise)
-        trajectory = self.encoding.decode(given.mean, (start, orientation), target, n)
+        trajectory = self.encoding.decode(given.mean, situation, n)
         N = self.options.basis.count
         Sigma_w = given.covariance[:-1, :-1].reshape(N, 6, N, 6)[:, :3, :, :3]
         Phi = self.encoding.rows(trajectory.phases)

@@ -15,7 +15,7 @@ from lfd.demonstration import Demonstration
 from lfd.exceptions import LfdError, NothingToUndo, StorageError
 from lfd.trajectory import Trajectory
 
-SCHEMA_VERSION = 1
+SCHEMA_VERSION = 2  # 1 had no conditions: they were the object relative to the start
 APPLICATION_ID = 0x52544348  # "RTCH" in the file's header tells our files from others
 BUSY_TIMEOUT = 5.0  # [s] how long a statement waits for another connection's lock
 
@@ -117,7 +117,8 @@ class DemonstrationStore:
         arrays = {
             "positions": trajectory.positions,
             "orientations": trajectory.orientations,
-            "object_position": demonstration.object_position,
+            "origin": demonstration.origin,
+            "condition": demonstration.condition,
         }
         with self._transaction() as version:
             self._connection.execute(
@@ -166,7 +167,7 @@ class DemonstrationStore:
         try:
             arrays = {name: _array(dtype, shape, data) for name, dtype, shape, data in rows}
             trajectory = Trajectory(arrays["positions"], arrays["orientations"], duration)
-            return Demonstration(trajectory, arrays["object_position"])
+            return Demonstration(trajectory, arrays["origin"], arrays["condition"])
         except (LfdError, ValueError, KeyError) as error:
             reason = f"demonstration {added} is damaged ({error})"
             raise StorageError(self._path, reason, "restore the file from a copy") from error
@@ -185,9 +186,26 @@ class DemonstrationStore:
         execute("PRAGMA foreign_keys = ON")
         if empty:
             self._connection.executescript(f"BEGIN IMMEDIATE; {_NEW_FILE} COMMIT;")
+        elif schema < SCHEMA_VERSION:
+            self._upgrade()
         damage = execute("PRAGMA quick_check(1)").fetchone()[0]
         if damage != "ok":
             raise StorageError(self._path, f"the file is damaged ({damage})", "restore it from a copy")
+
+    def _upgrade(self) -> None:
+        """Give the demonstrations of schema 1 their conditions: the object relative to the motion's first point."""
+        with self._transaction():
+            execute = self._connection.execute
+            execute("UPDATE arrays SET name = 'origin' WHERE name = 'object_position'")
+            rows = execute(
+                "SELECT a.demonstration, a.bytes, p.bytes FROM arrays a JOIN arrays p USING (demonstration)"
+                " WHERE a.name = 'origin' AND p.name = 'positions'"
+            ).fetchall()
+            for demonstration, origin, positions in rows:
+                first = np.frombuffer(positions, dtype=_DTYPE, count=3)
+                condition = (np.frombuffer(origin, dtype=_DTYPE) - first).tobytes()
+                execute("INSERT INTO arrays VALUES (?, 'condition', ?, '3', ?)", (demonstration, _DTYPE, condition))
+            execute(f"PRAGMA user_version = {SCHEMA_VERSION}")
 
     @contextmanager
     def _transaction(self) -> Iterator[int]:

@@ -20,6 +20,7 @@ Text = Annotated[str, msgspec.Meta(max_length=4096)]
 Name = Annotated[str, msgspec.Meta(max_length=64)]
 Count = Annotated[int, msgspec.Meta(ge=0, le=2**53)]
 Joints = Annotated[tuple[Real, ...], msgspec.Meta(max_length=64)]
+Condition = Annotated[tuple[Real, ...], msgspec.Meta(max_length=64)]
 
 ITEM_SIZES = {"<f8": 8, "<f4": 4, "|u1": 1}
 """The array element types that may cross the wire: NumPy's names, little endian, to bytes an element."""
@@ -239,6 +240,8 @@ class SceneState(Message, frozen=True, kw_only=True):
         kicked_over_thresholds: largest displacement on each axis [m].
         start: the pose in which every episode starts.
         object_region: least and greatest corner of where objects may stand [m].
+        condition: the external state that the motion depends on; empty where it is the object relative to the gripper
+            at the start.
     """
 
     name: Name
@@ -250,6 +253,7 @@ class SceneState(Message, frozen=True, kw_only=True):
     start: Pose
     object_region: tuple[Vector3, Vector3]
     variants: Annotated[tuple[Name, ...], msgspec.Meta(max_length=16)] = ()
+    condition: Condition = ()
 
 
 class Verdict(Message, frozen=True, kw_only=True):

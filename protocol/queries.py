@@ -8,7 +8,7 @@ from typing import Any, Generic, TypeVar
 
 import msgspec
 
-from protocol.messages import Count, Mode, ModelState, Motion, Name, Pose, Prediction, Text, Vector3
+from protocol.messages import Condition, Count, Mode, ModelState, Motion, Name, Pose, Prediction, Text, Vector3
 from protocol.topics import VERSION, checked_name
 
 Req = TypeVar("Req", bound=msgspec.Struct)
@@ -84,14 +84,23 @@ class Finish(msgspec.Struct, frozen=True):
 
 
 class Reset(msgspec.Struct, frozen=True):
-    """Back to the start pose. In simulation the object is put to `object_position` and the scene into `variant`.
+    """Back to the start. In simulation the object and the scene are arranged anew.
 
-    Where they are left out, the object returns to where it was put last and the variant stays.
+    What is left out stays as it was put last.
+
+    Attributes:
+        epoch: of the authority.
+        variant: of the scene.
+        object_position: of the object's centre, base frame [m].
+        condition: the external state of a scene that has another than the object's position.
+        start: pose of the grasping frame from which the next motion starts.
     """
 
     epoch: Count
     variant: Name | None = None
     object_position: Vector3 | None = None
+    condition: Condition | None = None
+    start: Pose | None = None
 
 
 class ReleaseStop(msgspec.Struct, frozen=True):
@@ -101,10 +110,17 @@ class ReleaseStop(msgspec.Struct, frozen=True):
 
 
 class Predict(msgspec.Struct, frozen=True):
-    """Predict a motion to the object from the start pose."""
+    """Predict a motion to the object from the start pose.
+
+    Attributes:
+        object_position: that the motion is relative to, base frame [m].
+        start: pose of the grasping frame at its beginning.
+        condition: the external state that it depends on; empty for the object relative to the start.
+    """
 
     object_position: Vector3
     start: Pose
+    condition: Condition = ()
 
 
 class Predicted(msgspec.Struct, frozen=True, tag_field="reply", tag="predicted"):
@@ -121,12 +137,21 @@ class Kind(Enum):
 
 
 class AddDemonstration(msgspec.Struct, frozen=True):
-    """Learn from a motion that reached the object."""
+    """Learn from a motion that reached the object.
+
+    Attributes:
+        kind: what it is to the model.
+        motion: in the base frame.
+        object_position: that the motion is relative to, base frame [m].
+        scene: in which it was given.
+        condition: the external state that it was right for; empty for the object relative to the motion's start.
+    """
 
     kind: Kind
     motion: Motion
     object_position: Vector3
     scene: Name
+    condition: Condition = ()
 
 
 class Undo(msgspec.Struct, frozen=True):

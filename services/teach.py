@@ -60,8 +60,13 @@ def teach(configuration: Configuration) -> None:
         for demonstration in demonstrations[state.demonstrations :]:
             taught = demonstration.trajectory
             motion = motion_to_wire(taught.positions, taught.orientations, taught.duration)
-            position = vector3(demonstration.object_position)
-            request = AddDemonstration(Kind.INITIAL, motion, position, configuration.robot.scene)
+            request = AddDemonstration(
+                Kind.INITIAL,
+                motion,
+                vector3(demonstration.origin),
+                configuration.robot.scene,
+                tuple(demonstration.condition.tolist()),
+            )
             _answered(bus, queries.ADD_DEMONSTRATION, request, stop)
         log.info("taught %d demonstrations of %s", len(demonstrations), configuration.robot.scene)
     finally:

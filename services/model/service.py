@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from lfd.adaptation import AdaptiveProMP
-from lfd.demonstration import Demonstration
+from lfd.demonstration import Demonstration, Situation
 from lfd.exceptions import LfdError
 from lfd.model import MovementModel
 from lfd.promp import ConditionedProMP
@@ -118,9 +118,7 @@ class ModelService:
     def _predicted(self, request: Predict) -> Predicted | Refused:
         if self._model is None:
             return Refused("the model has no demonstration yet: teach it first")
-        prediction = self._model.predict(
-            np.array(request.object_position), np.array(request.start.position), np.array(request.start.orientation)
-        )
+        prediction = self._model.predict(_situation(request))
         variances = np.diagonal(prediction.position_covariances, axis1=1, axis2=2)
         motion = prediction.trajectory
         message = messages.Prediction(
@@ -134,8 +132,12 @@ class ModelService:
 
     def _learnt(self, request: AddDemonstration) -> queries.Learnt:
         positions, orientations, duration = motion_from_wire(request.motion)
-        demonstration = Demonstration(
-            Trajectory(positions, orientations, duration), np.array(request.object_position, dtype=np.float64)
+        motion = Trajectory(positions, orientations, duration)
+        origin = np.array(request.object_position, dtype=np.float64)
+        demonstration = (
+            Demonstration(motion, origin, np.array(request.condition))
+            if request.condition
+            else Demonstration.reaching(motion, origin)
         )
         kind = StoredKind(request.kind.value)
         candidate = self._extended(demonstration, kind)
@@ -170,6 +172,14 @@ class ModelService:
             updates=sum(s.kind is StoredKind.UPDATE for s in self._stored),
             scene=self._stored[-1].scene if self._stored else "",
         )
+
+
+def _situation(request: Predict) -> Situation:
+    origin, start = np.array(request.object_position), request.start
+    position, orientation = np.array(start.position), np.array(start.orientation)
+    if not request.condition:
+        return Situation.reaching(origin, position, orientation)
+    return Situation(np.array(request.condition), origin, position, orientation)
 
 
 def _answer(server: Server[Req, Rep], answer: Callable[[Req], Rep | Refused]) -> None:

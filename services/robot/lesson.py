@@ -51,5 +51,5 @@ def demonstrate(arm: Arm, scene: Scene, position: Array, rng: np.random.Generato
         trajectory = from_samples(times, way.positions, way.orientations, POINTS)
         outcome = rollout(arm, trajectory, position, variant=scene.variants[0])
         if outcome.verdict.success:
-            return Demonstration(outcome.measured, position)
+            return Demonstration.reaching(outcome.measured, position)
     raise CommandFailed(f"no motion to an object at {np.round(position, 3).tolist()} succeeded in {TRIES} tries")

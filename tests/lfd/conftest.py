@@ -30,7 +30,7 @@ def reach():
         smooth = t * t * (3.0 - 2.0 * t)
         positions = start + smooth * (object_position - start) + np.sin(np.pi * t) * [0.0, bend, 0.1]
         orientations = exp_map(smooth * [0.2, -0.3, 0.1] + [0.0, 0.4, 0.0])
-        return Demonstration(Trajectory(positions, orientations, duration), object_position)
+        return Demonstration.reaching(Trajectory(positions, orientations, duration), object_position)
 
     return make
 
@@ -63,7 +63,7 @@ def refinements():
         table = np.array(samples[key])
         # They were recorded by number, not by time; the experiment executed predictions in 10 s.
         trajectory = Trajectory(table[:, 3:6], table[:, 6:], duration=10.0)
-        sequences[key[:3]].append(Demonstration(trajectory, table[0, :3]))
+        sequences[key[:3]].append(Demonstration.reaching(trajectory, table[0, :3]))
     return list(sequences.values())
 
 
@@ -74,4 +74,4 @@ def _demonstration(path):
     table = np.genfromtxt(path, delimiter=",", names=True)
     columns = np.column_stack([table[name] for name in COLUMNS])
     trajectory = from_samples(table["t"], columns[:, 3:6], columns[:, 6:], n=100)
-    return Demonstration(trajectory, columns[0, :3])
+    return Demonstration.reaching(trajectory, columns[0, :3])

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 
 from lfd.adaptation import AdaptiveProMP
 from lfd.alignment import group_by_condition
-from lfd.demonstration import Demonstration
+from lfd.demonstration import Demonstration, Situation
 from lfd.exceptions import TooFewDemonstrations
 from lfd.promp import ConditionedProMP
 from lfd.rotations import exp_map
@@ -15,9 +15,7 @@ LEFT, MIDDLE, RIGHT = [0.9, 0.3, 0.6], [0.9, 0.0, 0.6], [0.9, -0.3, 0.6]
 
 
 def predict(model, demonstration, n=None):
-    trajectory = demonstration.trajectory
-    points = n or trajectory.n_points
-    return model.predict(demonstration.object_position, trajectory.positions[0], trajectory.orientations[0], points)
+    return model.predict(demonstration.situation, n or demonstration.trajectory.n_points)
 
 
 def gap(model, demonstration):
@@ -85,8 +83,8 @@ def test_a_new_place_extends_the_trend(reach):
 def test_a_prediction_begins_at_the_start_pose(position, target):
     orientation = exp_map(np.array(position))
     line = Trajectory(np.linspace([0.0, 0.0, 0.0], [0.4, 0.2, 0.1], 20), np.tile([1.0, 0, 0, 0], (20, 1)), 5.0)
-    model = AdaptiveProMP.fit([Demonstration(line, np.array([0.5, 0.2, 0.1]))])
-    trajectory = model.predict(np.array(target), np.array(position), orientation).trajectory
+    model = AdaptiveProMP.fit([Demonstration.reaching(line, np.array([0.5, 0.2, 0.1]))])
+    trajectory = model.predict(Situation.reaching(np.array(target), np.array(position), orientation)).trajectory
     np.testing.assert_allclose(trajectory.positions[0], position, atol=1e-9)
     assert abs(trajectory.orientations[0] @ orientation) == pytest.approx(1.0)
     assert trajectory.n_points == 75
@@ -131,9 +129,9 @@ def test_an_update_leaves_the_old_model_as_it_was(model, reach):
 def test_moving_the_whole_world_moves_the_prediction(model, reach):
     offset = np.array([0.4, -1.0, 0.2])
     here = reach(MIDDLE)
-    there = model.predict(
-        here.object_position + offset, here.trajectory.positions[0] + offset, here.trajectory.orientations[0], 60
-    )
+    start = here.trajectory
+    situation = Situation.reaching(here.origin + offset, start.positions[0] + offset, start.orientations[0])
+    there = model.predict(situation, 60)
     expected = predict(model, here).trajectory.positions + offset
     np.testing.assert_allclose(there.trajectory.positions, expected, atol=1e-9)
 

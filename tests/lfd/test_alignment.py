@@ -1,3 +1,4 @@
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -71,7 +72,7 @@ def test_conditions_group_within_the_tolerance_and_along_chains():
 def test_align_changes_the_tempo_within_a_condition_and_nothing_else(reach):
     first, other = reach([0.9, 0.2, 0.6]), reach([0.9, -0.2, 0.6])
     trajectory = at_phases(first.trajectory, first.trajectory.phases**1.7)
-    second = type(first)(trajectory, first.object_position)
+    second = replace(first, trajectory=trajectory)
     aligned = align([first, other, second])
     assert aligned[1].trajectory.positions.tolist() == other.trajectory.positions.tolist()
     difference = aligned[0].trajectory.positions - aligned[2].trajectory.positions

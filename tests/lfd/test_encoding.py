@@ -1,8 +1,10 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from lfd.basis import GaussianBasis
-from lfd.demonstration import Demonstration
+from lfd.demonstration import Situation
 from lfd.encoding import Encoding, reference_rotation
 from lfd.rotations import exp_map, multiply
 from lfd.trajectory import Trajectory
@@ -13,15 +15,9 @@ def demonstration(reach):
     return reach([0.9, 0.2, 0.6], bend=0.1)
 
 
-def start_pose(demonstration):
-    return demonstration.trajectory.positions[0], demonstration.trajectory.orientations[0]
-
-
 def there_and_back(encoding, demonstration):
     x = encoding.encode(demonstration)
-    return encoding.decode(
-        x, start_pose(demonstration), demonstration.object_position, demonstration.trajectory.n_points
-    )
+    return encoding.decode(x, demonstration.situation, demonstration.trajectory.n_points)
 
 
 @pytest.mark.parametrize("anchored", [False, True])
@@ -36,16 +32,14 @@ def test_a_smooth_motion_survives_there_and_back(demonstration, anchored):
 def test_an_anchored_motion_begins_at_the_start_pose_whatever_the_weights(demonstration, rng):
     encoding = Encoding(GaussianBasis(10, 0.1), 75, reference_rotation([demonstration]), anchored=True)
     start = rng.normal(size=3), exp_map(rng.normal(size=3))
-    decoded = encoding.decode(rng.normal(size=61), start, demonstration.object_position, 30)
+    decoded = encoding.decode(rng.normal(size=61), Situation.reaching(demonstration.origin, *start), 30)
     np.testing.assert_allclose(decoded.positions[0], start[0], atol=1e-12)
     assert abs(decoded.orientations[0] @ start[1]) == pytest.approx(1.0)
 
 
 def test_the_sign_of_the_quaternions_does_not_matter(demonstration):
-    flipped = Demonstration(
-        Trajectory(demonstration.trajectory.positions, -demonstration.trajectory.orientations, 5.0),
-        demonstration.object_position,
-    )
+    trajectory = demonstration.trajectory
+    flipped = replace(demonstration, trajectory=Trajectory(trajectory.positions, -trajectory.orientations, 5.0))
     encoding = Encoding(GaussianBasis(10, 0.1), 10, reference_rotation([demonstration]), anchored=False)
     np.testing.assert_allclose(encoding.encode(flipped), encoding.encode(demonstration), atol=1e-12)
 
@@ -53,8 +47,8 @@ def test_the_sign_of_the_quaternions_does_not_matter(demonstration):
 def test_a_common_rotation_of_motion_and_reference_changes_nothing(demonstration):
     turn = exp_map(np.array([0.0, 0.0, 2.5]))
     trajectory = demonstration.trajectory
-    turned = Demonstration(
-        Trajectory(trajectory.positions, multiply(turn, trajectory.orientations), 5.0), demonstration.object_position
+    turned = replace(
+        demonstration, trajectory=Trajectory(trajectory.positions, multiply(turn, trajectory.orientations), 5.0)
     )
     encodings = [
         Encoding(GaussianBasis(10, 0.1), 10, reference_rotation([d]), anchored=False).encode(d)

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 from lfd.basis import GaussianBasis, weights
+from lfd.demonstration import Situation
 from lfd.exceptions import NotFinite, TooFewDemonstrations
 from lfd.promp import ConditionedProMP, PrompOptions
 from lfd.resampling import resample
@@ -9,8 +10,10 @@ from lfd.resampling import resample
 OBJECTS = [[0.9, -0.2, 0.6], [0.9, 0.0, 0.65], [0.85, 0.2, 0.6], [0.95, 0.1, 0.55]]
 
 
-def start(demonstration):
-    return demonstration.trajectory.positions[0], demonstration.trajectory.orientations[0]
+def to(target, demonstration):
+    """Reaching for another object from where a demonstration started."""
+    trajectory = demonstration.trajectory
+    return Situation.reaching(np.array(target), trajectory.positions[0], trajectory.orientations[0])
 
 
 @pytest.fixture
@@ -21,16 +24,16 @@ def demonstrations(reach):
 def test_mean_is_that_of_one_model_for_each_output(demonstrations):
     """Equations (1) to (12), written out for the x, y and z of the thesis one by one."""
     target = np.array([0.9, 0.05, 0.6])
-    predicted = ConditionedProMP.fit(demonstrations).predict(target, *start(demonstrations[0]), n=50)
+    predicted = ConditionedProMP.fit(demonstrations).predict(to(target, demonstrations[0]), n=50)
     basis = GaussianBasis(10, 0.1)
     s = np.array([10.0 * d.condition for d in demonstrations])
-    wanted = 10.0 * (target - start(demonstrations[0])[0])
+    wanted = 10.0 * to(target, demonstrations[0]).condition
     for axis in range(3):
         w = np.array(
             [
                 weights(
                     basis.matrix(np.linspace(0, 1, 10)),
-                    resample(d.trajectory, 10).positions[:, [axis]] - d.object_position[axis],
+                    resample(d.trajectory, 10).positions[:, [axis]] - d.origin[axis],
                 )[:, 0]
                 for d in demonstrations
             ]
@@ -50,15 +53,15 @@ def test_an_update_equals_a_fit_of_all(demonstrations):
 
 def test_an_update_leaves_the_old_model_as_it_was(demonstrations, reach):
     model = ConditionedProMP.fit(demonstrations)
-    before = model.predict(demonstrations[0].object_position, *start(demonstrations[0]))
+    before = model.predict(demonstrations[0].situation)
     model.updated(reach([0.9, 0.0, 0.6], bend=0.5))
-    after = model.predict(demonstrations[0].object_position, *start(demonstrations[0]))
+    after = model.predict(demonstrations[0].situation)
     np.testing.assert_array_equal(before.trajectory.positions, after.trajectory.positions)
 
 
 def test_one_demonstration_predicts_itself_relative_to_the_object(demonstrations):
     only = demonstrations[0]
-    predicted = ConditionedProMP.fit([only]).predict(only.object_position + 0.1, *start(only), n=10)
+    predicted = ConditionedProMP.fit([only]).predict(to(only.origin + 0.1, only), n=10)
     expected = resample(only.trajectory, 10).positions + 0.1
     np.testing.assert_allclose(predicted.trajectory.positions, expected, atol=1e-8)
     assert predicted.trajectory.duration == pytest.approx(only.trajectory.duration)
@@ -67,7 +70,7 @@ def test_one_demonstration_predicts_itself_relative_to_the_object(demonstrations
 def test_uncertainty_is_at_least_the_observation_noise(demonstrations):
     options = PrompOptions(observation_std=0.02)
     model = ConditionedProMP.fit(demonstrations, options)
-    covariances = model.predict(OBJECTS[0], *start(demonstrations[0])).position_covariances
+    covariances = model.predict(to(OBJECTS[0], demonstrations[0])).position_covariances
     assert covariances.shape == (75, 3, 3)
     assert np.linalg.eigvalsh(covariances).min() >= 0.02**2 - 1e-12
 
@@ -76,7 +79,7 @@ def test_nothing_to_learn_from_and_an_unseen_object_are_refused(demonstrations):
     with pytest.raises(TooFewDemonstrations):
         ConditionedProMP.fit([])
     with pytest.raises(NotFinite):
-        ConditionedProMP.fit(demonstrations).predict(np.full(3, np.nan), *start(demonstrations[0]))
+        to(np.full(3, np.nan), demonstrations[0])
 
 
 @pytest.mark.data
@@ -87,5 +90,5 @@ def test_averaging_leaves_most_of_the_error_as_the_thesis_measured(recordings, r
 
 
 def _gap(model, demonstration):
-    predicted = model.predict(demonstration.object_position, *start(demonstration)).trajectory
+    predicted = model.predict(demonstration.situation).trajectory
     return np.sqrt(np.mean(np.sum((predicted.positions - demonstration.trajectory.positions) ** 2, axis=1)))

@@ -34,7 +34,8 @@ def test_what_was_stored_is_read_back_bit_for_bit_and_in_order(path, reach):
         trajectory = record.demonstration.trajectory
         np.testing.assert_array_equal(trajectory.positions, expected.trajectory.positions)
         np.testing.assert_allclose(trajectory.orientations, expected.trajectory.orientations, atol=1e-15)
-        np.testing.assert_array_equal(record.demonstration.object_position, expected.object_position)
+        np.testing.assert_array_equal(record.demonstration.origin, expected.origin)
+        np.testing.assert_array_equal(record.demonstration.condition, expected.condition)
         assert trajectory.duration == expected.trajectory.duration
 
 
@@ -52,6 +53,23 @@ def test_undo_takes_back_the_newest_and_makes_a_new_version(path, reach):
         assert store.version == 6
 
 
+def test_a_file_of_schema_1_gets_its_conditions(path, reach):
+    """They were the object relative to the motion's first point; the object's position had another name."""
+    given = reach([0.9, 0.1, 0.6])
+    with DemonstrationStore(path) as store:
+        store.add(given, Kind.INITIAL, "table")
+    with sqlite3.connect(path) as old:
+        old.execute("DELETE FROM arrays WHERE name = 'condition'")
+        old.execute("UPDATE arrays SET name = 'object_position' WHERE name = 'origin'")
+        old.execute("PRAGMA user_version = 1")
+    old.close()
+    for _ in range(2):
+        with DemonstrationStore(path) as store:
+            (record,) = store.active()
+        np.testing.assert_allclose(record.demonstration.condition, given.condition, atol=1e-15)
+        np.testing.assert_array_equal(record.demonstration.origin, given.origin)
+
+
 WRITER = """
 import sys
 import numpy as np
@@ -62,7 +80,7 @@ from lfd.trajectory import Trajectory
 store = DemonstrationStore(sys.argv[1])
 trajectory = Trajectory(np.arange(30.0).reshape(10, 3), np.tile([1.0, 0.0, 0.0, 0.0], (10, 1)), 5.0)
 while True:
-    print(store.add(Demonstration(trajectory, np.zeros(3)), Kind.UPDATE, "table"), flush=True)
+    print(store.add(Demonstration.reaching(trajectory, np.zeros(3)), Kind.UPDATE, "table"), flush=True)
 """
 
 
