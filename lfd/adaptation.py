@@ -23,9 +23,9 @@ from scipy.linalg import cho_factor, cho_solve
 from scipy.spatial.distance import cdist
 
 from lfd.alignment import align
-from lfd.arrays import Array, frozen
+from lfd.arrays import Array, checked, frozen
 from lfd.basis import GaussianBasis
-from lfd.demonstration import Demonstration, Situation
+from lfd.demonstration import Demonstration, Situation, conditions
 from lfd.encoding import Encoding, reference_rotation
 from lfd.exceptions import TooFewDemonstrations
 from lfd.model import PREDICTION_POINTS, Prediction
@@ -68,7 +68,7 @@ class AdaptiveProMP:
 
     Attributes:
         encoding: Between demonstrations and weights.
-        conditions: Of all motions seen, in order, shape (M, 3) [m].
+        conditions: Of all motions seen, in order, shape (M, c) [m].
         vectors: Their encodings, shape (M, 6 N + 1).
         ages: Number of the update that brought each, 0 for the first demonstrations, shape (M,).
         novelty: How new each condition was when it came, 1 (nothing near) to 0 (seen before), shape (M,).
@@ -88,6 +88,7 @@ class AdaptiveProMP:
 
         Raises:
             TooFewDemonstrations: There is none.
+            WrongShape: Their conditions have different dimensions.
         """
         if not demonstrations:
             raise TooFewDemonstrations
@@ -95,7 +96,7 @@ class AdaptiveProMP:
         encoding = Encoding(options.basis, options.samples, reference_rotation(demonstrations), anchored=True)
         return cls(
             encoding,
-            conditions=frozen([d.condition for d in demonstrations]),
+            conditions=conditions(demonstrations),
             vectors=frozen([encoding.encode(d) for d in align(demonstrations)]),
             ages=frozen(np.zeros(len(demonstrations))),
             novelty=frozen(np.ones(len(demonstrations))),
@@ -103,8 +104,8 @@ class AdaptiveProMP:
         )
 
     def updated(self, demonstration: Demonstration) -> Self:
-        """The model that has also learnt a motion newer than all others."""
-        s = demonstration.condition
+        """The model that has also learnt a motion newer than all others; see `MovementModel.updated`."""
+        s = self._checked(demonstration.condition)
         novelty = 1.0 - self._kernel(s[None], self.conditions).max()
         return replace(
             self,
@@ -116,7 +117,7 @@ class AdaptiveProMP:
 
     def predict(self, situation: Situation, n: int = PREDICTION_POINTS) -> Prediction:
         """See `MovementModel.predict`; the prediction begins exactly at the start pose."""
-        s = situation.condition
+        s = self._checked(situation.condition)
         k = self._kernel(s[None], self.conditions)[0]
         vector = self._trend(s[None])[0] + k @ self._residual_gain
         trajectory = self.encoding.decode(vector, situation, n)
@@ -126,6 +127,9 @@ class AdaptiveProMP:
             position_covariances=variance * self._position_spread(trajectory.phases),
             duration_std=trajectory.duration * math.sqrt(variance * self._log_duration_variance),
         )
+
+    def _checked(self, condition: Array) -> Array:
+        return checked("condition", condition, self.conditions.shape[1:])
 
     def _kernel(self, a: Array, b: Array) -> Array:
         similarity: Array = np.exp(-0.5 * cdist(a, b, "sqeuclidean") / self.options.length**2)
@@ -141,8 +145,9 @@ class AdaptiveProMP:
         """Inverse of the ridge-shrunk scatter of the conditions; it exists for one, equal and collinear conditions."""
         deviations = self.conditions - self._centre[0]
         scatter = deviations.T @ (self.novelty[:, None] * deviations)
-        shrinkage = self.options.ridge * np.trace(scatter) / 3.0 + self.options.length**2 * self.novelty.sum()
-        inverse: Array = np.linalg.inv(scatter + shrinkage * np.eye(3))
+        c = self.conditions.shape[1]
+        shrinkage = self.options.ridge * np.trace(scatter) / c + self.options.length**2 * self.novelty.sum()
+        inverse: Array = np.linalg.inv(scatter + shrinkage * np.eye(c))
         return inverse
 
     def _trend(self, s: Array) -> Array:

@@ -9,7 +9,7 @@ from scipy.cluster.hierarchy import fcluster, linkage
 from scipy.spatial.distance import cdist
 
 from lfd.arrays import Array
-from lfd.demonstration import Demonstration, relative_to_origin, to_base
+from lfd.demonstration import Demonstration, conditions, relative_to_origin, to_base
 from lfd.resampling import at_phases
 from lfd.trajectory import Trajectory
 
@@ -107,10 +107,12 @@ def align(demonstrations: Sequence[Demonstration], tolerance: float = SAME_CONDI
 
     All demonstrations of a condition are kept. The thesis keeps the reference and the one most similar to it, which
     predicts worse on its own recordings.
+
+    Raises:
+        WrongShape: Conditions have different dimensions.
     """
     aligned = list(demonstrations)
-    conditions = np.array([d.condition for d in demonstrations])
-    for group in group_by_condition(conditions, tolerance):
+    for group in group_by_condition(conditions(demonstrations), tolerance):
         members = {i: relative_to_origin(aligned[i].trajectory, aligned[i].origin) for i in group}
         chosen = group[reference(list(members.values()))]
         for i in group:

@@ -47,7 +47,11 @@ class MovementModel(Protocol):
         ...
 
     def updated(self, demonstration: Demonstration) -> Self:
-        """The model that has also learnt `demonstration`, the motion that a refinement led to."""
+        """The model that has also learnt `demonstration`, the motion that a refinement led to.
+
+        Raises:
+            WrongShape: Its condition has another dimension than those of the demonstrations.
+        """
         ...
 
     def predict(self, situation: Situation, n: int = PREDICTION_POINTS) -> Prediction:

@@ -7,7 +7,7 @@ from typing import Self
 import numpy as np
 
 from lfd.alignment import align
-from lfd.arrays import Array
+from lfd.arrays import Array, checked
 from lfd.basis import GaussianBasis
 from lfd.demonstration import Demonstration, Situation
 from lfd.encoding import Encoding, reference_rotation
@@ -62,6 +62,7 @@ class ConditionedProMP:
 
         Raises:
             TooFewDemonstrations: There is none.
+            WrongShape: Their conditions have different dimensions.
         """
         if not demonstrations:
             raise TooFewDemonstrations
@@ -71,12 +72,16 @@ class ConditionedProMP:
         return cls(encoding, JointGaussian.fit(samples), options)
 
     def updated(self, demonstration: Demonstration) -> Self:
-        """The model after one step of Welford's method: the new motion counts as much as each earlier one."""
+        """The model after one step of Welford's method: the new motion counts as much as each earlier one.
+
+        See `MovementModel.updated`.
+        """
+        self._checked(demonstration.condition)
         return replace(self, joint=welford(self.joint, _sample(self.encoding, demonstration)))
 
     def predict(self, situation: Situation, n: int = PREDICTION_POINTS) -> Prediction:
         """Equations (12) and (13), see `MovementModel.predict`; the start orientation is not used."""
-        s = CONDITION_SCALE * situation.condition
+        s = CONDITION_SCALE * self._checked(situation.condition)
         given = condition(self.joint, s, self.options.conditioning_noise)
         trajectory = self.encoding.decode(given.mean, situation, n)
         N = self.options.basis.count
@@ -85,6 +90,9 @@ class ConditionedProMP:
         covariances = np.einsum("ta,aibj,tb->tij", Phi, Sigma_w, Phi) + self.options.observation_std**2 * np.eye(3)
         duration_std = trajectory.duration * np.sqrt(given.covariance[-1, -1])
         return Prediction(trajectory, covariances, float(duration_std))
+
+    def _checked(self, condition: Array) -> Array:
+        return checked("condition", condition, (len(self.joint.mean) - self.encoding.length,))
 
 
 def _sample(encoding: Encoding, demonstration: Demonstration) -> Array:
