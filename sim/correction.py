@@ -58,6 +58,18 @@ def plan(prediction: Array, safe: Array, known: Sequence[Array], exaggeration: f
     return Correction(prediction, exaggeration * (wanted - prediction))
 
 
+def plan_at_equal_progress(prediction: Array, safe: Array, exaggeration: float = 1.0) -> Correction:
+    """Plan the correction of a motion whose tempo is not a person's to change: each moment has its place on the way.
+
+    Args:
+        prediction: Positions of the grasping frame at equal steps of progress, shape (n, 3) [m].
+        safe: Way-points at equal steps of progress, shape (k, 3) [m].
+        exaggeration: Of the displacement; 1 is natural.
+    """
+    wanted = through(safe, np.linspace(0.0, len(safe) - 1.0, len(prediction)))
+    return Correction(prediction, exaggeration * (wanted - prediction))
+
+
 def _numbers(way: Array, covered: Array) -> Array:
     """Which fractional way-point is reached when a share of the way's length is covered."""
     fine = np.linspace(0.0, len(way) - 1.0, _FINENESS * (len(way) - 1) + 1)

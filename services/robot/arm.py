@@ -13,8 +13,8 @@ from protocol.messages import Phase
 from services.robot import safety
 from services.robot.backend import CONTROL_PERIOD, Backend, Observation
 from services.robot.episode import Episode, EpisodeOutcome
-from services.robot.kinematics import InverseFailed, Kinematics
-from services.robot.verdict import Criteria, Judge, Verdict
+from services.robot.mechanism import InverseFailed, Mechanism
+from services.robot.verdict import Criteria, Verdict
 from sim.pose import Pose
 
 Array = NDArray[np.float64]
@@ -58,9 +58,9 @@ class Arm:
 
     Args:
         backend: what moves.
-        kinematics: of its torso and arm.
+        kinematics: of it.
         criteria: by what episodes are judged.
-        home: joint positions in which episodes start, shape (8,) [m, then rad].
+        home: joint positions in which episodes start, shape (m,).
         velocity_scale: share of the joints' speed limits that may be used.
         self_distance_stop: distance between the robot's parts at which it stops [m].
     """
@@ -68,7 +68,7 @@ class Arm:
     def __init__(
         self,
         backend: Backend,
-        kinematics: Kinematics,
+        kinematics: Mechanism,
         criteria: Criteria,
         home: Array,
         *,
@@ -99,18 +99,23 @@ class Arm:
         return self._backend.variant
 
     @property
+    def condition(self) -> Array:
+        """The external state that motions depend on here, shape (c,); empty where it is the object's."""
+        return self.observation.condition
+
+    @property
     def episode(self) -> Episode | None:
         """The one that runs."""
         return self._episode
 
-    def reset(self, object_position: Array, variant: str) -> None:
-        """Back to the start, the object and the scene put in place; the episode that runs is dropped.
+    def reset(self, place: Array, variant: str) -> None:
+        """Back to the start, the target and the scene put in place; the episode that runs is dropped.
 
         Args:
-            object_position: centre of the object, shape (3,) [m].
+            place: of the target, see `Backend.reset`, shape (d,) [m].
             variant: arrangement of the scene.
         """
-        self._backend.reset(object_position, variant, self._home)
+        self._backend.reset(place, variant, self._home)
         self._episode = None
         self._stand()
 
@@ -184,6 +189,7 @@ class Arm:
     def _follow(self, episode: Episode, displacement: Array) -> tuple[Array, tuple[str, ...]]:
         """Command the next reference; the joints that it started from, and what was clamped."""
         clamped = []
+        displacement = self._kinematics.admissible * displacement
         displacement, shortened = safety.clamp_length(displacement, safety.DISPLACEMENT_REACH)
         if shortened:
             clamped.append("displacement")
@@ -227,7 +233,7 @@ class Arm:
         self._q = self.observation.q
         self._fault = ""
         self._self_distance = self._kinematics.self_distance(self._q)
-        self._judge = Judge(self._criteria, self.observation.object_pose.position)
+        self._judge = self._criteria.begin(self.observation)
         self._observe()
         self._reference = self.measured
 

@@ -15,6 +15,7 @@ from pink.tasks import FrameTask, PostureTask
 from qpsolvers.exceptions import QPError
 
 from services.exceptions import ServiceError
+from services.robot.mechanism import InverseFailed
 from sim.description import CONTROLLED_JOINTS, GRASPING_FRAME
 from sim.pose import Pose
 
@@ -52,14 +53,6 @@ class Unreachable(ServiceError):
         super().__init__(f"the arm cannot reach ({place}) m in that orientation: choose a pose closer to the robot")
 
 
-class InverseFailed(ServiceError):
-    """The solver found no step from this configuration."""
-
-    def __init__(self, reason: str) -> None:
-        self.reason = reason
-        super().__init__(f"inverse kinematics found no step ({reason}): move the robot away from its joint limits")
-
-
 class Kinematics:
     """Forward and inverse kinematics of the grasping frame, and the distance of the robot to itself.
 
@@ -84,6 +77,7 @@ class Kinematics:
         self.lower: Array = self._model.lowerPositionLimit.copy()
         self.upper: Array = self._model.upperPositionLimit.copy()
         self.velocity_limit: Array = self._model.velocityLimit.copy()
+        self.admissible: Array = np.ones(3)
 
         self._configuration = pink.Configuration(self._model, self._data, (self.lower + self.upper) / 2)
         self._pose_task = FrameTask(GRASPING_FRAME, _POSITION_COST, _ORIENTATION_COST, _LM_DAMPING)

@@ -1,15 +1,18 @@
-"""The scripted operator teaches a scene offline: steers the arm to objects, with the stylus coupled to it (OffStyl)."""
+"""The scripted operator teaches a scene offline: steers the arm to targets, with the stylus coupled to it (OffStyl)."""
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lfd.demonstration import Demonstration
 from lfd.resampling import from_samples
+from lfd.trajectory import Trajectory
 from services.exceptions import CommandFailed
 from services.robot.arm import Arm
 from services.robot.rollout import rollout, simulated_arm
 from sim.description import prepare
-from sim.scenes.scene import Scene
+from sim.scenes import AnyScene
+from sim.scenes.particle import ParticleScene
+from sim.scenes.scene import ReachingScene
 from sim.steering import steer
 
 Array = NDArray[np.float64]
@@ -22,34 +25,53 @@ POINTS = 75
 TRIES = 5
 
 
-def lesson(scene: Scene) -> list[Demonstration]:
-    """A demonstration for each of a scene's training positions, in its first variant.
+def lesson(scene: AnyScene, places: Array | None = None, variant: str | None = None) -> list[Demonstration]:
+    """A demonstration for each of some places of a scene's target.
+
+    Args:
+        scene: to teach in.
+        places: of the target, shape (n, d) [m]; the scene's training positions by default.
+        variant: of the scene; the one that its model is trained in by default.
 
     Raises:
-        CommandFailed: no motion to some object succeeded.
+        CommandFailed: no motion to some place succeeded.
+        UnknownVariant: the scene has no such variant.
     """
+    variant = variant or scene.variants[0]
     rng = np.random.default_rng(SEED)
-    arm = simulated_arm(scene, scene.variants[0], prepare())
-    return [demonstrate(arm, scene, position, rng) for position in scene.training_positions]
+    arm = simulated_arm(scene, variant, prepare())
+    return [
+        demonstrate(arm, scene, place, rng, variant)
+        for place in (scene.training_positions if places is None else places)
+    ]
 
 
-def demonstrate(arm: Arm, scene: Scene, position: Array, rng: np.random.Generator) -> Demonstration:
-    """Steer the arm to an object, again where that fails; the motion as measured.
+def demonstrate(arm: Arm, scene: AnyScene, place: Array, rng: np.random.Generator, variant: str) -> Demonstration:
+    """Steer the arm to the target, again where that fails; the motion as measured.
 
     Args:
         arm: in the scene.
-        scene: whose first variant's corridor is steered through.
-        position: of the object, shape (3,) [m].
+        scene: whose corridor is steered through.
+        place: of the target, shape (d,) [m].
         rng: of the person's unsteadiness.
+        variant: of the scene.
 
     Raises:
         CommandFailed: no try succeeded.
     """
     for _ in range(TRIES):
-        way = steer(scene.corridor(scene.variants[0], position), rng)
+        way = steer(scene.corridor(variant, place), rng, freedom=scene.freedom)
         times = np.linspace(0.0, DURATION_S, len(way.positions))
         trajectory = from_samples(times, way.positions, way.orientations, POINTS)
-        outcome = rollout(arm, trajectory, position, variant=scene.variants[0])
+        outcome = rollout(arm, trajectory, place, variant=variant)
         if outcome.verdict.success:
-            return Demonstration.reaching(outcome.measured, position)
-    raise CommandFailed(f"no motion to an object at {np.round(position, 3).tolist()} succeeded in {TRIES} tries")
+            return _demonstration(scene, place, outcome.measured)
+    raise CommandFailed(f"no motion to a target at {np.round(place, 3).tolist()} succeeded in {TRIES} tries")
+
+
+def _demonstration(scene: AnyScene, place: Array, motion: Trajectory) -> Demonstration:
+    match scene:
+        case ReachingScene():
+            return Demonstration.reaching(motion, place)
+        case ParticleScene():
+            return Demonstration(motion, origin=np.zeros(3), condition=place)

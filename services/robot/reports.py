@@ -42,10 +42,11 @@ class Reports:
         self._schedule = Schedule()
         self._epoch = -1
         self._stop_latched: bool | None = None
+        self._arranged: tuple[str, bytes] | None = None
         self._finished: Finished | None = None
 
     def publish(self, now_ns: int, tick: Tick, applied_sequence: int, applied_latency: float) -> None:
-        """Publish what is due; a change of authority, the emergency stop and a result at once.
+        """Publish what is due; a change of authority or scene, the emergency stop and a result at once.
 
         Args:
             now_ns: the time.
@@ -65,8 +66,11 @@ class Reports:
         if due(topics.SAFETY_STATE, now_ns) or self._stop_latched != control.stop.latched:
             self._stop_latched = control.stop.latched
             self._bus.publish(topics.SAFETY_STATE, self._safety_state(tick))
-        if due(topics.SCENE_STATE, now_ns):
-            self._bus.publish(topics.SCENE_STATE, wire.scene_state(control.scene, control.arm.variant))
+        arranged = (control.arm.variant, control.arm.condition.tobytes())
+        if due(topics.SCENE_STATE, now_ns) or self._arranged != arranged:
+            self._arranged = arranged
+            state = wire.scene_state(control.scene, control.arm.variant, control.arm.condition)
+            self._bus.publish(topics.SCENE_STATE, state)
         if due(topics.EXECUTION, now_ns):
             self._publish_execution()
         self._publish_result(now_ns)

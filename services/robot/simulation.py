@@ -31,9 +31,9 @@ class Simulation:
         """Of the scene."""
         return self._world.variant
 
-    def reset(self, object_position: Array, variant: str, q: Array) -> None:
+    def reset(self, place: Array, variant: str, q: Array) -> None:
         """Put everything back, time included."""
-        self._world.reset(object_position, variant, q)
+        self._world.reset(place, variant, q)
 
     def command(self, q: Array, qd: Array) -> None:
         """Ten milliseconds of physics."""

@@ -2,13 +2,14 @@ import numpy as np
 import pytest
 
 from sim.exceptions import UnknownScene, UnknownVariant
-from sim.scenes import SCENES, scene
-from sim.scenes.scene import OBJECT_SIZE, Scene
+from sim.scenes import REACHING, SCENES, scene
+from sim.scenes.scene import OBJECT_SIZE, ReachingScene, Scene
 
 SCENE = pytest.mark.parametrize("place", SCENES.values(), ids=SCENES)
+REACHING_SCENE = pytest.mark.parametrize("place", REACHING.values(), ids=REACHING)
 
 
-def corners(place: Scene) -> list[np.ndarray]:
+def corners(place: ReachingScene) -> list[np.ndarray]:
     lower, upper = place.region.lower, place.region.upper
     return [np.array([x, y, lower[2]]) for x in (lower[0], upper[0]) for y in (lower[1], upper[1])]
 
@@ -32,8 +33,8 @@ def test_boxes_have_unique_names_and_unit_quaternions(place: Scene) -> None:
         np.testing.assert_allclose([np.linalg.norm(box.quaternion) for box in boxes], 1.0, atol=1e-12)
 
 
-@SCENE
-def test_every_corridor_leads_from_the_start_into_the_object(place: Scene) -> None:
+@REACHING_SCENE
+def test_every_corridor_leads_from_the_start_into_the_object(place: ReachingScene) -> None:
     for variant in place.variants:
         for position in corners(place):
             corridor = place.corridor(variant, position)
@@ -42,8 +43,8 @@ def test_every_corridor_leads_from_the_start_into_the_object(place: Scene) -> No
             assert np.all(np.abs(corridor.positions[-1] - position) <= np.array(OBJECT_SIZE) / 2)
 
 
-@SCENE
-def test_the_correction_between_the_variants_is_within_an_operators_reach(place: Scene) -> None:
+@REACHING_SCENE
+def test_the_correction_between_the_variants_is_within_an_operators_reach(place: ReachingScene) -> None:
     """A refinement that displaces the trained motion by at most 0.20 m gives the changed one."""
     trained, changed = place.variants
     for position in corners(place):
@@ -54,7 +55,7 @@ def test_the_correction_between_the_variants_is_within_an_operators_reach(place:
 
 
 def test_unknown_names_are_refused_with_those_that_are_known() -> None:
-    with pytest.raises(UnknownScene, match="dishwasher, table"):
+    with pytest.raises(UnknownScene, match="dishwasher, table, particle"):
         scene("kitchen")
     with pytest.raises(UnknownVariant, match="b1, b2"):
         scene("dishwasher").boxes("b3")
