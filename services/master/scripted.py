@@ -17,7 +17,7 @@ from services.exceptions import ServiceError
 from services.master.device import Moment, Sample
 from services.master.haptics import HapticLoop, HapticThread
 from sim import scenes
-from sim.correction import Correction, plan
+from sim.correction import Correction, plan, plan_at_equal_progress
 from sim.exceptions import SimError
 from sim.hand import Hand, Seen
 from sim.stylus import Stylus
@@ -108,11 +108,14 @@ class ScriptedMaster:
         if scene_state is None:
             return None
         positions, _, _ = motion_from_wire(execution.prediction)
-        scene = scenes.scene(scene_state.message.name)
-        place = self._object_position(positions)
+        arrangement = scene_state.message
+        scene = scenes.scene(arrangement.name)
+        place = np.array(arrangement.condition) if arrangement.condition else self._object_position(positions)
         ways = {variant: scene.corridor(variant, place).positions for variant in scene.variants}
-        safe = scene.corridor(scene_state.message.variant, place).positions
-        return plan(positions, safe, tuple(ways.values()), self._exaggeration)
+        safe = scene.corridor(arrangement.variant, place).positions
+        if scene.freedom.tempo:
+            return plan(positions, safe, tuple(ways.values()), self._exaggeration)
+        return plan_at_equal_progress(positions, safe, self._exaggeration)
 
     def _object_position(self, prediction: NDArray[np.float64]) -> NDArray[np.float64]:
         """Where the object was seen last; where it never was, the robot's guess is as good as any."""

@@ -66,13 +66,13 @@ def _executing(mode: Mode, robot: RobotState | None) -> str:
 def outcome_text(outcome: Outcome) -> str:
     """A verdict as a sentence."""
     if outcome.success:
-        return "The object was reached."
+        return "The target was reached."
     faults = [
         fault
         for fault, happened in (
             ("the robot collided", outcome.collision),
             ("the object was kicked over", outcome.kicked_over),
-            ("the object was not reached", not outcome.reached),
+            ("the target was not reached", not outcome.reached),
         )
         if happened
     ]

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.exceptions import UnknownVariant
+from sim.exceptions import UnknownVariant, WrongPlace
 from sim.pose import Pose
 
 Array = NDArray[np.float64]
@@ -178,8 +178,11 @@ class Scene:
 
         Raises:
             UnknownVariant: There is no such variant.
+            WrongPlace: It has another number of dimensions.
         """
         self.check(variant)
+        if len(place) != len(self.region.lower):
+            raise WrongPlace(self.name, len(place), len(self.region.lower))
         return self.route(variant, place)
 
     def check(self, variant: str) -> None:

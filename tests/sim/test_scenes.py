@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from sim.exceptions import UnknownScene, UnknownVariant
+from sim.exceptions import UnknownScene, UnknownVariant, WrongPlace
 from sim.scenes import REACHING, SCENES, scene
 from sim.scenes.scene import OBJECT_SIZE, ReachingScene, Scene
 
@@ -59,3 +59,9 @@ def test_unknown_names_are_refused_with_those_that_are_known() -> None:
         scene("kitchen")
     with pytest.raises(UnknownVariant, match="b1, b2"):
         scene("dishwasher").boxes("b3")
+
+
+@SCENE
+def test_a_place_of_another_dimension_is_refused(place: Scene) -> None:
+    with pytest.raises(WrongPlace, match="not 5"):
+        place.corridor(place.variants[0], np.zeros(5))
