@@ -23,6 +23,7 @@ from protocol.exceptions import ProtocolError
 from protocol.messages import Mode, Phase
 from services.clock import SystemClock
 from services.zenoh_bus import Passing, close_session, open_session, watch
+from sim.scenes import SCENES
 
 RUN_TIMEOUT_S = 300.0
 MEMORY_EVERY_S = 5.0
@@ -184,7 +185,7 @@ def _figure(beat, name):
 def main():
     parser = argparse.ArgumentParser(prog="deploy/bench loop", description=__doc__)
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures as JSON")
-    parser.add_argument("--scene", default="dishwasher", help="dishwasher (default) or table")
+    parser.add_argument("--scene", default="dishwasher", help=f"{', '.join(SCENES)} (default: dishwasher)")
     arguments = parser.parse_args()
     print("bench: one run of the whole loop, about 80 s", file=sys.stderr)
     results = figures(*run(arguments.scene))
