@@ -130,7 +130,7 @@ def test_the_particles_plane_is_drawn_and_perception_finds_no_object_in_it(syste
     robot = network.bus()
     heads, wrists, found = (robot.subscribe(topic) for topic in (HEAD_IMAGE, WRIST_IMAGE, OBJECT_POSE))
     pictures = []
-    for variant, x in (("free", 0.0), ("free", 0.2), ("obstacle", 0.2)):
+    for variant, x in (("free", 0.0), ("free", 0.2), ("obstacle", 0.0)):
         clock.advance(0.1)
         robot.publish(SCENE_STATE, scene_state("particle", variant))
         robot.publish(WORLD_STATE, particle_state((x, 0.0, 0.0)))
