@@ -9,7 +9,7 @@ _TEXTS = {
     Phase.WAITING: "Starting.",
     Phase.ACQUIRING: "Asking for the authority to command the robot.",
     Phase.RESETTING: "The robot returns to its start.",
-    Phase.LOOKING: "Looking for the object with the head camera.",
+    Phase.LOOKING: "Looking for the target.",
     Phase.PREDICTING: "The model predicts a motion.",
     Phase.STARTING: "The robot is told the motion.",
     Phase.LEARNING: "The model learns from the correction.",
