@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 from scipy.cluster.hierarchy import fcluster, linkage
-from scipy.spatial.distance import cdist
+from scipy.spatial.distance import cdist, pdist
 
 from lfd.arrays import Array
 from lfd.demonstration import Demonstration, relative_to_origin, to_base
@@ -95,7 +95,7 @@ def group_by_condition(conditions: Array, tolerance: float = SAME_CONDITION) -> 
     """
     if len(conditions) < 2:
         return [[i] for i in range(len(conditions))]
-    labels = fcluster(linkage(conditions, "single"), tolerance, "distance")
+    labels = fcluster(linkage(pdist(conditions), "single"), tolerance, "distance")
     groups: dict[int, list[int]] = {}
     for index, label in enumerate(labels):
         groups.setdefault(int(label), []).append(index)
