@@ -67,8 +67,7 @@ def primitive(motion):
     return DMP.fit(motion)
 
 
-@pytest.mark.parametrize("n", [10, 60, 300])
-@pytest.mark.parametrize("bend", [0.0, 0.1, -0.2])
+@pytest.mark.parametrize(("n", "bend"), [(10, 0.1), (60, 0.0), (300, -0.2)])
 def test_a_smooth_motion_is_reproduced(reach, n, bend):
     motion = reach([0.9, 0.2, 0.6], bend=bend, n=n).trajectory
     reproduced = again(DMP.fit(motion), motion)
