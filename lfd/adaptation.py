@@ -79,13 +79,23 @@ class AdaptiveProMP:
         encoding = Encoding(options.basis, options.samples, reference_rotation(demonstrations), anchored=True)
         extent = _extent(demonstrations)
         aligned = align(demonstrations, options.regression.same * extent)
-        regression = Regression(
-            conditions=frozen([d.condition for d in demonstrations]),
-            vectors=frozen([encoding.encode(d) for d in aligned]),
-            measure=_measure(encoding),
-            extent=extent,
-            options=options.regression,
-        )
+        conditions = frozen([d.condition for d in demonstrations])
+        return cls.of_vectors(encoding, conditions, frozen([encoding.encode(d) for d in aligned]), extent, options)
+
+    @classmethod
+    def of_vectors(
+        cls, encoding: Encoding, conditions: Array, vectors: Array, extent: float, options: AdaptiveOptions
+    ) -> Self:
+        """The model of demonstrations that are encoded already.
+
+        Args:
+            encoding: That made the vectors.
+            conditions: Shape (M, c).
+            vectors: Shape (M, D).
+            extent: How far the motions lead from their start [m], positive.
+            options: Parameters.
+        """
+        regression = Regression(conditions, vectors, _measure(encoding), extent, options.regression)
         return cls(encoding, Corrections.none(regression, options.correction), options)
 
     def updated(self, demonstration: Demonstration) -> Self:
