@@ -8,7 +8,7 @@ import json
 import os
 import tempfile
 import zipfile
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -111,7 +111,7 @@ def _adaptive(header: dict[str, Any], arrays: dict[str, Array]) -> AdaptiveProMP
     corrections: Corrections = model.corrections
     for s, change in zip(arrays["corrected_conditions"], arrays["changes"], strict=True):
         corrections = corrections.added(s, corrections.regression.mean(s) + change)
-    return AdaptiveProMP(encoding, corrections, options)
+    return replace(model, corrections=corrections)
 
 
 def _promp(header: dict[str, Any], arrays: dict[str, Array]) -> ConditionedProMP:
