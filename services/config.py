@@ -28,7 +28,7 @@ class RobotSection(_Section, frozen=True):
         lease_s: how long the authority lasts without renewal [s].
         velocity_scale: share of the joints' velocity limits that the robot may use.
         self_distance_stop: distance between its own parts at which it stops [m].
-        master_gain: of the master's displacement on the reference.
+        master_gain: of the master's displacement on the reference; its rotation counts as it is.
     """
 
     scene: str = "dishwasher"
