@@ -118,14 +118,16 @@ class MasterState(Message, frozen=True, kw_only=True):
     Attributes:
         displacement: from the device's neutral position, in base axes [m].
         velocity: of the displacement [m/s].
+        rotation: from the device's neutral orientation, rotation vector in base axes [rad].
         force: what the device renders to the hand (eq. 14) [N].
-        engaged: a hand is on the device and the clutch is closed; the displacement counts only then.
+        engaged: a hand is on the device and the clutch is closed; displacement and rotation count only then.
         epoch: of the authority under which the master commands.
         device: what kind of device this is.
     """
 
     displacement: Vector3 = (0.0, 0.0, 0.0)
     velocity: Vector3 = (0.0, 0.0, 0.0)
+    rotation: Vector3 = (0.0, 0.0, 0.0)
     force: Vector3 = (0.0, 0.0, 0.0)
     engaged: bool = False
     epoch: Count = 0
@@ -180,7 +182,9 @@ class RobotState(Message, frozen=True, kw_only=True):
         mode: of the episode that runs, or of the last one.
         episode: its number since the robot process started; 0 before the first.
         progress: of the episode, from 0 to 1.
-        offset: the correction as it is applied now, base axes [m].
+        offset: the correction of the position as it is applied now, base axes [m].
+        turn: the correction of the orientation as it is applied now, rotation vector in base axes [rad]; the
+            reference's orientation is the predicted one, then rotated by it.
         hold_reason: why the robot holds, empty where it does not.
         clamped: what was clamped in this period, each a short word with the place.
         applied_sequence: of the last master state that took effect.
@@ -197,6 +201,7 @@ class RobotState(Message, frozen=True, kw_only=True):
     episode: Count = 0
     progress: Real = 0.0
     offset: Vector3 = (0.0, 0.0, 0.0)
+    turn: Vector3 = (0.0, 0.0, 0.0)
     hold_reason: Text = ""
     clamped: Annotated[tuple[Text, ...], msgspec.Meta(max_length=16)] = ()
     applied_sequence: Count = 0
@@ -310,7 +315,7 @@ class EpisodeResult(Message, frozen=True, kw_only=True):
         commanded: what the joints were told, as a motion of the grasping frame.
         measured: what the arm did.
         verdict: at its end.
-        operator_input: a hand was on the master at some time.
+        operator_input: the operator displaced or rotated the master at some time.
         clamped: ticks in which something was clamped.
         held: time spent holding [s].
         duration: from the first motion to the verdict [s].

@@ -16,6 +16,7 @@ from services.exceptions import ServiceError
 from services.robot.admission import admit_prediction, admit_reset
 from services.robot.arm import Arm, Tick
 from services.robot.authority import Lease
+from services.robot.correction import UNCORRECTED, Correction
 from services.robot.episode import EpisodeOutcome
 from services.robot.execution import look_ahead
 from services.robot.refusal import Refusal
@@ -49,14 +50,14 @@ class Finished:
 
 
 class Control:
-    """Decides in every control period whether the arm may move, and under whose displacement.
+    """Decides in every control period whether the arm may move, and under whose correction.
 
     Args:
         arm: that it commands.
         scene: that the arm stands in.
         lease: of the authority.
         hold_after_s: age of the newest master state at which a refinement holds [s].
-        master_gain: of the master's displacement on the reference.
+        master_gain: of the master's displacement on the reference; its rotation counts as it is.
     """
 
     def __init__(self, arm: Arm, scene: Scene, lease: Lease, hold_after_s: float, master_gain: float) -> None:
@@ -141,10 +142,11 @@ class Control:
             engaged=sample is not None and sample.message.engaged,
             hold_after_s=self._hold_after_s,
         )
-        displacement = np.zeros(3)
+        wanted = UNCORRECTED
         if self.refining and sample is not None and not reason:
-            displacement = self._master_gain * np.array(sample.message.displacement)
-        tick = self.arm.tick(displacement, reason)
+            master = sample.message
+            wanted = Correction(self._master_gain * np.array(master.displacement), np.array(master.rotation))
+        tick = self.arm.tick(wanted, reason)
         self._end(tick.outcome)
         return tick
 

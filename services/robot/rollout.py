@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from lfd.trajectory import Trajectory
 from services.robot.arm import Arm, Tick
 from services.robot.backend import CONTROL_PERIOD
+from services.robot.correction import UNCORRECTED, Correction
 from services.robot.episode import EpisodeOutcome
 from services.robot.execution import look_ahead
 from services.robot.kinematics import Kinematics
@@ -33,19 +34,19 @@ class RolloutView:
         time: since the rollout began [s].
         progress: of the prediction, from 0 to 1.
         nominal: what the prediction alone says now.
-        offset: the correction as it is applied now, shape (3,) [m].
+        correction: as it is applied now.
         tick: the last control period.
     """
 
     time: float
     progress: float
     nominal: Pose
-    offset: Array
+    correction: Correction
     tick: Tick
 
 
-Displacement = Callable[[RolloutView], Array]
-"""The operator: from what is seen to the master's displacement, in base axes, shape (3,) [m]."""
+Operator = Callable[[RolloutView], Correction]
+"""From what is seen to the correction that is asked for."""
 
 
 def simulated_arm(
@@ -93,7 +94,7 @@ def rollout(
     object_position: Array,
     *,
     variant: str | None = None,
-    displacement: Displacement | None = None,
+    operator: Operator | None = None,
     after: float | None = None,
 ) -> EpisodeOutcome:
     """Reset the arm and execute a prediction to the end.
@@ -103,18 +104,18 @@ def rollout(
         prediction: in the base frame.
         object_position: centre of the object, shape (3,) [m].
         variant: of the scene; as it is by default.
-        displacement: the operator; none by default.
+        operator: who corrects it; nobody by default.
         after: look-ahead of the correction [s]; one way-point interval by default, 0 moves the current way-point.
     """
     arm.reset(object_position, arm.variant if variant is None else variant)
     arm.begin(prediction, look_ahead(prediction) if after is None else after)
-    tick = arm.tick(np.zeros(3))
+    tick = arm.tick(UNCORRECTED)
     time = CONTROL_PERIOD
     while tick.outcome is None:
-        wanted = np.zeros(3)
-        if displacement is not None and arm.episode is not None:
+        wanted = UNCORRECTED
+        if operator is not None and arm.episode is not None:
             execution = arm.episode.execution
-            wanted = displacement(RolloutView(time, execution.progress, execution.nominal, execution.offset, tick))
+            wanted = operator(RolloutView(time, execution.progress, execution.nominal, execution.correction, tick))
         tick = arm.tick(wanted)
         time += CONTROL_PERIOD
     return tick.outcome

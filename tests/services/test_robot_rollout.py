@@ -2,6 +2,9 @@ import numpy as np
 import pytest
 
 from lfd.resampling import at_phases, from_samples
+from lfd.rotations import rotate
+from lfd.trajectory import Trajectory
+from services.robot.correction import Correction
 from services.robot.rollout import rollout, simulated_arm
 from sim.description import prepare
 from sim.scenes import scene
@@ -10,6 +13,7 @@ pytestmark = pytest.mark.sim
 
 SCENE = scene("dishwasher")
 PLACE = SCENE.training_positions[0]
+ROLL = np.array([0.3, 0.0, 0.0])  # [rad] about the gripper's own axis
 
 
 @pytest.fixture(scope="module")
@@ -42,12 +46,28 @@ def test_in_the_changed_scene_it_collides_gently_and_the_operator_saves_it(arm):
 
     def operator(view):
         phases = np.array([0.0, min(1.0, view.progress + 1 / 74)])
-        return at_phases(wanted, phases).positions[1] - at_phases(prediction, phases).positions[1]
+        offset = at_phases(wanted, phases).positions[1] - at_phases(prediction, phases).positions[1]
+        return Correction(offset, np.zeros(3))
 
-    refined = rollout(arm, prediction, PLACE, variant="b2", displacement=operator)
+    refined = rollout(arm, prediction, PLACE, variant="b2", operator=operator)
     assert refined.verdict.success
     assert refined.operator_input
     np.testing.assert_allclose(refined.refined.positions, wanted.positions, atol=0.01)
+
+
+def test_a_quaternion_and_its_negative_are_the_same_episode(arm):
+    """Which of the two stands for the predicted rotation reaches neither the arm nor the correction."""
+    motion = corridor("b1", 4.0)
+    signs = [Trajectory(motion.positions, sign * motion.orientations, motion.duration) for sign in (1.0, -1.0)]
+
+    def operator(view):
+        return Correction(np.zeros(3), min(1.0, 2.0 * view.progress) * rotate(view.nominal.orientation, ROLL))
+
+    one, other = (rollout(arm, prediction, PLACE, variant="b1", operator=operator) for prediction in signs)
+    for a, b in zip((one.commanded, one.measured), (other.commanded, other.measured), strict=True):
+        np.testing.assert_array_equal(a.positions, b.positions)
+        np.testing.assert_array_equal(a.orientations, b.orientations)
+    np.testing.assert_array_equal(one.refined.orientations, -other.refined.orientations)
 
 
 def test_the_same_rollout_twice_is_the_same(arm):
