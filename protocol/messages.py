@@ -238,7 +238,7 @@ class SceneState(Message, frozen=True, kw_only=True):
         object_size: full edge lengths [m].
         ellipsoid_radii: of the reached ellipsoid about the grasping frame [m].
         kicked_over_thresholds: largest displacement on each axis [m].
-        start: the pose in which every episode starts.
+        start: pose of the grasping frame from which the next motion starts.
         object_region: least and greatest corner of where objects may stand [m].
         condition: the external state that the motion depends on; empty where it is the object relative to the gripper
             at the start.

@@ -20,6 +20,7 @@ from sim import scenes
 from sim.correction import Correction, plan
 from sim.exceptions import SimError
 from sim.hand import Hand, Seen
+from sim.pose import Pose
 from sim.stylus import Stylus
 
 log = logging.getLogger(__name__)
@@ -110,8 +111,9 @@ class ScriptedMaster:
         positions, _, _ = motion_from_wire(execution.prediction)
         scene = scenes.scene(scene_state.message.name)
         place = self._object_position(positions)
-        ways = {variant: scene.corridor(variant, place).positions for variant in scene.variants}
-        safe = scene.corridor(scene_state.message.variant, place).positions
+        start = Pose(np.array(scene_state.message.start.position), np.array(scene_state.message.start.orientation))
+        ways = {variant: scene.corridor(variant, place, start).positions for variant in scene.variants}
+        safe = scene.corridor(scene_state.message.variant, place, start).positions
         return plan(positions, safe, tuple(ways.values()), self._exaggeration)
 
     def _object_position(self, prediction: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -58,8 +58,8 @@ def episode_result(finished: Finished) -> messages.EpisodeResult:
     )
 
 
-def scene_state(scene: Scene, variant: str) -> messages.SceneState:
-    """The scene in one of its variants."""
+def scene_state(scene: Scene, variant: str, start: Pose) -> messages.SceneState:
+    """The scene in one of its variants, with a start of the next motion."""
     boxes = tuple(
         messages.Box(box.name, box.centre, box.half_sizes, box.quaternion, box.rgba) for box in scene.boxes(variant)
     )
@@ -70,7 +70,7 @@ def scene_state(scene: Scene, variant: str) -> messages.SceneState:
         object_size=OBJECT_SIZE,
         ellipsoid_radii=vector3(scene.reached_radii),
         kicked_over_thresholds=vector3(scene.kicked_thresholds),
-        start=pose(scene.start),
+        start=pose(start),
         object_region=(vector3(scene.region.lower), vector3(scene.region.upper)),
         variants=scene.variants,
     )
