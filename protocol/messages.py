@@ -265,6 +265,7 @@ class Verdict(Message, frozen=True, kw_only=True):
         collision: the robot touched the environment.
         collision_position: where first, base frame [m].
         collision_force: normal force of the first contact [N].
+        collision_between: the robot's link and the thing that it touched first.
         ellipsoid_value: of eq. E.1; at most 1 inside.
         object_displacement: since the episode started [m].
     """
@@ -274,6 +275,7 @@ class Verdict(Message, frozen=True, kw_only=True):
     collision: bool
     collision_position: Vector3 | None = None
     collision_force: Real = 0.0
+    collision_between: tuple[Name, Name] | None = None
     ellipsoid_value: Real = 0.0
     object_displacement: Vector3 = (0.0, 0.0, 0.0)
 

@@ -32,6 +32,7 @@ def verdict(value: Verdict) -> messages.Verdict:
         collision=value.collision is not None,
         collision_position=vector3(value.collision.position) if value.collision is not None else None,
         collision_force=value.collision.force if value.collision is not None else 0.0,
+        collision_between=value.collision.between if value.collision is not None else None,
         ellipsoid_value=value.ellipsoid_value,
         object_displacement=vector3(value.displacement),
     )
