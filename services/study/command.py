@@ -141,6 +141,6 @@ class _Bars:
                 said = f"{_SAID[finding.holds]} [dim]{seconds:.1f} s[/]"
             case Failed():
                 said = "[red]failed[/]"
-        self._progress.console.print(f"{analysis.name:<22} [dim]{analysis.reference:<28}[/] {said}")
+        self._progress.console.print(f"{analysis.name:<20} [dim]{analysis.reference:<24}[/] {said}", soft_wrap=True)
         if isinstance(outcome, Failed):
-            self._progress.console.print(f"  {outcome.reason}", markup=False)
+            self._progress.console.print(f"  {outcome.reason}", markup=False, soft_wrap=True)

@@ -31,6 +31,7 @@ _WORDS: dict[State, str] = {
 }
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _DIGITS = 3
+_NOTHING = 1e-9  # of any unit that a length, an angle or a time is given in here: rounding, not a measurement
 
 
 def write_report(folder: Path, analyses: Sequence[Analysis], outcomes: Mapping[str, Outcome], seed: int) -> Path:
@@ -102,7 +103,8 @@ def shown(value: Value, unit: str = "") -> str:
         return "–"
     if isinstance(value, str):
         return value
-    return f"{_number(value)} {unit}".rstrip().replace("-", "−")
+    rounding = unit and abs(value) < _NOTHING
+    return f"{_number(0.0 if rounding else value)} {unit}".rstrip().replace("-", "−")
 
 
 def _number(value: float) -> str:

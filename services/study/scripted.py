@@ -20,7 +20,7 @@ _SETTLED = 3  # way-point from which on a motion from another start takes the sc
 def demonstrate(
     scene: Scene,
     object_position: Array,
-    rng: np.random.Generator,
+    rng: np.random.Generator | None,
     *,
     variant: str | None = None,
     start: Array | None = None,
@@ -30,7 +30,7 @@ def demonstrate(
     Args:
         scene: whose corridor is steered through.
         object_position: shape (3,) [m].
-        rng: of the person's unsteadiness.
+        rng: of the person's unsteadiness; None for a steady hand.
         variant: of the scene; its first by default.
         start: of the motion, shape (3,) [m]; the scene's by default.
     """

@@ -8,6 +8,8 @@ from __future__ import annotations
 import io
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import asdict, dataclass
+from typing import Any
 
 import matplotlib as mpl
 from matplotlib.artist import Artist
@@ -23,9 +25,8 @@ TRUTH = "#1f2630"
 REFINEMENT = "#009e73"
 OBSTACLE = "#c9a227"
 
-LABELS = {CONDITIONED: "thesis' method", ADAPTIVE: "default model"}
-
 WIDTH = 9.9  # [inch] of the report's text
+_LEGEND_LETTERS = 140  # that fit in a row, with eight for the sign before each label
 _DPI = 150
 
 _STYLE = {
@@ -59,6 +60,29 @@ _STYLE = {
     "svg.hashsalt": "retouch",
     "path.simplify_threshold": 0.2,
 }
+
+
+@dataclass(frozen=True)
+class Line:
+    """How a line is drawn: the wide one below, the narrow one above it, so that both are seen where they agree.
+
+    Attributes:
+        color: of the line.
+        linewidth: [pt].
+        linestyle: as Matplotlib knows it.
+    """
+
+    color: str
+    linewidth: float
+    linestyle: str | tuple[float, tuple[float, float]] = "-"
+
+    def __call__(self, label: str | None = None) -> dict[str, Any]:
+        """The arguments of `Axes.plot`."""
+        return {**asdict(self), "label": label}
+
+
+TRUE_LINE = Line(TRUTH, 1.2, (0, (2, 2)))
+DEMONSTRATION_LINE = Line(DEMONSTRATION, 1.0)
 
 
 @contextmanager
@@ -103,7 +127,8 @@ def drawn(canvas: Canvas, name: str, caption: str, *, raster: bool = False) -> F
             handles, labels = axes.get_legend_handles_labels()
             entries |= zip(labels, handles, strict=True)
         if entries:
-            canvas.legend(list(entries.values()), list(entries), loc="outside lower center", ncols=min(len(entries), 5))
+            columns = max(1, _LEGEND_LETTERS // (max(map(len, entries)) + 8))
+            canvas.legend(list(entries.values()), list(entries), loc="outside lower center", ncols=columns)
         file = io.BytesIO()
         if raster:
             canvas.savefig(file, format="png", dpi=_DPI, metadata={"Software": None})

@@ -173,6 +173,7 @@ def test_names_are_fit_for_a_command_line_and_unique():
         (3.0, "updates", "3 updates"),
         (1234.5, "mm", "1234 mm"),
         (2.1e-16, "", "2.1 · 10⁻¹⁶"),
+        (2.1e-16, "mm", "0 mm"),
         (float("inf"), "", "inf"),
     ],
 )
