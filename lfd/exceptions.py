@@ -4,6 +4,7 @@ LfdError
 ├── WrongShape              an array has not the shape it must have
 ├── NotFinite               an array or number contains NaN or infinity
 ├── TooFewPoints            a trajectory needs at least two points
+├── TooFewWaypoints         a motion through waypoints needs at least three
 ├── TooFewDemonstrations    a model needs at least one demonstration
 ├── InvalidDuration         a duration is not positive
 ├── NotUnitQuaternion       an orientation is not a unit quaternion
@@ -47,6 +48,14 @@ class TooFewPoints(LfdError):
         self.name = name
         self.count = count
         super().__init__(f"{name} has {count} point(s): a trajectory needs at least 2")
+
+
+class TooFewWaypoints(LfdError):
+    """A motion through waypoints needs at least three."""
+
+    def __init__(self, count: int) -> None:
+        self.count = count
+        super().__init__(f"{count} waypoint(s): a motion needs at least 3, its two ends and one between")
 
 
 class TooFewDemonstrations(LfdError):

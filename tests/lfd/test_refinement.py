@@ -52,6 +52,16 @@ def test_the_end_points_and_the_duration_move_by_alpha(alpha):
     assert refined.n_points == 75
 
 
+@pytest.mark.parametrize("alpha", [0.0, 0.4, 1.0])
+def test_orientations_have_unit_norm_and_the_quaternions_signs_do_not_matter(prediction, refinement, alpha):
+    refined = refine(prediction, refinement, alpha)
+    flipped = Trajectory(refinement.positions, -refinement.orientations, refinement.duration)
+    other = refine(prediction, flipped, alpha)
+    np.testing.assert_allclose(np.linalg.norm(refined.orientations, axis=1), 1.0, atol=1e-14)
+    np.testing.assert_array_equal(other.positions, refined.positions)
+    np.testing.assert_array_equal(other.orientations, refined.orientations)
+
+
 def test_alpha_outside_its_range_is_refused(prediction):
     with pytest.raises(OutOfRange):
         refine(prediction, prediction, alpha=1.5)
