@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from lfd.alignment import dtw
+from lfd.dtw import dtw
 from lfd.exceptions import OutOfRange
 from lfd.model import PREDICTION_POINTS
 from lfd.resampling import from_samples, resample
