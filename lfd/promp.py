@@ -82,8 +82,9 @@ class ConditionedProMP:
         N = self.options.basis.count
         Sigma_w = given.covariance[:-1, :-1].reshape(N, 6, N, 6)[:, :3, :, :3]
         Phi = self.encoding.rows(trajectory.phases)
-        covariances = np.einsum("ta,aibj,tb->tij", Phi, Sigma_w, Phi) + self.options.observation_std**2 * np.eye(3)
-        duration_std = trajectory.duration * np.sqrt(given.covariance[-1, -1])
+        halfway = np.tensordot(Phi, Sigma_w, axes=1)
+        covariances = np.einsum("tibj,tb->tij", halfway, Phi) + self.options.observation_std**2 * np.eye(3)
+        duration_std = trajectory.duration * np.sqrt(max(given.covariance[-1, -1], 0.0))
         return Prediction(trajectory, covariances, float(duration_std))
 
 
