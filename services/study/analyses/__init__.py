@@ -11,6 +11,7 @@ from services.study.analyses.next_waypoint import NEXT_WAYPOINT
 from services.study.analyses.planes import PLANES
 from services.study.analyses.shifted_start import SHIFTED_START
 from services.study.analyses.sine import SINE
+from services.study.analyses.time_warping import TIME_WARPING
 from services.study.analysis import Analysis
 
 ANALYSES: tuple[Analysis, ...] = (
@@ -23,5 +24,6 @@ ANALYSES: tuple[Analysis, ...] = (
     NEXT_WAYPOINT,
     SHIFTED_START,
     DYNAMIC_MOVEMENT_PRIMITIVES,
+    TIME_WARPING,
     FACTOR_TEN,
 )
