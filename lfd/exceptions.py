@@ -10,6 +10,7 @@ LfdError
 ├── NotUnitQuaternion       an orientation is not a unit quaternion
 ├── TimesNotIncreasing      the times of samples do not increase strictly
 ├── OutOfRange              a number lies outside its range
+├── NothingToTakeBack       a model without a correction has none to forget
 └── StorageError            the store's file cannot be used
     └── NothingToUndo       the store holds no active demonstration
 """
@@ -101,6 +102,13 @@ class OutOfRange(LfdError):
         self.value = value
         self.allowed = allowed
         super().__init__(f"{name} is {value:g}: it must be {allowed}")
+
+
+class NothingToTakeBack(LfdError):
+    """A model without a correction has none to forget."""
+
+    def __init__(self) -> None:
+        super().__init__("the model has no correction to take back: it only knows its first demonstrations")
 
 
 class StorageError(LfdError):

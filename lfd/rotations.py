@@ -18,7 +18,7 @@ def multiply(p: Array, q: Array) -> Array:
     """Hamilton product p q: first rotate by q, then by p. Shapes (..., 4)."""
     pw, pv, qw, qv = p[..., :1], p[..., 1:], q[..., :1], q[..., 1:]
     scalar = pw * qw - np.sum(pv * qv, axis=-1, keepdims=True)
-    return np.concatenate([scalar, pw * qv + qw * pv + np.cross(pv, qv)], axis=-1)
+    return np.concatenate([scalar, pw * qv + qw * pv + _cross(pv, qv)], axis=-1)
 
 
 def conjugate(q: Array) -> Array:

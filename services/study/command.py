@@ -10,7 +10,6 @@ from typing import Self
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
-from rich.table import Table
 
 from services.study.analyses import ANALYSES
 from services.study.analysis import Analysis, Holds
@@ -100,12 +99,12 @@ def choose(names: Sequence[str], analyses: Sequence[Analysis]) -> list[Analysis]
 
 def show_list(analyses: Sequence[Analysis] = ANALYSES) -> None:
     """Print every analysis with its place in the thesis."""
-    table = Table(box=None, pad_edge=False, header_style="bold")
-    for heading in ("name", "thesis", "about"):
-        table.add_column(heading, no_wrap=heading == "name")
+    names, references = (
+        max(map(len, column)) for column in zip(*((a.name, a.reference) for a in analyses), strict=True)
+    )
     for analysis in analyses:
-        table.add_row(analysis.name, analysis.reference, analysis.about)
-    Console(highlight=False).print(table)
+        line = f"{analysis.name:<{names}}  {analysis.reference:<{references}}  {analysis.about}"
+        Console(highlight=False, soft_wrap=True).print(line, markup=False)
 
 
 class _Bars:

@@ -8,16 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lfd.demonstration import Demonstration, relative_to_origin, to_base
-from lfd.model import MovementModel, Prediction
+from lfd.model import MovementModel
 from lfd.promp import PrompOptions
 from lfd.resampling import resample
-from services.robot.verdict import ellipsoid_value
 from services.study.analysis import Analysis, Context, Figure, Finding, Holds, Row
 from services.study.functions import rms
 from services.study.models import KINDS
-from services.study.scripted import demonstrate
+from services.study.scripted import demonstrate, reaches
 from services.study.style import DEMONSTRATION_LINE, TRUE_LINE, Line, drawn, panels
-from sim.pose import Pose
 from sim.scenes.table import TABLE
 
 Array = NDArray[np.float64]
@@ -68,13 +66,8 @@ def answer(model: MovementModel, question: Question) -> Answer:
         error=rms(distances),
         end=float(distances[:, -1].mean()),
         start=float(distances[:, 0].mean()),
-        reached=float(np.mean([_reaches(p, m.origin) for p, m in pairs])),
+        reached=float(np.mean([reaches(p.trajectory, m.origin, TABLE) for p, m in pairs])),
     )
-
-
-def _reaches(prediction: Prediction, object_position: Array) -> bool:
-    t = prediction.trajectory
-    return ellipsoid_value(Pose(t.positions[-1], t.orientations[-1]), object_position, TABLE.reached_radii) <= 1.0
 
 
 def _planes(context: Context) -> Finding:

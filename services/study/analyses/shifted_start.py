@@ -9,7 +9,7 @@ from lfd.demonstration import Demonstration, Situation
 from lfd.model import MovementModel
 from services.study.analysis import Analysis, Context, Figure, Finding, Holds, Row
 from services.study.models import KINDS, THESIS
-from services.study.scripted import demonstrate
+from services.study.scripted import demonstrate, object_grid
 from services.study.style import DEMONSTRATION_LINE, Line, drawn, panels
 from sim.scenes.table import TABLE
 
@@ -28,18 +28,11 @@ def shift(model: MovementModel, situation: Situation) -> float:
     return float(np.linalg.norm(first - situation.start_position))
 
 
-def object_grid(n: int = _GRID) -> Array:
-    """Object positions all over the table's region, shape (n n, 3) [m]."""
-    (x0, y0, z), (x1, y1, _) = TABLE.region.lower, TABLE.region.upper
-    x, y = np.meshgrid(np.linspace(x0, x1, n), np.linspace(y0, y1, n), indexing="ij")
-    return np.column_stack([x.ravel(), y.ravel(), np.full(x.size, z)])
-
-
 def _shifted_start(context: Context) -> Finding:
     rng = context.rng()
     motions = [demonstrate(TABLE, TABLE.training_positions[i], rng) for i in _ORDER]
     start = motions[0].situation
-    asked = [Situation.reaching(p, start.start_position, start.start_orientation) for p in object_grid()]
+    asked = [Situation.reaching(p, start.start_position, start.start_orientation) for p in object_grid(TABLE, _GRID)]
     shifts = {}
     for count in context.track(_COUNTS):
         models = [kind.fit(motions[:count]) for kind in KINDS]
