@@ -7,7 +7,6 @@ leaves most of the error after one correction.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from typing import Self
 
 import numpy as np
@@ -15,14 +14,15 @@ import numpy as np
 from lfd.alignment import align
 from lfd.arrays import Array, frozen
 from lfd.basis import GaussianBasis
+from lfd.condensation import condensed
 from lfd.correction import CorrectionOptions, Corrections
 from lfd.demonstration import Demonstration, Situation
 from lfd.encoding import OUTPUTS, Encoding, reference_rotation
 from lfd.exceptions import NothingToTakeBack, TooFewDemonstrations, WrongShape
 from lfd.model import PREDICTION_POINTS, Prediction
-from lfd.motion import POSITION, MotionDistribution, position_covariances
+from lfd.motion import POSITION, MotionDistribution
 from lfd.regression import Regression, RegressionOptions
-from lfd.spread import Spread, SpreadPrior, spread
+from lfd.spread import Spread, SpreadPrior, spread_of
 
 _FINE_BASIS = GaussianBasis(count=40, width=0.0256)  # finer than the thesis', to follow a correction closely
 _MEASURED = 25  # phases at which positions are compared
@@ -39,6 +39,7 @@ class AdaptiveOptions:
         correction: See there.
         prior: Of the spread of motions about their predictions.
         repeatability: Variance of a motion about a correction at its condition, relative to the spread [-].
+        most: Demonstrations kept; beyond it those of near conditions are averaged.
     """
 
     basis: GaussianBasis = _FINE_BASIS
@@ -47,6 +48,7 @@ class AdaptiveOptions:
     correction: CorrectionOptions = field(default_factory=CorrectionOptions)
     prior: SpreadPrior = field(default_factory=SpreadPrior)
     repeatability: float = 0.05
+    most: int = 1000
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,11 +58,13 @@ class AdaptiveProMP:
     Attributes:
         encoding: Between demonstrations and vectors.
         corrections: Of the demonstrations' regression, which they hold.
+        spread: Of motions about their predictions.
         options: Parameters.
     """
 
     encoding: Encoding
     corrections: Corrections
+    spread: Spread
     options: AdaptiveOptions
 
     @classmethod
@@ -79,14 +83,27 @@ class AdaptiveProMP:
         encoding = Encoding(options.basis, options.samples, reference_rotation(demonstrations), anchored=True)
         extent = _extent(demonstrations)
         aligned = align(demonstrations, options.regression.same * extent)
-        regression = Regression(
-            conditions=frozen([d.condition for d in demonstrations]),
-            vectors=frozen([encoding.encode(d) for d in aligned]),
-            measure=_measure(encoding),
-            extent=extent,
-            options=options.regression,
-        )
-        return cls(encoding, Corrections.none(regression, options.correction), options)
+        conditions = frozen([d.condition for d in demonstrations])
+        return cls.of_vectors(encoding, conditions, frozen([encoding.encode(d) for d in aligned]), extent, options)
+
+    @classmethod
+    def of_vectors(
+        cls, encoding: Encoding, conditions: Array, vectors: Array, extent: float, options: AdaptiveOptions
+    ) -> Self:
+        """The model of demonstrations that are encoded already.
+
+        Args:
+            encoding: That made the vectors.
+            conditions: Shape (M, c).
+            vectors: Shape (M, D).
+            extent: How far the motions lead from their start [m], positive.
+            options: Parameters.
+        """
+        conditions, vectors = condensed(conditions, vectors, options.most)
+        regression = Regression(conditions, vectors, _measure(encoding), extent, options.regression)
+        errors, variances = regression.left_out
+        spread = spread_of(encoding, errors, variances, extent, options.prior)
+        return cls(encoding, Corrections.none(regression, options.correction), spread, options)
 
     def updated(self, demonstration: Demonstration) -> Self:
         """The model that has also learnt a motion newer than all others.
@@ -116,11 +133,12 @@ class AdaptiveProMP:
         vector = self._regression.mean(s) + self.corrections.change(s, k)
         trajectory = self.encoding.decode(vector, situation, n)
         taught, changed = self._variances(s, k)
-        covariances = taught * self._spread.positions(n)
-        duration_variance = taught * self._spread.covariance[-1, -1]
+        covariances = taught * self.spread.positions(n)
+        duration_variance = taught * self.spread.covariance[-1, -1]
         if changed > 0.0:
-            covariances = covariances + changed * position_covariances(self.encoding, self._changed, n)
-            duration_variance += changed * self._changed[-1, -1]
+            changes = self.corrections.changes
+            covariances = covariances + changed * _mean_square(self.encoding.positions(changes, n))
+            duration_variance += changed * float(np.mean(changes[:, -1] ** 2))
         return Prediction(trajectory, covariances, trajectory.duration * float(np.sqrt(duration_variance)))
 
     def distribution(self, situation: Situation) -> MotionDistribution:
@@ -129,9 +147,10 @@ class AdaptiveProMP:
         s = situation.condition
         k = self._regression.near(s)
         taught, changed = self._variances(s, k)
-        covariance = taught * self._spread.covariance
+        covariance = taught * self.spread.covariance
         if changed > 0.0:
-            covariance = covariance + changed * self._changed
+            changes = self.corrections.changes
+            covariance = covariance + changed * (changes.T @ changes) / len(changes)
         mean = self._regression.mean(s) + self.corrections.change(s, k)
         return MotionDistribution(self.encoding, situation, frozen(mean), frozen(covariance))
 
@@ -148,23 +167,17 @@ class AdaptiveProMP:
         taught = left * self._regression.uncertainty(s, k) + (1.0 - left) * self.options.repeatability
         return taught, left * self.corrections.surprising_share
 
-    @cached_property
-    def _changed(self) -> Array:
-        """Mean square of the corrections, shape (D, D)."""
-        changes = self.corrections.changes
-        square: Array = changes.T @ changes / len(changes)
-        return square
-
-    @cached_property
-    def _spread(self) -> Spread:
-        errors, variances = self._regression.left_out
-        return spread(self.encoding, errors, variances, self._regression.extent, self.options.prior)
-
 
 def _extent(demonstrations: Sequence[Demonstration]) -> float:
     """How far motions lead from their start, root mean square over the demonstrations [m]; 1 where none moves."""
     paths = [d.trajectory.positions for d in demonstrations]
     return float(np.sqrt(np.mean([np.max(np.sum((path - path[0]) ** 2, axis=1)) for path in paths]))) or 1.0
+
+
+def _mean_square(paths: Array) -> Array:
+    """Of paths (J, n, 3) at each time, shape (n, 3, 3)."""
+    by_time = paths.transpose(1, 2, 0)
+    return np.asarray(by_time @ by_time.transpose(0, 2, 1) / len(paths), dtype=np.float64)
 
 
 def _measure(encoding: Encoding) -> Array:

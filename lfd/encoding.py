@@ -71,6 +71,11 @@ class Encoding:
             duration=float(np.exp(x[-1])),
         )
 
+    def positions(self, changes: Array, n: int) -> Array:
+        """What changes (J, D) of vectors do to the positions at n equal times, shape (J, n, 3) [m]."""
+        weights_of_positions = changes[:, :-1].reshape(len(changes), self.basis.count, OUTPUTS)[:, :, :3]
+        return np.asarray(self.rows(np.linspace(0.0, 1.0, n)) @ weights_of_positions, dtype=np.float64)
+
     def outputs(self, x: Array, situation: Situation, phases: Array) -> Array:
         """Positions relative to the origin [m] and rotation vectors [rad] at phases (T,), shape (T, 6)."""
         outputs = self.rows(phases) @ x[:-1].reshape(self.basis.count, OUTPUTS)

@@ -116,21 +116,18 @@ class Regression:
         """
         if len(self.groups) < 2:
             return 1.0
-        measured = self.vectors @ self.measure
-        dimensions = len(self._directions(self._deviations)[1])
+        dimensions = len(self._directions(self._moments)[1])
         error = total = 0.0
         for group in self.groups:
-            rest = np.setdiff1d(np.arange(len(self.conditions)), group)
-            S, Y = self.conditions[rest], measured[rest]
-            s_mean, mean = S.mean(axis=0), Y.mean(axis=0)
-            directions, values = self._directions(S - s_mean)
+            rest = self._moments.without(self._deviations[group], self._departures[group])
+            directions, values = self._directions(rest)
             if len(values) < dimensions:
                 continue
-            coordinates = (S - s_mean) @ directions
-            slope = (coordinates / values**2).T @ (Y - mean)
-            trend = mean + (self.conditions[group] - s_mean) @ directions @ slope
-            error += float(np.sum((measured[group] - trend) ** 2))
-            total += float(np.sum((measured[group] - mean) ** 2))
+            about_mean = self._departures[group] - rest.mean
+            away = (self._deviations[group] - rest.s_mean) @ directions
+            about_trend = about_mean - away / values @ directions.T @ rest.cross
+            error += float(np.sum((about_trend @ self.measure) ** 2))
+            total += float(np.sum((about_mean @ self.measure) ** 2))
         return min(error / total, 1.0) if total > 0.0 else self.options.undetermined
 
     @cached_property
@@ -145,18 +142,17 @@ class Regression:
         if len(self.groups) < 2:
             return errors, variances
         inverse = self.solved(np.eye(M))
+        ones, S, X = inverse.sum(axis=1), inverse @ self._deviations, inverse @ self._departures
         for group in self.groups:
-            rest = np.setdiff1d(np.arange(M), group)
-            S, X = self.conditions[rest], self.vectors[rest]
-            s_mean, mean = S.mean(axis=0), X.mean(axis=0)
-            slope, slope_variance = self._ridge(S - s_mean, X - mean)
-            departures = self.vectors - mean - (self.conditions - s_mean) @ slope
-            # What a Gaussian process without the group misses there, from the inverse with it (Rasmussen and Williams
-            # 2006, eq. 5.12, for more than one left out).
+            rest = self._moments.without(self._deviations[group], self._departures[group])
+            slope, slope_variance = self._ridge(rest)
+            # What a Gaussian process of the departures from that trend misses there, without the group, from the
+            # inverse with it (Rasmussen and Williams 2006, eq. 5.12, for more than one left out).
+            solved = X[group] - np.outer(ones[group], rest.mean - rest.s_mean @ slope) - S[group] @ slope
             block = np.linalg.inv(inverse[np.ix_(group, group)])
-            errors[group] = block @ (inverse[group] @ departures)
-            away = self.conditions[group] - s_mean
-            reach = 1.0 + 1.0 / len(rest) + np.sum(away @ slope_variance * away, axis=1)
+            errors[group] = block @ solved
+            away = self._deviations[group] - rest.s_mean
+            reach = 1.0 + 1.0 / rest.count + np.sum(away @ slope_variance * away, axis=1)
             unexplained = np.clip(np.diag(block) - self.options.noise, 0.0, 1.0)
             variances[group] = self.options.noise + unexplained * reach
         return errors, variances
@@ -169,29 +165,37 @@ class Regression:
     def _deviations(self) -> Array:
         return self.conditions - self._centre[0]
 
-    def _directions(self, deviations: Array) -> tuple[Array, Array]:
-        """The directions in which conditions differ by more than `same`, shape (c, r), and their singular values."""
-        _, values, axes = np.linalg.svd(deviations, full_matrices=False)
-        differs = values > np.sqrt(len(deviations)) * self.options.same * self.extent
-        return axes[differs].T, values[differs]
+    @cached_property
+    def _departures(self) -> Array:
+        return self.vectors - self._centre[1]
 
-    def _ridge(self, deviations: Array, departures: Array) -> tuple[Array, Array]:
+    @cached_property
+    def _moments(self) -> "_Moments":
+        S, X = self._deviations, self._departures
+        return _Moments(len(S), np.zeros(S.shape[1]), np.zeros(X.shape[1]), S.T @ S, S.T @ X)
+
+    def _directions(self, moments: "_Moments") -> tuple[Array, Array]:
+        """The directions in which conditions differ by more than `same`, shape (c, r), and their scatter (r,)."""
+        values, axes = np.linalg.eigh(moments.scatter)
+        differs = values > moments.count * (self.options.same * self.extent) ** 2
+        return axes[:, differs], values[differs]
+
+    def _ridge(self, moments: "_Moments") -> tuple[Array, Array]:
         """Slope (c, D) of a trend through the mean, and its variance relative to that of a motion (c, c)."""
-        q, M = self.shrinkage, len(deviations)
-        scatter = deviations.T @ deviations
+        q, scatter, count = self.shrinkage, moments.scatter, moments.count
         total, squared = float(np.trace(scatter)), float(np.sum(scatter**2))
         # In how many directions the conditions spread: each of them is shrunk alike, however many there are.
-        directions = total**2 / squared if squared > 0.0 else 1.0
-        ridge = q * (total / (3.0 * directions) + M * (self.options.marker_noise * self.extent) ** 2)
+        directions = max(total**2 / squared, 1.0) if squared > 0.0 else 1.0
+        ridge = q * (total / (3.0 * directions) + count * (self.options.marker_noise * self.extent) ** 2)
         precision = scatter + ridge * np.eye(len(scatter))
-        slope = np.linalg.lstsq(precision, deviations.T @ departures, rcond=_RANK_TOLERANCE)[0]
+        slope = np.linalg.lstsq(precision, moments.cross, rcond=_RANK_TOLERANCE)[0]
         values, axes = np.linalg.eigh(precision)
-        sureness = np.maximum(values, 0.0) + M * (self.options.same * self.extent) ** 2
+        sureness = np.maximum(values, 0.0) + count * (self.options.same * self.extent) ** 2
         return np.asarray(slope, dtype=np.float64), np.asarray(axes / sureness @ axes.T)
 
     @cached_property
     def _trend_fit(self) -> tuple[Array, Array]:
-        return self._ridge(self._deviations, self.vectors - self._centre[1])
+        return self._ridge(self._moments)
 
     @property
     def _slope(self) -> Array:
@@ -210,6 +214,37 @@ class Regression:
     @cached_property
     def _gain(self) -> Array:
         return self.solved(self.vectors - self.trend(self.conditions))
+
+
+@dataclass(frozen=True, eq=False)
+class _Moments:
+    """Count, means and sums of squares of conditions and vectors about their means.
+
+    Attributes:
+        count: Of the demonstrations.
+        s_mean: Mean condition, shape (c,).
+        mean: Mean vector, shape (D,).
+        scatter: Of the conditions, shape (c, c).
+        cross: Of conditions and vectors, shape (c, D).
+    """
+
+    count: int
+    s_mean: Array
+    mean: Array
+    scatter: Array
+    cross: Array
+
+    def without(self, S: Array, X: Array) -> "_Moments":
+        """The same for what is left when conditions (m, c) and vectors (m, D) are taken away, at least one staying."""
+        left = self.count - len(S)
+        s_mean = (self.count * self.s_mean - S.sum(axis=0)) / left
+        mean = (self.count * self.mean - X.sum(axis=0)) / left
+        # Raw sums of the whole less those of the part, moved to the new means.
+        raw_scatter = self.scatter + self.count * np.outer(self.s_mean, self.s_mean) - S.T @ S
+        raw_cross = self.cross + self.count * np.outer(self.s_mean, self.mean) - S.T @ X
+        return _Moments(
+            left, s_mean, mean, raw_scatter - left * np.outer(s_mean, s_mean), raw_cross - left * np.outer(s_mean, mean)
+        )
 
 
 _RANK_TOLERANCE = 1e-12

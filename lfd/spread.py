@@ -54,7 +54,7 @@ class Spread:
 _STANDARD = 75  # the usual number of points: computed once
 
 
-def spread(encoding: Encoding, errors: Array, variances: Array, extent: float, prior: SpreadPrior) -> Spread:
+def spread_of(encoding: Encoding, errors: Array, variances: Array, extent: float, prior: SpreadPrior) -> Spread:
     """The mean square of errors in units of their predicted variances, together with the assumption.
 
     Args:
