@@ -1,4 +1,4 @@
-"""Normalised Gaussian basis functions and least-squares weights."""
+"""Normalised Gaussian basis functions, and the weights of a motion by least squares."""
 
 from dataclasses import dataclass
 
@@ -53,13 +53,13 @@ class GaussianBasis:
         return bumps
 
 
-def weights(Phi: Array, values: Array) -> Array:
-    """Equation (3): the w that brings Phi w nearest to `values` in least squares, shape (N, d).
+def least_squares(Phi: Array) -> Array:
+    """Equation (3) as a matrix L, shape (N, T): w = L y brings Phi w nearest to y in least squares.
 
-    Solved by singular values, not by the normal equations: with fewer samples than functions it is the smallest w.
+    Made by singular values, not by the normal equations: with fewer samples than functions w is the smallest one.
 
     Args:
         Phi: Basis matrix, shape (T, N).
-        values: Shape (T, d).
     """
-    return np.asarray(np.linalg.lstsq(Phi, values, rcond=None)[0], dtype=np.float64)
+    solver = np.linalg.pinv(Phi, rcond=max(Phi.shape) * float(np.finfo(np.float64).eps))
+    return np.asarray(solver, dtype=np.float64)

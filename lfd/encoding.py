@@ -2,11 +2,12 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
-from lfd.arrays import Array, checked_quaternions
-from lfd.basis import GaussianBasis, weights
+from lfd.arrays import Array, checked_quaternions, frozen
+from lfd.basis import GaussianBasis, least_squares
 from lfd.demonstration import Demonstration, Situation, relative_to_origin
 from lfd.resampling import resample
 from lfd.rotations import conjugate, exp_map, log_map, mean_rotation, multiply, sign_continuous
@@ -52,7 +53,7 @@ class Encoding:
         outputs = np.hstack([relative.positions, self._rotation_vectors(relative.orientations)])
         if self.anchored:
             outputs = outputs - np.outer(1.0 - trajectory.phases, outputs[0])
-        w = weights(self.rows(trajectory.phases), outputs)
+        w = _solver(self.basis, trajectory.phases.tobytes(), self.anchored) @ outputs
         return np.append(w.ravel(), np.log(trajectory.duration))
 
     def decode(self, x: Array, situation: Situation, n: int) -> Trajectory:
@@ -92,10 +93,7 @@ class Encoding:
 
     def rows(self, phases: Array) -> Array:
         """The basis at phases (T,), shape (T, N); if anchored, with the value at phase 0 blended out to zero."""
-        Phi = self.basis.matrix(phases)
-        if not self.anchored:
-            return Phi
-        return Phi - np.outer(1.0 - phases, self.basis.matrix(np.zeros(1))[0])
+        return _rows(self.basis, phases.tobytes(), self.anchored)
 
     def _start(self, situation: Situation) -> Array:
         turned = self._rotation_vectors(situation.start_orientation[None])[0]
@@ -105,3 +103,20 @@ class Encoding:
         relative = multiply(conjugate(self.rotation), orientations)
         first = -1.0 if relative[0, 0] < 0.0 else 1.0
         return log_map(sign_continuous(first * relative), shortest=False)
+
+
+# Both are kept, read-only: they are the same for all motions of one number of points. Phases go by their bytes, as an
+# array has no hash.
+
+
+@lru_cache(maxsize=16)
+def _rows(basis: GaussianBasis, phases: bytes, anchored: bool) -> Array:
+    t = np.frombuffer(phases)
+    Phi = basis.matrix(t)
+    return frozen(Phi - np.outer(1.0 - t, basis.matrix(np.zeros(1))[0]) if anchored else Phi)
+
+
+@lru_cache(maxsize=16)
+def _solver(basis: GaussianBasis, phases: bytes, anchored: bool) -> Array:
+    """From the outputs at the phases (T, d) to the weights (N, d)."""
+    return frozen(least_squares(_rows(basis, phases, anchored)))

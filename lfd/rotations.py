@@ -97,8 +97,12 @@ def rotate(q: Array, v: Array) -> Array:
 
 def _cross(a: Array, b: Array) -> Array:
     """The cross product; written out it costs a tenth of NumPy's, in every control period."""
-    (ax, ay, az), (bx, by, bz) = np.moveaxis(a, -1, 0), np.moveaxis(b, -1, 0)
-    return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=-1)
+    ax, ay, az, bx, by, bz = a[..., 0], a[..., 1], a[..., 2], b[..., 0], b[..., 1], b[..., 2]
+    product = np.empty(np.broadcast(a, b).shape)
+    product[..., 0] = ay * bz - az * by
+    product[..., 1] = az * bx - ax * bz
+    product[..., 2] = ax * by - ay * bx
+    return product
 
 
 def matrix_from_quaternion(q: Array) -> Array:

@@ -243,7 +243,7 @@ class SceneState(Message, frozen=True, kw_only=True):
         object_size: full edge lengths [m].
         ellipsoid_radii: of the reached ellipsoid about the grasping frame [m].
         kicked_over_thresholds: largest displacement on each axis [m].
-        start: the pose in which every episode starts.
+        start: pose of the grasping frame from which the next motion starts.
         object_region: least and greatest corner of where objects may stand [m].
         condition: the external state that the motion depends on; empty where it is the object relative to the gripper
             at the start.
@@ -270,6 +270,7 @@ class Verdict(Message, frozen=True, kw_only=True):
         collision: the robot touched the environment.
         collision_position: where first, base frame [m].
         collision_force: normal force of the first contact [N].
+        collision_between: the robot's link and the thing that it touched first.
         ellipsoid_value: of eq. E.1; at most 1 inside.
         object_displacement: since the episode started [m].
     """
@@ -279,6 +280,7 @@ class Verdict(Message, frozen=True, kw_only=True):
     collision: bool
     collision_position: Vector3 | None = None
     collision_force: Real = 0.0
+    collision_between: tuple[Name, Name] | None = None
     ellipsoid_value: Real = 0.0
     object_displacement: Vector3 = (0.0, 0.0, 0.0)
 

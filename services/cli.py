@@ -19,7 +19,7 @@ from protocol.table import query_table, topic_table
 from protocol.topics import checked_name
 from services.child import EXIT_BAD_INPUT
 from services.config import Configuration, Scripted, load
-from services.exceptions import CommandFailed, ServiceError
+from services.exceptions import CommandFailed, RoomMissing, ServiceError
 from services.processes import PROCESS_NAMES, PROCESSES, process
 from sim.exceptions import SimError
 
@@ -45,6 +45,7 @@ examples:
   retouch teach --waypoints reach.csv --object 0.85,0.05,0.55
                                               teach a running model a motion that you wrote down
   retouch top                                 what lives on the network, with rates, ages and drops
+  retouch reproduce                           the thesis' analyses, made again: one report
 """
 
 
@@ -94,12 +95,19 @@ def parser() -> argparse.ArgumentParser:
     replay.add_argument("file", type=Path, metavar="FILE")
     replay.add_argument("--debug", action="store_true", help=argparse.SUPPRESS)
     commands.add_parser("topics", help="print the table of topics and queries")
+    _add_reproduce(commands)
     return root
 
 
 def _seed(text: str) -> int:
     if not text.isdecimal():
         raise argparse.ArgumentTypeError(f"must be a whole number, at least 0, not {text!r}")
+    return int(text)
+
+
+def _jobs(text: str) -> int:
+    if not text.isdecimal() or int(text) == 0:
+        raise argparse.ArgumentTypeError(f"must be a whole number, at least 1, not {text!r}")
     return int(text)
 
 
@@ -118,6 +126,24 @@ def _add_up(commands: argparse._SubParsersAction[_Parser], common: _Parser) -> N
     up.add_argument("--listen", metavar="ENDPOINT", help="where other machines may join (default: this machine only)")
     up.add_argument("--only", metavar="A,B", help=f"start only some of: {', '.join(PROCESS_NAMES)}")
     up.add_argument("--no-browser", action="store_true", help="do not open the page")
+
+
+def _add_reproduce(commands: argparse._SubParsersAction[_Parser]) -> None:
+    reproduce = commands.add_parser(
+        "reproduce",
+        help="make the thesis' analyses again, and one report of them",
+        description="Makes the thesis' analyses again, with its method and with the default model, and writes one"
+        " HTML report. What is done already is kept, and done again only where the code or the seed has changed.",
+    )
+    reproduce.add_argument("names", nargs="*", metavar="NAME", help="of analyses (default: all)")
+    reproduce.add_argument("--list", action="store_true", help="name the analyses and end")
+    reproduce.add_argument(
+        "--out", type=Path, metavar="FOLDER", default=Path("reproduction"), help="default: ./reproduction"
+    )
+    reproduce.add_argument("--fresh", action="store_true", help="do again what is done already")
+    reproduce.add_argument("--jobs", type=_jobs, metavar="N", default=1, help="analyses at once (default: 1)")
+    reproduce.add_argument("--seed", type=_seed, metavar="N", default=0, help="of all that is random (default: 0)")
+    reproduce.add_argument("--debug", action="store_true", help=argparse.SUPPRESS)
 
 
 def _add_teach(commands: argparse._SubParsersAction[_Parser], common: _Parser) -> None:
@@ -233,6 +259,8 @@ def _dispatch(arguments: argparse.Namespace) -> int:
 
         prepare_all()
         return 0
+    if arguments.command == "reproduce":
+        return _reproduce(arguments)
     settings = configuration(arguments)
     if arguments.supervised is not None:
         from services.worker import die_with_parent  # noqa: PLC0415
@@ -266,6 +294,17 @@ def _dispatch(arguments: argparse.Namespace) -> int:
 
             run_process(process(name), settings)
     return 0
+
+
+def _reproduce(arguments: argparse.Namespace) -> int:
+    try:
+        from services.study.command import Request, reproduce, show_list  # noqa: PLC0415
+    except ModuleNotFoundError as error:
+        raise RoomMissing("study", error.name or "?") from None
+    if arguments.list:
+        show_list()
+        return 0
+    return reproduce(Request.from_arguments(arguments))
 
 
 def _teach(settings: Configuration, arguments: argparse.Namespace) -> None:

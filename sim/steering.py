@@ -27,7 +27,7 @@ class Steered(NamedTuple):
     orientations: Array
 
 
-def steer(corridor: Corridor, rng: np.random.Generator, n: int = 200) -> Steered:
+def steer(corridor: Corridor, rng: np.random.Generator | None, n: int = 200) -> Steered:
     """Steer from a corridor's first way-point to its last.
 
     The speed along the way is that of a minimum-jerk movement (Flash and Hogan 1985); the deviation from it is slow,
@@ -36,13 +36,14 @@ def steer(corridor: Corridor, rng: np.random.Generator, n: int = 200) -> Steered
 
     Args:
         corridor: To steer through.
-        rng: Of the person's unsteadiness.
+        rng: Of the person's unsteadiness; None for a steady hand.
         n: Number of samples.
     """
     numbers = _numbers(corridor.positions, minimum_jerk(np.linspace(0.0, 1.0, n)))
     orientations = through(corridor.orientations, numbers)
     orientations /= np.linalg.norm(orientations, axis=1, keepdims=True)
-    return Steered(through(corridor.positions, numbers) + _deviation(n, rng), orientations)
+    positions = through(corridor.positions, numbers)
+    return Steered(positions if rng is None else positions + _deviation(n, rng), orientations)
 
 
 def minimum_jerk(time: Array) -> Array:

@@ -120,8 +120,9 @@ class ScriptedMaster:
         prediction = Trajectory(*motion_from_wire(execution.prediction))
         scene = scenes.scene(scene_state.message.name)
         place = self._object_position(prediction.positions)
-        ways = [scene.corridor(variant, place) for variant in scene.variants]
-        safe = scene.corridor(scene_state.message.variant, place)
+        start = Pose(np.array(scene_state.message.start.position), np.array(scene_state.message.start.orientation))
+        ways = [scene.corridor(variant, place, start) for variant in scene.variants]
+        safe = scene.corridor(scene_state.message.variant, place, start)
         return plan(prediction.positions, prediction.orientations, safe, ways, self._exaggeration)
 
     def _object_position(self, prediction: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -18,6 +18,7 @@ FASTEST = 1.0  # [m/s] along the prediction
 FASTEST_TURN = 3.0  # [rad/s]
 START_DISTANCE = 0.5  # [m] between the measured pose and the prediction's start
 REGION_MARGIN = 0.05  # [m]
+START_REACH = 0.3  # [m] of a start from the scene's own, along each axis
 
 
 def admit_prediction(positions: Array, orientations: Array, duration: float, measured: Pose) -> Trajectory:
@@ -65,16 +66,17 @@ def admit_prediction(positions: Array, orientations: Array, duration: float, mea
     return prediction
 
 
-def admit_reset(scene: Scene, variant: str, object_position: Array) -> None:
+def admit_reset(scene: Scene, variant: str, object_position: Array, start: Pose | None = None) -> None:
     """Let a reset pass that the scene allows.
 
     Args:
         scene: that the robot stands in.
         variant: asked for.
         object_position: asked for, shape (3,) [m].
+        start: asked for; None for where it was put last.
 
     Raises:
-        Refusal: there is no such variant, or the object cannot stand there.
+        Refusal: there is no such variant, the object cannot stand there, or the start is far from the scene's.
     """
     if variant not in scene.variants:
         raise Refusal(f"scene {scene.name} has no variant {variant!r}: use one of {', '.join(scene.variants)}")
@@ -84,6 +86,12 @@ def admit_reset(scene: Scene, variant: str, object_position: Array) -> None:
         raise Refusal(
             f"the object cannot stand at {_point(object_position)} m: give a place from {_point(lower)} to"
             f" {_point(upper)} m"
+        )
+    home = scene.start.position
+    if start is not None and not np.all(np.abs(start.position - home) <= START_REACH):
+        raise Refusal(
+            f"no motion can start at {_point(start.position)} m: give a place within {START_REACH:g} m of"
+            f" {_point(home)} m along each axis"
         )
 
 

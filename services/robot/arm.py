@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 from lfd.trajectory import Trajectory
 from protocol.messages import Phase
 from services.robot import safety
-from services.robot.backend import CONTROL_PERIOD, Backend, Observation
+from services.robot.backend import CONTROL_PERIOD, Backend, Blocked, Observation
 from services.robot.correction import UNCORRECTED, Correction
 from services.robot.episode import Episode, EpisodeOutcome
 from services.robot.execution import angle_between
 from services.robot.kinematics import InverseFailed, Kinematics
+from services.robot.starts import StartImpossible, Starts
 from services.robot.verdict import Criteria, Judge, Verdict
 from sim.pose import Pose
 
@@ -64,7 +65,7 @@ class Arm:
         backend: what moves.
         kinematics: of its torso and arm.
         criteria: by what episodes are judged.
-        home: joint positions in which episodes start, shape (8,) [m, then rad].
+        starts: where episodes can start; at first they do at its home.
         velocity_scale: share of the joints' speed limits that may be used.
         self_distance_stop: distance between the robot's parts at which it stops [m].
     """
@@ -74,7 +75,7 @@ class Arm:
         backend: Backend,
         kinematics: Kinematics,
         criteria: Criteria,
-        home: Array,
+        starts: Starts,
         *,
         velocity_scale: float = 0.5,
         self_distance_stop: float = 0.005,
@@ -82,7 +83,8 @@ class Arm:
         self._backend = backend
         self._kinematics = kinematics
         self._criteria = criteria
-        self._home = home
+        self._starts = starts
+        self.start = starts.home
         speed = velocity_scale * kinematics.velocity_limit
         self._limits = safety.JointLimits(backend.joint_names, kinematics.lower, kinematics.upper, speed)
         self._velocity_scale = velocity_scale
@@ -107,14 +109,23 @@ class Arm:
         """The one that runs."""
         return self._episode
 
-    def reset(self, object_position: Array, variant: str) -> None:
+    def reset(self, object_position: Array, variant: str, start: Pose | None = None) -> None:
         """Back to the start, the object and the scene put in place; the episode that runs is dropped.
 
         Args:
             object_position: centre of the object, shape (3,) [m].
             variant: arrangement of the scene.
+            start: pose of the grasping frame; as it was by default.
+
+        Raises:
+            StartImpossible: no motion can start there; nothing has changed.
         """
-        self._backend.reset(object_position, variant, self._home)
+        start = self.start if start is None else start
+        try:
+            self._backend.reset(object_position, variant, self._starts.joints(start))
+        except Blocked as error:
+            raise StartImpossible(start.position, str(error)) from error
+        self.start = start
         self._episode = None
         self._stand()
 

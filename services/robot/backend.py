@@ -6,6 +6,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from services.exceptions import ServiceError
 from sim.pose import Pose
 
 Array = NDArray[np.float64]
@@ -50,6 +51,15 @@ class Observation:
     world: Array
 
 
+class Blocked(ServiceError):
+    """The arm cannot be put there: something stands in the way."""
+
+    def __init__(self, link: str, thing: str) -> None:
+        self.link = link
+        self.thing = thing
+        super().__init__(f"the robot's {link} would touch {thing}")
+
+
 class Backend(Protocol):
     """One arm that follows joint commands."""
 
@@ -70,6 +80,9 @@ class Backend(Protocol):
             object_position: centre of the object, shape (3,) [m].
             variant: arrangement of the scene.
             q: joint positions, shape (m,).
+
+        Raises:
+            Blocked: the arm would touch its environment there; nothing has changed.
         """
         ...
 

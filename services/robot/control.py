@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from protocol import messages
 from protocol.messages import MasterState, Mode, Phase
 from protocol.queries import AcquireAuthority, Adapt, Execute, Finish, ReleaseAuthority, ReleaseStop, Reset
 from services.arrays import motion_from_wire
@@ -21,6 +22,8 @@ from services.robot.episode import EpisodeOutcome
 from services.robot.execution import look_ahead
 from services.robot.refusal import Refusal
 from services.robot.safety import EmergencyStop, hold_reason
+from services.robot.starts import StartImpossible
+from sim.pose import Pose
 from sim.scenes.scene import Scene
 
 Array = NDArray[np.float64]
@@ -109,9 +112,13 @@ class Control:
         self._check(request.epoch)
         variant = self.arm.variant if request.variant is None else request.variant
         place = self._object_position if request.object_position is None else np.array(request.object_position)
-        admit_reset(self.scene, variant, place)
+        start = None if request.start is None else _pose(request.start)
+        admit_reset(self.scene, variant, place, start)
+        try:
+            self.arm.reset(place, variant, start)
+        except StartImpossible as error:
+            raise Refusal(f"{error}: give another start") from error
         self._object_position = place
-        self.arm.reset(place, variant)
 
     def press(self, by: str, reason: str) -> None:
         """Latch the emergency stop; the arm stands still at once."""
@@ -172,3 +179,9 @@ class Control:
     def _check_stop(self) -> None:
         if self.stop.latched:
             raise Refusal(f"{self.stop}: release it first")
+
+
+def _pose(pose: messages.Pose) -> Pose:
+    """A pose from the wire, its quaternion normalised."""
+    orientation = np.array(pose.orientation)
+    return Pose(np.array(pose.position), orientation / np.linalg.norm(orientation))

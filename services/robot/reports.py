@@ -9,6 +9,7 @@ from services.bus import Bus
 from services.robot import wire
 from services.robot.arm import Tick
 from services.robot.control import Control, Finished
+from sim.pose import Pose
 
 
 class Schedule:
@@ -42,10 +43,11 @@ class Reports:
         self._schedule = Schedule()
         self._epoch = -1
         self._stop_latched: bool | None = None
+        self._arranged: tuple[str, Pose] | None = None
         self._finished: Finished | None = None
 
     def publish(self, now_ns: int, tick: Tick, applied_sequence: int, applied_latency: float) -> None:
-        """Publish what is due; a change of authority, the emergency stop and a result at once.
+        """Publish what is due; a change of authority or scene, the emergency stop and a result at once.
 
         Args:
             now_ns: the time.
@@ -65,8 +67,10 @@ class Reports:
         if due(topics.SAFETY_STATE, now_ns) or self._stop_latched != control.stop.latched:
             self._stop_latched = control.stop.latched
             self._bus.publish(topics.SAFETY_STATE, self._safety_state(tick))
-        if due(topics.SCENE_STATE, now_ns):
-            self._bus.publish(topics.SCENE_STATE, wire.scene_state(control.scene, control.arm.variant))
+        arranged = (control.arm.variant, control.arm.start)
+        if due(topics.SCENE_STATE, now_ns) or self._arranged != arranged:
+            self._arranged = arranged
+            self._bus.publish(topics.SCENE_STATE, wire.scene_state(control.scene, *arranged))
         if due(topics.EXECUTION, now_ns):
             self._publish_execution()
         self._publish_result(now_ns)

@@ -14,6 +14,7 @@ from services.robot.episode import EpisodeOutcome
 from services.robot.execution import look_ahead
 from services.robot.kinematics import Kinematics
 from services.robot.simulation import Simulation
+from services.robot.starts import Starts
 from services.robot.verdict import Criteria
 from sim.description import RobotDescription
 from sim.pose import Pose
@@ -21,9 +22,6 @@ from sim.scenes.scene import Scene
 from sim.world import World
 
 Array = NDArray[np.float64]
-
-HOME_SEED = 0
-"""Of the random starts in the search for the start's joint positions: the same in every process."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,19 +68,18 @@ def simulated_arm(
 
     Raises:
         UnknownVariant: the scene has no such variant.
-        Unreachable: the arm cannot reach the scene's start.
+        StartImpossible: the arm cannot reach the scene's start.
     """
     kinematics = kinematics or Kinematics(description.urdf, scene.posture)
-    rng = np.random.default_rng(HOME_SEED)
-    home = kinematics.solve(scene.start.position, scene.start.orientation, [scene.posture], rng)
+    starts = Starts(kinematics, scene.start, scene.posture, self_distance_stop)
     world = World(scene, variant, description)
-    world.reset(scene.training_positions[0], variant, home)
+    world.reset(scene.training_positions[0], variant, starts.joints(scene.start))
     criteria = Criteria(scene.reached_radii, scene.kicked_thresholds)
     return Arm(
         Simulation(world),
         kinematics,
         criteria,
-        home,
+        starts,
         velocity_scale=velocity_scale,
         self_distance_stop=self_distance_stop,
     )
@@ -94,6 +91,7 @@ def rollout(
     object_position: Array,
     *,
     variant: str | None = None,
+    start: Pose | None = None,
     operator: Operator | None = None,
     after: float | None = None,
 ) -> EpisodeOutcome:
@@ -104,10 +102,14 @@ def rollout(
         prediction: in the base frame.
         object_position: centre of the object, shape (3,) [m].
         variant: of the scene; as it is by default.
+        start: of the grasping frame; as it was by default.
         operator: who corrects it; nobody by default.
         after: look-ahead of the correction [s]; one way-point interval by default, 0 moves the current way-point.
+
+    Raises:
+        StartImpossible: no motion can start there.
     """
-    arm.reset(object_position, arm.variant if variant is None else variant)
+    arm.reset(object_position, arm.variant if variant is None else variant, start)
     arm.begin(prediction, look_ahead(prediction) if after is None else after)
     tick = arm.tick(UNCORRECTED)
     time = CONTROL_PERIOD

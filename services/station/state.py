@@ -10,7 +10,7 @@ import msgspec
 
 from protocol import messages
 from protocol.messages import Attempt, EpisodeResult, Mode, ModelState, Motion, ObjectPose, Outcome, Vector3
-from protocol.queries import Adapt, Query
+from protocol.queries import Adapt, Query, Reset
 
 
 class Action(Enum):
@@ -56,6 +56,7 @@ class Settings:
         adapt: which way-point a correction moves.
         scripted: the recommended action is taken at once.
         once: the recommended action after the loop has closed is to end.
+        arrangement: what every reset asks for, its epoch aside; drawn at random where there is none.
     """
 
     holder: str
@@ -66,6 +67,7 @@ class Settings:
     adapt: Adapt = Adapt.NEXT
     scripted: bool = False
     once: bool = False
+    arrangement: Reset | None = None
 
 
 @dataclass(frozen=True)

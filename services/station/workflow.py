@@ -128,7 +128,6 @@ def _acquiring(state: Workflow, view: View, settings: Settings) -> Step:
 
 
 def _resetting(state: Workflow, view: View, settings: Settings) -> Step:
-    del settings
     if not state.asking and view.robot is not None and view.robot.phase in _RUNNING:
         # Of an episode that was lost; its result is nobody's.
         finish = view.now_s >= state.retry_s
@@ -136,10 +135,13 @@ def _resetting(state: Workflow, view: View, settings: Settings) -> Step:
             replace(state, retry_s=view.now_s + RETRY_S) if finish else state,
             Ask(queries.FINISH, queries.Finish(state.epoch)) if finish else None,
         )
-    placed = state.placed or view.drawn
-    variant = view.scene.variants[-1] if view.scene is not None and view.scene.variants else None
-    state = replace(state, placed=placed)
-    reply = _asked(state, view, queries.RESET, queries.Reset(state.epoch, variant, placed))
+    if settings.arrangement is not None:
+        request = msgspec.structs.replace(settings.arrangement, epoch=state.epoch)
+    else:
+        variant = view.scene.variants[-1] if view.scene is not None and view.scene.variants else None
+        state = replace(state, placed=state.placed or view.drawn)
+        request = queries.Reset(state.epoch, variant, state.placed)
+    reply = _asked(state, view, queries.RESET, request)
     return reply if isinstance(reply, Step) else Step(_to(state, Phase.LOOKING, view))
 
 

@@ -4,9 +4,11 @@ import pytest
 from lfd.resampling import at_phases, from_samples
 from lfd.rotations import rotate
 from lfd.trajectory import Trajectory
-from services.robot.correction import Correction
+from services.robot.correction import UNCORRECTED, Correction
 from services.robot.rollout import rollout, simulated_arm
+from services.robot.starts import StartImpossible
 from sim.description import prepare
+from sim.pose import Pose
 from sim.scenes import scene
 
 pytestmark = pytest.mark.sim
@@ -68,6 +70,37 @@ def test_a_quaternion_and_its_negative_are_the_same_episode(arm):
         np.testing.assert_array_equal(a.positions, b.positions)
         np.testing.assert_array_equal(a.orientations, b.orientations)
     np.testing.assert_array_equal(one.refined.orientations, -other.refined.orientations)
+
+
+def test_a_motion_begins_at_the_start_that_it_is_given_and_the_next_one_there_too(arm):
+    start = Pose(SCENE.start.position + np.array([-0.06, 0.08, -0.04]), SCENE.start.orientation)
+    way = SCENE.corridor("b1", PLACE, start)
+    prediction = from_samples(np.linspace(0.0, 6.0, len(way.positions)), *way, n=75)
+    outcome = rollout(arm, prediction, PLACE, variant="b1", start=start)
+    assert outcome.verdict.success
+    np.testing.assert_allclose(outcome.measured.positions[0], start.position, atol=1e-3)
+    assert arm.start is start
+    arm.reset(PLACE, "b1")
+    np.testing.assert_allclose(arm.measured.position, start.position, atol=1e-3)
+    arm.reset(PLACE, "b1", SCENE.start)
+
+
+@pytest.mark.parametrize(
+    ("offset", "reason"),
+    [((0.09, 0.04, 0.01), "would touch basket_front"), ((-0.3, 0.3, 0.3), "does not reach")],
+    ids=["blocked", "out of reach"],
+)
+def test_an_impossible_start_is_refused_and_nothing_changes(arm, offset, reason):
+    rollout(arm, corridor("b1", 4.0), PLACE, variant="b1")
+    before = arm.tick(UNCORRECTED)
+    start = Pose(SCENE.start.position + offset, SCENE.start.orientation)
+    with pytest.raises(StartImpossible, match=reason):
+        arm.reset(PLACE + 0.01, "b2", start)
+    after = arm.tick(UNCORRECTED)
+    assert arm.variant == "b1"
+    assert arm.start is not start
+    np.testing.assert_allclose(after.observation.world, before.observation.world, atol=1e-3)
+    np.testing.assert_allclose(after.observation.q, before.observation.q, atol=1e-3)
 
 
 def test_the_same_rollout_twice_is_the_same(arm):

@@ -284,6 +284,40 @@ def test_reset_brings_arm_and_object_back_and_changes_the_variant(site):
     np.testing.assert_allclose(site.state.measured.position, SCENE.start.position, atol=1e-3)
 
 
+def test_reset_takes_a_start_keeps_it_and_announces_it_at_once(site):
+    site.acquire()
+    scenes = site.operator.subscribe(topics.SCENE_STATE)
+    x, y, z = SCENE.start.position.tolist()
+    w, i, j, k = SCENE.start.orientation.tolist()
+    start = messages.Pose((x - 0.05, y + 0.1, z), (w, i, j, k))
+    assert site.ask(queries.RESET, queries.Reset(site.epoch, start=start)) == Accepted()
+    assert scenes.latest().message.start.position == start.position
+    np.testing.assert_allclose(site.state.measured.position, start.position, atol=1e-3)
+    assert site.ask(queries.RESET, queries.Reset(site.epoch)) == Accepted()
+    np.testing.assert_allclose(site.state.measured.position, start.position, atol=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("offset", "reason"),
+    [
+        ((0.0, 0.0, 0.4), "give a place within"),
+        ((-0.3, 0.3, 0.3), "does not reach it in that orientation: give another start"),
+        ((0.09, 0.04, 0.01), "would touch basket_front: give another start"),
+    ],
+)
+def test_a_start_that_cannot_be_is_refused_and_nothing_changes(site, offset, reason):
+    site.acquire()
+    before = site.state
+    start = messages.Pose(tuple((SCENE.start.position + offset).tolist()), tuple(SCENE.start.orientation.tolist()))
+    refused = site.ask(queries.RESET, queries.Reset(site.epoch, "b2", start=start))
+    assert isinstance(refused, Refused)
+    assert reason in refused.reason
+    assert "\n" not in refused.reason
+    site.run(0.2)
+    np.testing.assert_allclose(site.state.q, before.q, atol=1e-4)
+    assert site.service._control.arm.variant == "b1"
+
+
 def test_every_topic_comes_at_the_rate_of_the_registry(site):
     published = (
         topics.ROBOT_STATE,
