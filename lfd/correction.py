@@ -41,7 +41,7 @@ class CorrectionOptions:
     mean_std: float = 0.02
     near_std: float = 0.03
     slope_std: float = 1.0
-    reach: float = 1.0
+    reach: float = 1.6
     most: int = 200
 
 
