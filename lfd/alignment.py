@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from enum import Enum
+from enum import StrEnum
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -18,7 +18,7 @@ from lfd.trajectory import Trajectory
 SAME_CONDITION = 0.01  # [m] conditions nearer than this count as one (thesis, section II-C)
 
 
-class Selection(Enum):
+class Selection(StrEnum):
     """Which demonstrations of a condition are learnt from."""
 
     ALL = "all"

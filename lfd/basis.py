@@ -31,10 +31,26 @@ class GaussianBasis:
 
     def matrix(self, phases: Array) -> Array:
         """Phi of equation (2): the functions at the phases (T,), shape (T, N); each row sums to one."""
-        centres = np.linspace(0.0, 1.0, self.count)
-        bumps = np.exp(-0.5 * ((phases[:, None] - centres) / self.width) ** 2)
+        bumps = self._bumps(phases)
         Phi: Array = bumps / bumps.sum(axis=1, keepdims=True)
         return Phi
+
+    def derivative(self, phases: Array) -> Array:
+        """Of the functions by the phase, shape (T, N); each row sums to zero."""
+        bumps = self._bumps(phases)
+        slopes = -self._distances(phases) / self.width * bumps
+        total, total_slope = bumps.sum(axis=1, keepdims=True), slopes.sum(axis=1, keepdims=True)
+        derivative: Array = (slopes * total - bumps * total_slope) / total**2
+        return derivative
+
+    def _distances(self, phases: Array) -> Array:
+        centres = np.linspace(0.0, 1.0, self.count)
+        distances: Array = (phases[:, None] - centres) / self.width
+        return distances
+
+    def _bumps(self, phases: Array) -> Array:
+        bumps: Array = np.exp(-0.5 * self._distances(phases) ** 2)
+        return bumps
 
 
 def least_squares(Phi: Array) -> Array:

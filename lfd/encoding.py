@@ -19,6 +19,9 @@ def reference_rotation(demonstrations: Sequence[Demonstration]) -> Array:
     return mean_rotation(np.concatenate([d.trajectory.orientations for d in demonstrations]))
 
 
+OUTPUTS = 6  # x, y, z and the rotation vector
+
+
 @dataclass(frozen=True, eq=False)
 class Encoding:
     """Weights of positions relative to the origin, of orientations, and the duration, in one vector.
@@ -61,21 +64,40 @@ class Encoding:
             situation: Whose origin the motion is relative to, and whose start pose it begins at, if anchored.
             n: Number of points.
         """
-        phases = np.linspace(0.0, 1.0, n)
-        outputs = self.rows(phases) @ x[:-1].reshape(self.basis.count, 6)
-        if self.anchored:
-            relative = situation.start_position - situation.origin
-            turned = self._rotation_vectors(situation.start_orientation[None])[0]
-            outputs = outputs + np.outer(1.0 - phases, np.concatenate([relative, turned]))
+        outputs = self.outputs(x, situation, np.linspace(0.0, 1.0, n))
         return Trajectory(
             positions=outputs[:, :3] + situation.origin,
             orientations=multiply(self.rotation, exp_map(outputs[:, 3:])),
             duration=float(np.exp(x[-1])),
         )
 
+    def positions(self, changes: Array, n: int) -> Array:
+        """What changes (J, D) of vectors do to the positions at n equal times, shape (J, n, 3) [m]."""
+        weights_of_positions = changes[:, :-1].reshape(len(changes), self.basis.count, OUTPUTS)[:, :, :3]
+        return np.asarray(self.rows(np.linspace(0.0, 1.0, n)) @ weights_of_positions, dtype=np.float64)
+
+    def outputs(self, x: Array, situation: Situation, phases: Array) -> Array:
+        """Positions relative to the origin [m] and rotation vectors [rad] at phases (T,), shape (T, 6)."""
+        outputs = self.rows(phases) @ x[:-1].reshape(self.basis.count, OUTPUTS)
+        if self.anchored:
+            outputs = outputs + np.outer(1.0 - phases, self._start(situation))
+        return outputs
+
+    def output_rates(self, x: Array, situation: Situation, phases: Array) -> Array:
+        """Derivatives of `outputs` by the phase, shape (T, 6)."""
+        rates = self.basis.derivative(phases) @ x[:-1].reshape(self.basis.count, OUTPUTS)
+        if self.anchored:
+            first = self.basis.matrix(np.zeros(1))[0] @ x[:-1].reshape(self.basis.count, OUTPUTS)
+            rates = rates + first - self._start(situation)
+        return rates
+
     def rows(self, phases: Array) -> Array:
         """The basis at phases (T,), shape (T, N); if anchored, with the value at phase 0 blended out to zero."""
         return _rows(self.basis, phases.tobytes(), self.anchored)
+
+    def _start(self, situation: Situation) -> Array:
+        turned = self._rotation_vectors(situation.start_orientation[None])[0]
+        return np.concatenate([situation.start_position - situation.origin, turned])
 
     def _rotation_vectors(self, orientations: Array) -> Array:
         relative = multiply(conjugate(self.rotation), orientations)

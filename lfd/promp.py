@@ -10,10 +10,11 @@ from lfd.alignment import Selection, align
 from lfd.arrays import Array
 from lfd.basis import GaussianBasis
 from lfd.demonstration import Demonstration, Situation
-from lfd.encoding import Encoding, reference_rotation
-from lfd.exceptions import TooFewDemonstrations
+from lfd.encoding import OUTPUTS, Encoding, reference_rotation
+from lfd.exceptions import TooFewDemonstrations, WrongShape
 from lfd.gaussian import JointGaussian, condition, welford
 from lfd.model import PREDICTION_POINTS, Prediction
+from lfd.motion import MotionDistribution
 
 CONDITION_SCALE = 10.0  # the thesis' factor on the condition
 
@@ -79,16 +80,19 @@ class ConditionedProMP:
 
     def predict(self, situation: Situation, n: int = PREDICTION_POINTS) -> Prediction:
         """Equations (12) and (13), see `MovementModel.predict`; the start orientation is not used."""
+        motion = self.distribution(situation)
+        return Prediction(motion.trajectory(n), motion.position_covariances(n), motion.duration_std)
+
+    def distribution(self, situation: Situation) -> MotionDistribution:
+        """Equations (8) to (11), see `MovementModel.distribution`."""
         s = CONDITION_SCALE * situation.condition
+        dimension = len(self.joint.mean) - (OUTPUTS * self.options.basis.count + 1)
+        if len(s) != dimension:
+            raise WrongShape("condition", f"({dimension},)", s.shape)
         given = condition(self.joint, s, self.options.conditioning_noise)
-        trajectory = self.encoding.decode(given.mean, situation, n)
-        N = self.options.basis.count
-        Sigma_w = given.covariance[:-1, :-1].reshape(N, 6, N, 6)[:, :3, :, :3]
-        Phi = self.encoding.rows(trajectory.phases)
-        halfway = np.tensordot(Phi, Sigma_w, axes=1)
-        covariances = np.einsum("tibj,tb->tij", halfway, Phi) + self.options.observation_std**2 * np.eye(3)
-        duration_std = trajectory.duration * np.sqrt(max(given.covariance[-1, -1], 0.0))
-        return Prediction(trajectory, covariances, float(duration_std))
+        return MotionDistribution(
+            self.encoding, situation, given.mean, given.covariance, noise_std=self.options.observation_std
+        )
 
 
 def _sample(encoding: Encoding, demonstration: Demonstration) -> Array:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import logging
+import math
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -13,11 +14,12 @@ import msgspec
 
 from lfd.exceptions import LfdError
 from protocol.exceptions import ProtocolError
+from protocol.messages import Vector3
 from protocol.table import query_table, topic_table
 from protocol.topics import checked_name
 from services.child import EXIT_BAD_INPUT
 from services.config import Configuration, Scripted, load
-from services.exceptions import ServiceError
+from services.exceptions import CommandFailed, ServiceError
 from services.processes import PROCESS_NAMES, PROCESSES, process
 from sim.exceptions import SimError
 
@@ -25,6 +27,12 @@ log = logging.getLogger(__name__)
 
 EXIT_FAILED = 1
 EXIT_INTERRUPTED = 130
+
+TAUGHT_S = 10.0
+"""Duration of a motion through waypoints, unless told otherwise: the thesis' time of an autonomous execution."""
+
+LONGEST_S = 3600.0
+"""Duration of the longest motion that a message carries."""
 
 EXAMPLES = """\
 examples:
@@ -34,6 +42,8 @@ examples:
                                               the robot's side, for operators on other machines
   retouch up --connect tcp/ROBOT:7447 --only master,viewer,station
                                               the operator's side
+  retouch teach --waypoints reach.csv --object 0.85,0.05,0.55
+                                              teach a running model a motion that you wrote down
   retouch top                                 what lives on the network, with rates, ages and drops
 """
 
@@ -70,7 +80,7 @@ def parser() -> argparse.ArgumentParser:
         _add_scene(commands.add_parser(one.name, parents=[common], help=f"the process that has to {one.about}"))
     router = commands.add_parser("router", parents=[common], help="where the processes of a site meet")
     router.add_argument("--listen", metavar="ENDPOINT", help="default: tcp/127.0.0.1:7447")
-    _add_scene(commands.add_parser("teach", parents=[common], help="teach an empty model its first demonstrations"))
+    _add_teach(commands, common)
     prepare = commands.add_parser("prepare", help="make and keep what every simulated run needs (once)")
     prepare.add_argument("--debug", action="store_true", help=argparse.SUPPRESS)
     echo = commands.add_parser("echo", parents=[common], help="print what passes on a key expression")
@@ -108,6 +118,50 @@ def _add_up(commands: argparse._SubParsersAction[_Parser], common: _Parser) -> N
     up.add_argument("--listen", metavar="ENDPOINT", help="where other machines may join (default: this machine only)")
     up.add_argument("--only", metavar="A,B", help=f"start only some of: {', '.join(PROCESS_NAMES)}")
     up.add_argument("--no-browser", action="store_true", help="do not open the page")
+
+
+def _add_teach(commands: argparse._SubParsersAction[_Parser], common: _Parser) -> None:
+    about = "teach an empty model its first demonstrations, or a model a motion through waypoints"
+    teach = commands.add_parser("teach", parents=[common], help=about, description=about)
+    _add_scene(teach)
+    teach.add_argument(
+        "--waypoints",
+        type=Path,
+        metavar="FILE",
+        help="CSV with the columns x,y,z,qw,qx,qy,qz: poses of the gripper in the base frame [m], at least three rows",
+    )
+    teach.add_argument(
+        "--object",
+        type=_position,
+        metavar="X,Y,Z",
+        help="where the waypoints lead to, base frame [m]; write --object=-X,Y,Z where the first is negative",
+    )
+    teach.add_argument("--duration", type=_seconds, metavar="S", help=f"of the motion [s] (default: {TAUGHT_S:g})")
+
+
+def _position(text: str) -> Vector3:
+    try:
+        x, y, z = (_finite(part) for part in text.split(","))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"must be X,Y,Z in metres, such as 0.85,0.05,0.55, not {text!r}") from None
+    return (x, y, z)
+
+
+def _seconds(text: str) -> float:
+    try:
+        seconds = _finite(text)
+    except ValueError:
+        seconds = 0.0
+    if not 0.0 < seconds <= LONGEST_S:
+        raise argparse.ArgumentTypeError(f"must be seconds, above 0 and at most {LONGEST_S:g}, not {text!r}")
+    return seconds
+
+
+def _finite(text: str) -> float:
+    number = float(text)
+    if not math.isfinite(number):
+        raise ValueError(text)
+    return number
 
 
 def configuration(arguments: argparse.Namespace) -> Configuration:
@@ -194,9 +248,7 @@ def _dispatch(arguments: argparse.Namespace) -> int:
 
             run_router(settings, arguments.connect)
         case "teach":
-            from services.teach import teach  # noqa: PLC0415
-
-            teach(settings)
+            _teach(settings, arguments)
         case "echo":
             from services.echo import echo  # noqa: PLC0415
 
@@ -214,3 +266,15 @@ def _dispatch(arguments: argparse.Namespace) -> int:
 
             run_process(process(name), settings)
     return 0
+
+
+def _teach(settings: Configuration, arguments: argparse.Namespace) -> None:
+    from services.teach import teach, teach_waypoints  # noqa: PLC0415
+
+    given = [flag for flag in ("waypoints", "object", "duration") if getattr(arguments, flag) is not None]
+    if not given:
+        teach(settings)
+    elif not {"waypoints", "object"} <= set(given):
+        raise CommandFailed(f"--{given[0]} alone teaches nothing: give --waypoints FILE and --object X,Y,Z")
+    else:
+        teach_waypoints(settings, arguments.waypoints, arguments.object, arguments.duration or TAUGHT_S)
