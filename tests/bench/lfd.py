@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from tests.bench.speed import growth, primitives, warping
+from tests.bench.speed import attractors, growth, primitives, warping
 from tests.bench.support.results import write_json
 from tests.bench.support.timing import Effort, Timing
 
-GROUPS = (primitives, warping, growth)
+GROUPS = (primitives, attractors, warping, growth)
 
 
 def table(results):
