@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from enum import Enum
+from enum import StrEnum
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -16,9 +16,10 @@ from lfd.resampling import at_phases
 from lfd.trajectory import Trajectory
 
 SAME_CONDITION = 0.01  # [m] conditions nearer than this count as one (thesis, section II-C)
+COMPARED = 30  # demonstrations of one condition among which the reference is sought: every pair of them is aligned
 
 
-class Selection(Enum):
+class Selection(StrEnum):
     """Which demonstrations of a condition are learnt from."""
 
     ALL = "all"
@@ -88,7 +89,8 @@ def align(
     """The demonstrations in their order, those of one condition in the tempo of their reference.
 
     By default all are kept. The thesis keeps two of each condition, as one path matches two sequences; but all can be
-    matched to the reference, one by one, and dropping some predicts worse on the thesis' own recordings.
+    matched to the reference, one by one, and dropping some predicts worse on the thesis' own recordings. Of more than
+    `COMPARED` at one condition, that many, evenly taken, compete for being the reference.
 
     Args:
         demonstrations: Of any conditions.
@@ -98,12 +100,14 @@ def align(
     aligned: dict[int, Demonstration] = {}
     for group in group_by_condition(np.array([d.condition for d in demonstrations]), tolerance):
         members = [relative_to_origin(demonstrations[i].trajectory, demonstrations[i].origin) for i in group]
-        distances = distance_matrix(members)
-        chosen = reference(distances)
+        rivals = np.linspace(0, len(group) - 1, min(len(group), COMPARED)).round().astype(int).tolist()
+        distances = distance_matrix([members[rival] for rival in rivals])
+        best = reference(distances)
+        chosen = rivals[best]
         aligned[group[chosen]] = demonstrations[group[chosen]]
         others = [member for member in range(len(group)) if member != chosen]
         if selection is Selection.SIMILAR_PAIR and others:
-            others = [most_similar(distances, to=chosen)]
+            others = [rivals[most_similar(distances, to=best)]]
         for member in others:
             original = demonstrations[group[member]]
             warped = to_base(warp(members[member], onto=members[chosen]), original.origin)

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from lfd.adaptation import AdaptiveOptions, AdaptiveProMP
+from lfd.alignment import Selection
 from lfd.arrays import Array, frozen
 from lfd.basis import GaussianBasis
 from lfd.correction import CorrectionOptions, Corrections
@@ -116,6 +117,7 @@ def _adaptive(header: dict[str, Any], arrays: dict[str, Array]) -> AdaptiveProMP
 
 def _promp(header: dict[str, Any], arrays: dict[str, Array]) -> ConditionedProMP:
     values = header["options"]
-    options = PrompOptions(**values | {"basis": GaussianBasis(**values["basis"])})
+    parsed = {"basis": GaussianBasis(**values["basis"]), "selection": Selection(values["selection"])}
+    options = PrompOptions(**values | parsed)
     encoding = Encoding(options.basis, options.samples, arrays["rotation"], anchored=False)
     return ConditionedProMP(encoding, JointGaussian(arrays["mean"], arrays["scatter"], header["count"]), options)

@@ -6,7 +6,7 @@ from typing import Self
 
 import numpy as np
 
-from lfd.alignment import align
+from lfd.alignment import Selection, align
 from lfd.arrays import Array
 from lfd.basis import GaussianBasis
 from lfd.demonstration import Demonstration, Situation
@@ -31,12 +31,14 @@ class PrompOptions:
         conditioning_noise: Diagonal of Sigma_n in equation (10), for the condition times 10. The text says 0.03, its
             implementation used 0.1.
         observation_std: sigma of equation (13) [m].
+        selection: Of the demonstrations of a condition. The thesis' is `Selection.SIMILAR_PAIR`.
     """
 
     basis: GaussianBasis = _BASIS
     samples: int = 10
     conditioning_noise: float = 0.03
     observation_std: float = 0.01
+    selection: Selection = Selection.ALL
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +70,8 @@ class ConditionedProMP:
             raise TooFewDemonstrations
         options = options or PrompOptions()
         encoding = Encoding(options.basis, options.samples, reference_rotation(demonstrations), anchored=False)
-        samples = np.array([_sample(encoding, d) for d in align(demonstrations)])
+        aligned = align(demonstrations, selection=options.selection)
+        samples = np.array([_sample(encoding, d) for d in aligned])
         return cls(encoding, JointGaussian.fit(samples), options)
 
     def updated(self, demonstration: Demonstration) -> Self:

@@ -3,7 +3,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from lfd import alignment
 from lfd.alignment import Selection, align, distance_matrix, group_by_condition, most_similar, reference, warp
+from lfd.dtw import dtw
 from lfd.resampling import at_phases
 
 
@@ -82,6 +84,24 @@ def test_alignment_does_not_depend_on_where_the_object_stands(reach):
     )
     moved, expected = align([here[0], there])[1], align(here)[1]
     np.testing.assert_allclose(moved.trajectory.positions, expected.trajectory.positions + shift, atol=1e-12)
+
+
+def test_many_of_one_condition_cost_no_more_than_in_proportion(reach, monkeypatch):
+    """Of every further demonstration beyond the ones compared, one more alignment."""
+    monkeypatch.setattr(alignment, "COMPARED", 4)
+    calls = []
+
+    def counted(a, b):
+        calls.append(1)
+        return dtw(a, b)
+
+    monkeypatch.setattr(alignment, "dtw", counted)
+    counts = []
+    for count in (4, 5, 12):
+        calls.clear()
+        align([reach([0.9, 0.2, 0.6], bend=0.01 * i, n=10) for i in range(count)])
+        counts.append(len(calls))
+    assert counts == [6 + 3, 6 + 4, 6 + 11]
 
 
 def test_nothing_to_align_is_nothing():
