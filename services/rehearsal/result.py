@@ -45,6 +45,7 @@ class Attempt:
         reason: why it did not run to its end, empty where it did.
         prediction: of the model.
         refined: the reference, the operator's correction included.
+        commanded: what the joints were told, of which the model learns.
         measured: what the arm did.
         miss: from the object's centre to the ellipsoid that it is reached in, along the line to the grasping frame;
             0 inside [m].
@@ -56,6 +57,7 @@ class Attempt:
     reason: str
     prediction: Trajectory
     refined: Trajectory
+    commanded: Trajectory
     measured: Trajectory
     miss: float
 
@@ -72,6 +74,7 @@ class Attempt:
             reason=result.reason,
             prediction=_trajectory(result.prediction),
             refined=_trajectory(result.refined),
+            commanded=_trajectory(result.commanded),
             measured=measured,
             miss=distance * (1.0 - 1.0 / math.sqrt(max(1.0, result.verdict.ellipsoid_value))),
         )

@@ -9,6 +9,7 @@ from services.exceptions import CommandFailed
 from services.robot.arm import Arm
 from services.robot.rollout import rollout, simulated_arm
 from sim.description import prepare
+from sim.pose import Pose
 from sim.scenes.scene import Scene
 from sim.steering import steer
 
@@ -33,7 +34,9 @@ def lesson(scene: Scene) -> list[Demonstration]:
     return [demonstrate(arm, scene, position, rng) for position in scene.training_positions]
 
 
-def demonstrate(arm: Arm, scene: Scene, position: Array, rng: np.random.Generator) -> Demonstration:
+def demonstrate(
+    arm: Arm, scene: Scene, position: Array, rng: np.random.Generator, start: Pose | None = None
+) -> Demonstration:
     """Steer the arm to an object, again where that fails; the motion as measured.
 
     Args:
@@ -41,15 +44,18 @@ def demonstrate(arm: Arm, scene: Scene, position: Array, rng: np.random.Generato
         scene: whose first variant's corridor is steered through.
         position: of the object, shape (3,) [m].
         rng: of the person's unsteadiness.
+        start: of the motion; the scene's by default.
 
     Raises:
         CommandFailed: no try succeeded.
+        StartImpossible: no motion can start there.
     """
+    start = scene.start if start is None else start
     for _ in range(TRIES):
-        way = steer(scene.corridor(scene.variants[0], position), rng)
+        way = steer(scene.corridor(scene.variants[0], position, start), rng)
         times = np.linspace(0.0, DURATION_S, len(way.positions))
         trajectory = from_samples(times, way.positions, way.orientations, POINTS)
-        outcome = rollout(arm, trajectory, position, variant=scene.variants[0])
+        outcome = rollout(arm, trajectory, position, variant=scene.variants[0], start=start)
         if outcome.verdict.success:
             return Demonstration.reaching(outcome.measured, position)
     raise CommandFailed(f"no motion to an object at {np.round(position, 3).tolist()} succeeded in {TRIES} tries")

@@ -65,7 +65,7 @@ def test_without_a_world_nothing_is_seen():
 
 def attempt(mode=Mode.AUTONOMOUS, miss=0.0, **verdict):
     judged = Verdict(**({"reached": True, "kicked_over": False, "collision": False} | verdict))
-    return Attempt(mode, 1, judged, "", STILL, STILL, STILL, miss)
+    return Attempt(mode, 1, judged, "", STILL, STILL, STILL, STILL, miss)
 
 
 @pytest.mark.parametrize(
