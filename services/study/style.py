@@ -26,7 +26,7 @@ REFINEMENT = "#009e73"
 OBSTACLE = "#c9a227"
 
 WIDTH = 9.9  # [inch] of the report's text
-_LEGEND_LETTERS = 140  # that fit in a row, with eight for the sign before each label
+_LEGEND_LETTERS = 150  # that fit in a row
 _DPI = 150
 
 _STYLE = {
@@ -127,7 +127,8 @@ def drawn(canvas: Canvas, name: str, caption: str, *, raster: bool = False) -> F
             handles, labels = axes.get_legend_handles_labels()
             entries |= zip(labels, handles, strict=True)
         if entries:
-            columns = max(1, _LEGEND_LETTERS // (max(map(len, entries)) + 8))
+            widths = [len(label) + 8 for label in entries]  # in letters, with the sign before the label
+            columns = len(widths) if sum(widths) <= _LEGEND_LETTERS else max(1, _LEGEND_LETTERS // max(widths))
             canvas.legend(list(entries.values()), list(entries), loc="outside lower center", ncols=columns)
         file = io.BytesIO()
         if raster:

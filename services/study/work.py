@@ -13,6 +13,8 @@ from multiprocessing.connection import Connection, wait
 from multiprocessing.context import SpawnProcess
 from typing import Protocol
 
+from threadpoolctl import threadpool_limits
+
 from services.clock import SystemClock
 from services.study.analysis import Analysis, Context
 from services.study.store import Done, Failed, Outcome, Store
@@ -67,7 +69,9 @@ def _outcome(analysis: Analysis, context: Context) -> Outcome:
     clock = SystemClock()
     began_ns = clock.now_ns()
     try:
-        finding = analysis.run(context)
+        # The matrices are small and the cores few: threads of the linear algebra would only wait for each other.
+        with threadpool_limits(1):
+            finding = analysis.run(context)
     except Exception as error:
         # One that fails is a line in the report, whatever it fails by: the others go on.
         log.debug("traceback", exc_info=True)

@@ -116,7 +116,7 @@ def _deviations_figure(found: Deviations) -> Figure:
     axes.semilogy(updates, found.miscounted, "o--", color=TRUTH, label="covariance, recursion of the thesis' code")
     axes.semilogy(updates, found.covariance, "o-", color=CONDITIONED, label="covariance, equation (20)")
     axes.semilogy(updates, found.mean, "o:", color=CONDITIONED, label="mean, equation (19)")
-    axes.set(xlabel="updates", ylabel="relative deviation from a batch fit", xticks=updates)
+    axes.set(xlabel="updates", ylabel="relative deviation", xticks=updates)
     return drawn(canvas, "deviations", "Deviation of the incremental updates from a batch fit of the same motions.")
 
 

@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from services.study.analysis import Analysis, Context, Figure, Finding, Holds, Row
 from services.study.functions import TAUGHT, Family, X, rms
-from services.study.models import KINDS, THESIS
-from services.study.style import DEMONSTRATION_LINE, TRUE_LINE, Line, drawn, panels
+from services.study.models import KINDS
+from services.study.style import DEMONSTRATION_LINE, TRUE_LINE, TRUTH, Line, drawn, panels
 
 Array = NDArray[np.float64]
 
@@ -53,7 +53,6 @@ def _sine(context: Context) -> Finding:
     rows = [Row(said, "", text, f.error(thesis[f], b), f.error(default[f], b)) for said, text, f, b in questions]
     limit = rms(best_affine(PHASE, 1.0) - PHASE.outputs(1.0))
     rows.insert(2, Row("least RMSE of a joint Gaussian for sin(10x + b) at s = 1", "", None, limit, None))
-    context.advance(0.5)
     as_printed, as_meant = PHASE.error(thesis[PHASE], 1.0) < _RIGHT, OFFSET.error(thesis[OFFSET], 1.0) < _RIGHT
     if as_meant and not as_printed:
         holds = Holds.DIFFERS
@@ -70,12 +69,12 @@ def _sine(context: Context) -> Finding:
         holds,
         sentence,
         tuple(rows),
-        (_predictions_figure(), _errors_figure()),
+        (_predictions_figure(), _errors_figure(context)),
         (
             "Equation (8) is affine in s, so the best that it can do is the least-squares fit of the demonstrations by"
             " functions that are affine in b; the conditioning noise adds almost nothing to that.",
-            "The default model is not affine in s: it passes near what was demonstrated, and between demonstrations"
-            " that are as far apart as these it can only blend them.",
+            "The default model is not affine in s: it comes nearer to what was demonstrated. Between waves whose phases"
+            " are one radian apart it can only blend them, unless the condition says what kind of motion it is.",
         ),
     )
 
@@ -99,18 +98,18 @@ def _predictions_figure() -> Figure:
     return drawn(canvas, "predictions", "Predictions of sine waves from demonstrations with b = 1 to 5.")
 
 
-def _errors_figure() -> Figure:
-    values = np.linspace(0.0, 6.0, 61)
+def _errors_figure(context: Context) -> Figure:
+    values = np.linspace(0.0, 6.0, 31)
     canvas, panes = panels(["sin(10x + b), s = b", "sin(10x + b), s = [cos b, sin b]"], height=2.5)
-    for axes, family in zip(panes, (PHASE, TURNED), strict=True):
-        for kind in KINDS:
-            model = kind.fit(family.motions())
-            axes.plot(values, [family.error(model, float(b)) for b in values], **kind.line(kind.label))
+    questions = [(axes, f, kind) for axes, f in zip(panes, (PHASE, TURNED), strict=True) for kind in KINDS]
+    for axes, family, kind in context.track(questions):
+        model = kind.fit(family.motions())
+        axes.plot(values, [family.error(model, float(b)) for b in values], **kind.line(kind.label))
+    for axes in panes:
         axes.axvspan(min(TAUGHT), max(TAUGHT), color="#f1f4f7", zorder=0, label="demonstrated range")
         axes.set(xlabel="b of the prediction", ylabel="RMSE")
     limits = [rms(best_affine(PHASE, float(b)) - PHASE.outputs(float(b))) for b in values]
-    line = Line(THESIS.line.color, 1.2, ":")
-    panes[0].plot(values, limits, **line("best that is affine in b"))
+    panes[0].plot(values, limits, **Line(TRUTH, 1.2, ":")("best that is affine in b"))
     return drawn(
         canvas, "errors", "Error of the predictions over b; demonstrations were given at b = 1, 2, 3, 4 and 5."
     )
