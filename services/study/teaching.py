@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from lfd.demonstration import Demonstration
@@ -189,13 +190,20 @@ def first_rounds(answer: Answer, titles: Sequence[str], caption: str) -> list[Fi
         caption: without the model's name.
     """
     return [
-        _first_round(answer.question, rehearsed, kind, titles, f"first-{model}", f"{caption}: {kind.label}.")
+        _first_round(
+            answer.question,
+            rehearsed,
+            kind=kind,
+            titles=titles,
+            name=f"first-{model}",
+            caption=f"{caption}: {kind.label}.",
+        )
         for kind, model, rehearsed in zip(KINDS, MODELS, answer.of_kinds, strict=True)
     ]
 
 
 def _first_round(
-    question: Question, rehearsed: Rehearsed, kind: Kind, titles: Sequence[str], name: str, caption: str
+    question: Question, rehearsed: Rehearsed, *, kind: Kind, titles: Sequence[str], name: str, caption: str
 ) -> Figure:
     canvas, panes = panels(titles, height=2.7, rows=-(-len(titles) // _COLUMNS), solid=True)
     for axes, course in zip(panes, rehearsed.first, strict=True):

@@ -113,7 +113,7 @@ def test_a_correction_fades_with_distance_and_leaves_far_places_alone(model, rea
     corrected = model.updated(reach(LEFT, bend=0.25))
     moved = [sideways(model, corrected, reach, offset) for offset in (0.0, 0.03, 0.06, 0.1, 0.2, 0.4, 0.8, 2.0)]
     assert (np.diff(moved) < 0.0).all()
-    assert moved[-1] < 0.01 * moved[0]
+    assert moved[-1] < 0.1 * moved[0]
 
 
 def test_a_correction_acts_wider_the_more_it_surprises(model, reach):

@@ -49,8 +49,8 @@ DISHWASHER_BASKET = Analysis(
     name="dishwasher",
     reference="Fig. 23, B.11-B.13",
     about="How many refinements until the pulled-out basket is avoided wherever the object stands?",
-    claim="Of four object positions in basket position b2, refinements were only necessary for the first two, after which"
-    " the model was able to make correct predictions for the other two. In a second iteration the model generates"
+    claim="Of four object positions in basket position b2, refinements were only necessary for the first two, after"
+    " which the model was able to make correct predictions for the other two. In a second iteration the model generates"
     " successful predictions across all four.",
     run=_dishwasher,
 )
