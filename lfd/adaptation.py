@@ -1,85 +1,70 @@
 """The default model: one correction is enough.
 
-A prediction is the sum of two parts, both in the space of start-anchored weights (`Encoding`):
-
-1. A trend: ridge regression of the weights on the condition. It carries what was taught to places where nothing was.
-   A correction counts for it only as far as its condition is new, so correcting one place leaves far ones as they
-   were.
-2. A residual: Gaussian-process regression, over the condition, of what the trend does not explain. A correction has
-   little noise, so the prediction passes through the newest; older motions near it are discounted, so they do not
-   hold it back; the kernel fades with distance, and so does the correction.
-
-Averaging, as in equations (19) and (20), leaves most of the error after one correction.
+A prediction is what the demonstrations say (`lfd.regression`) plus what the corrections changed (`lfd.correction`),
+both in the space of start-anchored weights of all outputs (`lfd.encoding`). Averaging, as in equations (19) and (20),
+leaves most of the error after one correction.
 """
 
-import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import dataclass, field, replace
 from typing import Self
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
-from scipy.spatial.distance import cdist
 
 from lfd.alignment import align
-from lfd.arrays import Array, checked, frozen
+from lfd.arrays import Array, frozen
 from lfd.basis import GaussianBasis
-from lfd.demonstration import Demonstration, Situation, conditions
-from lfd.encoding import Encoding, reference_rotation
-from lfd.exceptions import TooFewDemonstrations
+from lfd.condensation import condensed
+from lfd.correction import CorrectionOptions, Corrections
+from lfd.demonstration import Demonstration, Situation
+from lfd.encoding import OUTPUTS, Encoding, reference_rotation
+from lfd.exceptions import NothingToTakeBack, TooFewDemonstrations, WrongShape
 from lfd.model import PREDICTION_POINTS, Prediction
+from lfd.motion import POSITION, MotionDistribution
+from lfd.regression import Regression, RegressionOptions
+from lfd.spread import Spread, SpreadPrior, spread_of
 
-_FINE_BASIS = GaussianBasis(count=30, width=0.035)  # finer than the thesis', to follow a correction closely
+_FINE_BASIS = GaussianBasis(count=40, width=0.0256)  # finer than the thesis', to follow a correction closely
+_MEASURED = 25  # phases at which positions are compared
 
 
 @dataclass(frozen=True)
 class AdaptiveOptions:
-    """Parameters of the model; noises are relative to the variance of the residual.
+    """Parameters of the model.
 
     Attributes:
         basis: Of all outputs.
         samples: Number of points to which a demonstration is resampled.
-        length: Distance between conditions over which a correction fades, and without which there is no trend [m].
-        ridge: Shrinkage of the trend, relative to the variance of the conditions seen [-].
-        demonstration_noise: Of a first demonstration, one of several ways to move [-].
-        correction_noise: Of an update, which says how to move right here [-].
-        discount: Noise added to a motion for each newer one at its condition [-].
-        prior_std: Spread of the positions assumed before any motion is seen [m].
-        prior_duration_std: The same of the logarithm of the duration [-].
-        prior_count: How many motions these two assumptions are worth.
+        regression: See there.
+        correction: See there.
+        prior: Of the spread of motions about their predictions.
+        repeatability: Variance of a motion about a correction at its condition, relative to the spread [-].
+        most: Demonstrations kept; beyond it those of near conditions are averaged.
     """
 
     basis: GaussianBasis = _FINE_BASIS
     samples: int = 75
-    length: float = 0.06
-    ridge: float = 1.0
-    demonstration_noise: float = 0.1
-    correction_noise: float = 0.01
-    discount: float = 2.0
-    prior_std: float = 0.05
-    prior_duration_std: float = 0.3
-    prior_count: float = 2.0
+    regression: RegressionOptions = field(default_factory=RegressionOptions)
+    correction: CorrectionOptions = field(default_factory=CorrectionOptions)
+    prior: SpreadPrior = field(default_factory=SpreadPrior)
+    repeatability: float = 0.05
+    most: int = 1000
 
 
 @dataclass(frozen=True, eq=False)
 class AdaptiveProMP:
-    """Trend and residual over the condition, see the module.
+    """Demonstrations and corrections, see the module.
 
     Attributes:
-        encoding: Between demonstrations and weights.
-        conditions: Of all motions seen, in order, shape (M, c) [m].
-        vectors: Their encodings, shape (M, 6 N + 1).
-        ages: Number of the update that brought each, 0 for the first demonstrations, shape (M,).
-        novelty: How new each condition was when it came, 1 (nothing near) to 0 (seen before), shape (M,).
+        encoding: Between demonstrations and vectors.
+        corrections: Of the demonstrations' regression, which they hold.
+        spread: Of motions about their predictions.
         options: Parameters.
     """
 
     encoding: Encoding
-    conditions: Array
-    vectors: Array
-    ages: Array
-    novelty: Array
+    corrections: Corrections
+    spread: Spread
     options: AdaptiveOptions
 
     @classmethod
@@ -88,112 +73,120 @@ class AdaptiveProMP:
 
         Raises:
             TooFewDemonstrations: There is none.
-            WrongShape: Their conditions have different dimensions.
+            WrongShape: Two conditions differ in dimension.
         """
         if not demonstrations:
             raise TooFewDemonstrations
         options = options or AdaptiveOptions()
+        for demonstration in demonstrations:
+            _check_dimension(demonstration.condition, len(demonstrations[0].condition))
         encoding = Encoding(options.basis, options.samples, reference_rotation(demonstrations), anchored=True)
-        return cls(
-            encoding,
-            conditions=conditions(demonstrations),
-            vectors=frozen([encoding.encode(d) for d in align(demonstrations)]),
-            ages=frozen(np.zeros(len(demonstrations))),
-            novelty=frozen(np.ones(len(demonstrations))),
-            options=options,
-        )
+        extent = _extent(demonstrations)
+        aligned = align(demonstrations, options.regression.same * extent)
+        conditions = frozen([d.condition for d in demonstrations])
+        return cls.of_vectors(encoding, conditions, frozen([encoding.encode(d) for d in aligned]), extent, options)
+
+    @classmethod
+    def of_vectors(
+        cls, encoding: Encoding, conditions: Array, vectors: Array, extent: float, options: AdaptiveOptions
+    ) -> Self:
+        """The model of demonstrations that are encoded already.
+
+        Args:
+            encoding: That made the vectors.
+            conditions: Shape (M, c).
+            vectors: Shape (M, D).
+            extent: How far the motions lead from their start [m], positive.
+            options: Parameters.
+        """
+        conditions, vectors = condensed(conditions, vectors, options.most)
+        regression = Regression(conditions, vectors, _measure(encoding), extent, options.regression)
+        errors, variances = regression.left_out
+        spread = spread_of(encoding, errors, variances, extent, options.prior)
+        return cls(encoding, Corrections.none(regression, options.correction), spread, options)
 
     def updated(self, demonstration: Demonstration) -> Self:
-        """The model that has also learnt a motion newer than all others; see `MovementModel.updated`."""
-        s = self._checked(demonstration.condition)
-        novelty = 1.0 - self._kernel(s[None], self.conditions).max()
-        return replace(
-            self,
-            conditions=frozen(np.vstack([self.conditions, s])),
-            vectors=frozen(np.vstack([self.vectors, self.encoding.encode(demonstration)])),
-            ages=frozen(np.append(self.ages, self.ages[-1] + 1.0)),
-            novelty=frozen(np.append(self.novelty, novelty)),
-        )
+        """The model that has also learnt a motion newer than all others.
+
+        Raises:
+            WrongShape: Its condition has another dimension than those before.
+        """
+        self._check(demonstration.condition)
+        vector = self.encoding.encode(demonstration)
+        return replace(self, corrections=self.corrections.added(demonstration.condition, vector))
+
+    def undone(self) -> Self:
+        """The model without its newest correction.
+
+        Raises:
+            NothingToTakeBack: There is none.
+        """
+        if not len(self.corrections):
+            raise NothingToTakeBack
+        return replace(self, corrections=self.corrections.without(-1))
 
     def predict(self, situation: Situation, n: int = PREDICTION_POINTS) -> Prediction:
         """See `MovementModel.predict`; the prediction begins exactly at the start pose."""
-        s = self._checked(situation.condition)
-        k = self._kernel(s[None], self.conditions)[0]
-        vector = self._trend(s[None])[0] + k @ self._residual_gain
+        self._check(situation.condition)
+        s = situation.condition
+        k = self._regression.near(s)
+        vector = self._regression.mean(s) + self.corrections.change(s, k)
         trajectory = self.encoding.decode(vector, situation, n)
-        variance = self._variance(s, k)
-        return Prediction(
-            trajectory,
-            position_covariances=variance * self._position_spread(trajectory.phases),
-            duration_std=trajectory.duration * math.sqrt(variance * self._log_duration_variance),
-        )
+        taught, changed = self._variances(s, k)
+        covariances = taught * self.spread.positions(n)
+        duration_variance = taught * self.spread.covariance[-1, -1]
+        if changed > 0.0:
+            changes = self.corrections.changes
+            covariances = covariances + changed * _mean_square(self.encoding.positions(changes, n))
+            duration_variance += changed * float(np.mean(changes[:, -1] ** 2))
+        return Prediction(trajectory, covariances, trajectory.duration * float(np.sqrt(duration_variance)))
 
-    def _checked(self, condition: Array) -> Array:
-        return checked("condition", condition, self.conditions.shape[1:])
+    def distribution(self, situation: Situation) -> MotionDistribution:
+        """See `MovementModel.distribution`."""
+        self._check(situation.condition)
+        s = situation.condition
+        k = self._regression.near(s)
+        taught, changed = self._variances(s, k)
+        covariance = taught * self.spread.covariance
+        if changed > 0.0:
+            changes = self.corrections.changes
+            covariance = covariance + changed * (changes.T @ changes) / len(changes)
+        mean = self._regression.mean(s) + self.corrections.change(s, k)
+        return MotionDistribution(self.encoding, situation, frozen(mean), frozen(covariance))
 
-    def _kernel(self, a: Array, b: Array) -> Array:
-        similarity: Array = np.exp(-0.5 * cdist(a, b, "sqeuclidean") / self.options.length**2)
-        return similarity
+    @property
+    def _regression(self) -> Regression:
+        return self.corrections.regression
 
-    @cached_property
-    def _centre(self) -> tuple[Array, Array]:
-        share = self.novelty / self.novelty.sum()
-        return share @ self.conditions, share @ self.vectors
+    def _check(self, s: Array) -> None:
+        _check_dimension(s, self._regression.conditions.shape[1])
 
-    @cached_property
-    def _precision(self) -> Array:
-        """Inverse of the ridge-shrunk scatter of the conditions; it exists for one, equal and collinear conditions."""
-        deviations = self.conditions - self._centre[0]
-        scatter = deviations.T @ (self.novelty[:, None] * deviations)
-        c = self.conditions.shape[1]
-        shrinkage = self.options.ridge * np.trace(scatter) / c + self.options.length**2 * self.novelty.sum()
-        inverse: Array = np.linalg.inv(scatter + shrinkage * np.eye(c))
-        return inverse
+    def _variances(self, s: Array, k: Array) -> tuple[float, float]:
+        """Of what was taught, in units of the spread, and of what has changed, in units of the changes seen so far."""
+        left = self.corrections.open_share(s, k)
+        taught = left * self._regression.uncertainty(s, k) + (1.0 - left) * self.options.repeatability
+        return taught, left * self.corrections.surprising_share
 
-    def _trend(self, s: Array) -> Array:
-        s_mean, mean = self._centre
-        slope = self._precision @ (self.conditions - s_mean).T @ (self.novelty[:, None] * (self.vectors - mean))
-        return mean + (s - s_mean) @ slope
 
-    @cached_property
-    def _residuals(self) -> Array:
-        return self.vectors - self._trend(self.conditions)
+def _extent(demonstrations: Sequence[Demonstration]) -> float:
+    """How far motions lead from their start, root mean square over the demonstrations [m]; 1 where none moves."""
+    paths = [d.trajectory.positions for d in demonstrations]
+    return float(np.sqrt(np.mean([np.max(np.sum((path - path[0]) ** 2, axis=1)) for path in paths]))) or 1.0
 
-    @cached_property
-    def _factor(self) -> tuple[Array, bool]:
-        """Factor of the kernel matrix with its noise, larger for a motion the more newer ones are near it."""
-        K = self._kernel(self.conditions, self.conditions)
-        newer = self.ages[None, :] > self.ages[:, None]
-        noise = np.where(self.ages == 0.0, self.options.demonstration_noise, self.options.correction_noise)
-        forgotten = self.options.discount * np.sum(newer * K**4, axis=1)
-        factor: tuple[Array, bool] = cho_factor(K + np.diag(noise + forgotten))
-        return factor
 
-    @cached_property
-    def _residual_gain(self) -> Array:
-        gain: Array = cho_solve(self._factor, self._residuals)
-        return gain
+def _mean_square(paths: Array) -> Array:
+    """Of paths (J, n, 3) at each time, shape (n, 3, 3)."""
+    by_time = paths.transpose(1, 2, 0)
+    return np.asarray(by_time @ by_time.transpose(0, 2, 1) / len(paths), dtype=np.float64)
 
-    def _variance(self, s: Array, k: Array) -> float:
-        """Relative variance at s: small at what was taught, one away from it, more where the trend extrapolates."""
-        away = s - self._centre[0]
-        leverage = 1.0 / self.novelty.sum() + away @ self._precision @ away
-        unexplained = 1.0 - k @ cho_solve(self._factor, k)
-        return float(self.options.correction_noise + max(unexplained, 0.0) * (1.0 + leverage))
 
-    def _position_spread(self, phases: Array) -> Array:
-        """Covariance of the positions around the trend at phases (n,), shape (n, 3, 3) [m^2]; zero at the start."""
-        options = self.options
-        weights = self._residuals[:, :-1].reshape(-1, options.basis.count, 6)[:, :, :3]
-        deviations = self.encoding.rows(phases) @ weights
-        scatter = np.einsum("mti,mtj->tij", deviations, deviations)
-        assumed = options.prior_std**2 * (1.0 - (1.0 - phases) ** 2)
-        prior = options.prior_count * assumed[:, None, None] * np.eye(3)
-        spread: Array = (prior + scatter) / (options.prior_count + len(self.ages))
-        return spread
+def _measure(encoding: Encoding) -> Array:
+    """The linear map from a vector to positions, such that its squares sum to their mean square over time [m^2]."""
+    rows = encoding.rows(np.linspace(0.0, 1.0, _MEASURED)) / np.sqrt(_MEASURED)
+    positions = np.kron(rows, np.eye(POSITION, OUTPUTS))
+    return frozen(np.vstack([positions.T, np.zeros((1, len(positions)))]))
 
-    @cached_property
-    def _log_duration_variance(self) -> float:
-        options, logs = self.options, self._residuals[:, -1]
-        prior = options.prior_count * options.prior_duration_std**2
-        return float((prior + logs @ logs) / (options.prior_count + len(self.ages)))
+
+def _check_dimension(s: Array, dimension: int) -> None:
+    if len(s) != dimension:
+        raise WrongShape("condition", f"({dimension},)", s.shape)

@@ -1,69 +1,29 @@
-"""Dynamic time warping: exact, with the path; and the alignment of demonstrations of one condition."""
+"""Alignment in time of the demonstrations of one condition."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from enum import StrEnum
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.cluster.hierarchy import fcluster, linkage
-from scipy.spatial.distance import cdist
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import KDTree
 
 from lfd.arrays import Array
-from lfd.demonstration import Demonstration, conditions, relative_to_origin, to_base
+from lfd.demonstration import Demonstration, relative_to_origin, to_base
+from lfd.dtw import dtw
 from lfd.resampling import at_phases
 from lfd.trajectory import Trajectory
 
 SAME_CONDITION = 0.01  # [m] conditions nearer than this count as one (thesis, section II-C)
+COMPARED = 30  # demonstrations of one condition among which the reference is sought: every pair of them is aligned
 
 
-@dataclass(frozen=True, eq=False)
-class Alignment:
-    """The cheapest monotonic matching of two sequences.
+class Selection(StrEnum):
+    """Which demonstrations of a condition are learnt from."""
 
-    Attributes:
-        distance: Sum of the Euclidean distances along the path.
-        path: Matched indices (i, j), shape (L, 2), from (0, 0) to (n - 1, m - 1); each step raises i, j or both by 1.
-    """
-
-    distance: float
-    path: NDArray[np.intp]
-
-
-def dtw(a: Array, b: Array) -> Alignment:
-    """Exact dynamic time warping of a (n, d) and b (m, d), in O(n m).
-
-    The accumulated cost is filled by anti-diagonals i + j = k, along which all cells are independent.
-    """
-    n, m = len(a), len(b)
-    cost = cdist(a, b)
-    skewed = np.full((n + m - 1, n), np.inf)
-    i, j = np.indices((n, m))
-    skewed[i + j, i] = cost
-    # Row k + 2 is diagonal k and column i + 1 is index i, so that a neighbour outside the matrix reads infinity.
-    total = np.full((n + m + 1, n + 1), np.inf)
-    total[0, 0] = 0.0  # the virtual cell (-1, -1) before the start
-    for k in range(n + m - 1):
-        up, left, diagonal = total[k + 1, :-1], total[k + 1, 1:], total[k, :-1]
-        total[k + 2, 1:] = skewed[k] + np.minimum(np.minimum(up, left), diagonal)
-    return Alignment(float(total[n + m, n]), _path(total, n, m))
-
-
-def _path(total: Array, n: int, m: int) -> NDArray[np.intp]:
-    i, j = n - 1, m - 1
-    path = [(i, j)]
-    while i > 0 or j > 0:
-        k = i + j
-        diagonal = total[k, i] if i and j else np.inf
-        up = total[k + 1, i] if i else np.inf
-        left = total[k + 1, i + 1] if j else np.inf
-        if diagonal <= min(up, left):
-            i, j = i - 1, j - 1
-        elif up <= left:
-            i -= 1
-        else:
-            j -= 1
-        path.append((i, j))
-    return np.array(path[::-1], dtype=np.intp)
+    ALL = "all"
+    SIMILAR_PAIR = "similar pair"  # the thesis': the reference, and the one most similar to it
 
 
 def warp(trajectory: Trajectory, onto: Trajectory) -> Trajectory:
@@ -78,45 +38,78 @@ def warp(trajectory: Trajectory, onto: Trajectory) -> Trajectory:
     return at_phases(trajectory, phases)
 
 
-def reference(trajectories: Sequence[Trajectory]) -> int:
-    """Index of the trajectory with the least summed DTW distance to all others (equation (22))."""
+def distance_matrix(trajectories: Sequence[Trajectory]) -> Array:
+    """DTW distances of the positions of all trajectories to each other, shape (M, M) [m]."""
     distances = np.zeros((len(trajectories), len(trajectories)))
     for i, a in enumerate(trajectories):
         for j in range(i):
             distances[i, j] = distances[j, i] = dtw(a.positions, trajectories[j].positions).distance
+    return distances
+
+
+def reference(distances: Array) -> int:
+    """Index of the trajectory with the least summed distance to all others (equation (22)), from all of them (M, M)."""
     return int(np.argmin(distances.sum(axis=1)))
+
+
+def most_similar(distances: Array, to: int) -> int:
+    """Index of the trajectory nearest to the trajectory `to`, from all distances (M, M) with M at least 2.
+
+    This is the choice of section II-C. Appendix D takes the trajectory with the second lowest sum of equation (22)
+    instead. For three the two agree (each sum lacks only the distance of the other two); for more they need not, and
+    the second lowest sum may belong to one that is central but unlike the reference, which is not worth matching to it.
+    """
+    others = distances[to].copy()
+    others[to] = np.inf
+    return int(np.argmin(others))
 
 
 def group_by_condition(conditions: Array, tolerance: float = SAME_CONDITION) -> list[list[int]]:
     """Indices of equal conditions (M, c), grouped, in order of first appearance.
 
     Transitive: a chain of conditions, each within the tolerance of the next, is one group. The thesis compares pairs
-    (equation (21)) and leaves open what follows when a = b and b = c but not a = c.
+    (equation (21)) and leaves open what follows when a = b and b = c but not a = c; its own example (equation (D.6))
+    is such a chain, and is treated as one condition.
     """
-    if len(conditions) < 2:
-        return [[i] for i in range(len(conditions))]
-    labels = fcluster(linkage(conditions, "single"), tolerance, "distance")
+    if len(conditions) == 0:
+        return []
+    i, j = KDTree(conditions).query_pairs(tolerance, output_type="ndarray").T
+    equal = coo_array((np.ones(len(i)), (i, j)), shape=(len(conditions), len(conditions)))
     groups: dict[int, list[int]] = {}
-    for index, label in enumerate(labels):
+    for index, label in enumerate(connected_components(equal, directed=False)[1]):
         groups.setdefault(int(label), []).append(index)
     return list(groups.values())
 
 
-def align(demonstrations: Sequence[Demonstration], tolerance: float = SAME_CONDITION) -> list[Demonstration]:
+def align(
+    demonstrations: Sequence[Demonstration],
+    tolerance: float = SAME_CONDITION,
+    selection: Selection = Selection.ALL,
+) -> list[Demonstration]:
     """The demonstrations in their order, those of one condition in the tempo of their reference.
 
-    All demonstrations of a condition are kept. The thesis keeps the reference and the one most similar to it, which
-    predicts worse on its own recordings.
+    By default all are kept. The thesis keeps two of each condition, as one path matches two sequences; but all can be
+    matched to the reference, one by one, and dropping some predicts worse on the thesis' own recordings. Of more than
+    `COMPARED` at one condition, that many, evenly taken, compete for being the reference.
 
-    Raises:
-        WrongShape: Conditions have different dimensions.
+    Args:
+        demonstrations: Of any conditions.
+        tolerance: See `group_by_condition`.
+        selection: Which of them to keep.
     """
-    aligned = list(demonstrations)
-    for group in group_by_condition(conditions(demonstrations), tolerance):
-        members = {i: relative_to_origin(aligned[i].trajectory, aligned[i].origin) for i in group}
-        chosen = group[reference(list(members.values()))]
-        for i in group:
-            if i != chosen:
-                warped = to_base(warp(members[i], onto=members[chosen]), aligned[i].origin)
-                aligned[i] = replace(aligned[i], trajectory=warped)
-    return aligned
+    aligned: dict[int, Demonstration] = {}
+    for group in group_by_condition(np.array([d.condition for d in demonstrations]), tolerance):
+        members = [relative_to_origin(demonstrations[i].trajectory, demonstrations[i].origin) for i in group]
+        rivals = np.linspace(0, len(group) - 1, min(len(group), COMPARED)).round().astype(int).tolist()
+        distances = distance_matrix([members[rival] for rival in rivals])
+        best = reference(distances)
+        chosen = rivals[best]
+        aligned[group[chosen]] = demonstrations[group[chosen]]
+        others = [member for member in range(len(group)) if member != chosen]
+        if selection is Selection.SIMILAR_PAIR and others:
+            others = [rivals[most_similar(distances, to=best)]]
+        for member in others:
+            original = demonstrations[group[member]]
+            warped = to_base(warp(members[member], onto=members[chosen]), original.origin)
+            aligned[group[member]] = replace(original, trajectory=warped)
+    return [aligned[i] for i in sorted(aligned)]

@@ -1,4 +1,4 @@
-"""Normalised Gaussian basis functions and least-squares weights."""
+"""Normalised Gaussian basis functions, and the weights of a motion by least squares."""
 
 from dataclasses import dataclass
 
@@ -31,19 +31,35 @@ class GaussianBasis:
 
     def matrix(self, phases: Array) -> Array:
         """Phi of equation (2): the functions at the phases (T,), shape (T, N); each row sums to one."""
-        centres = np.linspace(0.0, 1.0, self.count)
-        bumps = np.exp(-0.5 * ((phases[:, None] - centres) / self.width) ** 2)
+        bumps = self._bumps(phases)
         Phi: Array = bumps / bumps.sum(axis=1, keepdims=True)
         return Phi
 
+    def derivative(self, phases: Array) -> Array:
+        """Of the functions by the phase, shape (T, N); each row sums to zero."""
+        bumps = self._bumps(phases)
+        slopes = -self._distances(phases) / self.width * bumps
+        total, total_slope = bumps.sum(axis=1, keepdims=True), slopes.sum(axis=1, keepdims=True)
+        derivative: Array = (slopes * total - bumps * total_slope) / total**2
+        return derivative
 
-def weights(Phi: Array, values: Array) -> Array:
-    """Equation (3): the w that brings Phi w nearest to `values` in least squares, shape (N, d).
+    def _distances(self, phases: Array) -> Array:
+        centres = np.linspace(0.0, 1.0, self.count)
+        distances: Array = (phases[:, None] - centres) / self.width
+        return distances
 
-    Solved by singular values, not by the normal equations: with fewer samples than functions it is the smallest w.
+    def _bumps(self, phases: Array) -> Array:
+        bumps: Array = np.exp(-0.5 * self._distances(phases) ** 2)
+        return bumps
+
+
+def least_squares(Phi: Array) -> Array:
+    """Equation (3) as a matrix L, shape (N, T): w = L y brings Phi w nearest to y in least squares.
+
+    Made by singular values, not by the normal equations: with fewer samples than functions w is the smallest one.
 
     Args:
         Phi: Basis matrix, shape (T, N).
-        values: Shape (T, d).
     """
-    return np.asarray(np.linalg.lstsq(Phi, values, rcond=None)[0], dtype=np.float64)
+    solver = np.linalg.pinv(Phi, rcond=max(Phi.shape) * float(np.finfo(np.float64).eps))
+    return np.asarray(solver, dtype=np.float64)

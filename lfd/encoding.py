@@ -2,11 +2,12 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
-from lfd.arrays import Array, checked_quaternions
-from lfd.basis import GaussianBasis, weights
+from lfd.arrays import Array, checked_quaternions, frozen
+from lfd.basis import GaussianBasis, least_squares
 from lfd.demonstration import Demonstration, Situation, relative_to_origin
 from lfd.resampling import resample
 from lfd.rotations import conjugate, exp_map, log_map, mean_rotation, multiply, sign_continuous
@@ -16,6 +17,9 @@ from lfd.trajectory import Trajectory
 def reference_rotation(demonstrations: Sequence[Demonstration]) -> Array:
     """The mean rotation (4,) of all points of all demonstrations, about which orientations are linearised."""
     return mean_rotation(np.concatenate([d.trajectory.orientations for d in demonstrations]))
+
+
+OUTPUTS = 6  # x, y, z and the rotation vector
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +58,7 @@ class Encoding:
         outputs = np.hstack([relative.positions, self._rotation_vectors(relative.orientations)])
         if self.anchored:
             outputs = outputs - np.outer(1.0 - trajectory.phases, outputs[0])
-        w = weights(self.rows(trajectory.phases), outputs)
+        w = _solver(self.basis, trajectory.phases.tobytes(), self.anchored) @ outputs
         return np.append(w.ravel(), np.log(trajectory.duration))
 
     def decode(self, x: Array, situation: Situation, n: int) -> Trajectory:
@@ -65,26 +69,59 @@ class Encoding:
             situation: Whose origin the motion is relative to, and whose start pose it begins at, if anchored.
             n: Number of points.
         """
-        phases = np.linspace(0.0, 1.0, n)
-        outputs = self.rows(phases) @ x[:-1].reshape(self.basis.count, 6)
-        if self.anchored:
-            relative = situation.start_position - situation.origin
-            turned = self._rotation_vectors(situation.start_orientation[None])[0]
-            outputs = outputs + np.outer(1.0 - phases, np.concatenate([relative, turned]))
+        outputs = self.outputs(x, situation, np.linspace(0.0, 1.0, n))
         return Trajectory(
             positions=outputs[:, :3] + situation.origin,
             orientations=multiply(self.rotation, exp_map(outputs[:, 3:])),
             duration=float(np.exp(x[-1])),
         )
 
+    def positions(self, changes: Array, n: int) -> Array:
+        """What changes (J, D) of vectors do to the positions at n equal times, shape (J, n, 3) [m]."""
+        weights_of_positions = changes[:, :-1].reshape(len(changes), self.basis.count, OUTPUTS)[:, :, :3]
+        return np.asarray(self.rows(np.linspace(0.0, 1.0, n)) @ weights_of_positions, dtype=np.float64)
+
+    def outputs(self, x: Array, situation: Situation, phases: Array) -> Array:
+        """Positions relative to the origin [m] and rotation vectors [rad] at phases (T,), shape (T, 6)."""
+        outputs = self.rows(phases) @ x[:-1].reshape(self.basis.count, OUTPUTS)
+        if self.anchored:
+            outputs = outputs + np.outer(1.0 - phases, self._start(situation))
+        return outputs
+
+    def output_rates(self, x: Array, situation: Situation, phases: Array) -> Array:
+        """Derivatives of `outputs` by the phase, shape (T, 6)."""
+        rates = self.basis.derivative(phases) @ x[:-1].reshape(self.basis.count, OUTPUTS)
+        if self.anchored:
+            first = self.basis.matrix(np.zeros(1))[0] @ x[:-1].reshape(self.basis.count, OUTPUTS)
+            rates = rates + first - self._start(situation)
+        return rates
+
     def rows(self, phases: Array) -> Array:
         """The basis at phases (T,), shape (T, N); if anchored, with the value at phase 0 blended out to zero."""
-        Phi = self.basis.matrix(phases)
-        if not self.anchored:
-            return Phi
-        return Phi - np.outer(1.0 - phases, self.basis.matrix(np.zeros(1))[0])
+        return _rows(self.basis, phases.tobytes(), self.anchored)
+
+    def _start(self, situation: Situation) -> Array:
+        turned = self._rotation_vectors(situation.start_orientation[None])[0]
+        return np.concatenate([situation.start_position - situation.origin, turned])
 
     def _rotation_vectors(self, orientations: Array) -> Array:
         relative = multiply(conjugate(self.rotation), orientations)
         first = -1.0 if relative[0, 0] < 0.0 else 1.0
         return log_map(sign_continuous(first * relative), shortest=False)
+
+
+# Both are kept, read-only: they are the same for all motions of one number of points. Phases go by their bytes, as an
+# array has no hash.
+
+
+@lru_cache(maxsize=16)
+def _rows(basis: GaussianBasis, phases: bytes, anchored: bool) -> Array:
+    t = np.frombuffer(phases)
+    Phi = basis.matrix(t)
+    return frozen(Phi - np.outer(1.0 - t, basis.matrix(np.zeros(1))[0]) if anchored else Phi)
+
+
+@lru_cache(maxsize=16)
+def _solver(basis: GaussianBasis, phases: bytes, anchored: bool) -> Array:
+    """From the outputs at the phases (T, d) to the weights (N, d)."""
+    return frozen(least_squares(_rows(basis, phases, anchored)))

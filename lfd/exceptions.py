@@ -4,11 +4,13 @@ LfdError
 ├── WrongShape              an array has not the shape it must have
 ├── NotFinite               an array or number contains NaN or infinity
 ├── TooFewPoints            a trajectory needs at least two points
+├── TooFewWaypoints         a motion through waypoints needs at least three
 ├── TooFewDemonstrations    a model needs at least one demonstration
 ├── InvalidDuration         a duration is not positive
 ├── NotUnitQuaternion       an orientation is not a unit quaternion
 ├── TimesNotIncreasing      the times of samples do not increase strictly
 ├── OutOfRange              a number lies outside its range
+├── NothingToTakeBack       a model without a correction has none to forget
 └── StorageError            the store's file cannot be used
     └── NothingToUndo       the store holds no active demonstration
 """
@@ -47,6 +49,14 @@ class TooFewPoints(LfdError):
         self.name = name
         self.count = count
         super().__init__(f"{name} has {count} point(s): a trajectory needs at least 2")
+
+
+class TooFewWaypoints(LfdError):
+    """A motion through waypoints needs at least three."""
+
+    def __init__(self, count: int) -> None:
+        self.count = count
+        super().__init__(f"{count} waypoint(s): a motion needs at least 3, its two ends and one between")
 
 
 class TooFewDemonstrations(LfdError):
@@ -92,6 +102,13 @@ class OutOfRange(LfdError):
         self.value = value
         self.allowed = allowed
         super().__init__(f"{name} is {value:g}: it must be {allowed}")
+
+
+class NothingToTakeBack(LfdError):
+    """A model without a correction has none to forget."""
+
+    def __init__(self) -> None:
+        super().__init__("the model has no correction to take back: it only knows its first demonstrations")
 
 
 class StorageError(LfdError):

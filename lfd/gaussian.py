@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
+from scipy.linalg import solve_triangular
 
 from lfd.arrays import Array, checked, frozen
 from lfd.exceptions import OutOfRange, TooFewDemonstrations
@@ -64,7 +64,11 @@ def welford(joint: JointGaussian, x: Array) -> JointGaussian:
 
 @dataclass(frozen=True, eq=False)
 class Conditional:
-    """A Gaussian of the weights alone: mean (k,) and covariance (k, k), symmetric and positive semi-definite."""
+    """A Gaussian of the weights alone: mean (k,) and covariance (k, k).
+
+    The covariance is symmetric, and positive semi-definite but for rounding: a variance that is zero may come out as
+    -1e-16 of what it was before the condition was known.
+    """
 
     mean: Array
     covariance: Array
@@ -73,8 +77,8 @@ class Conditional:
 def condition(joint: JointGaussian, s: Array, noise: float) -> Conditional:
     """Equations (8) to (10): the leading components of x, given that the last len(s) of them are s.
 
-    The covariance (9) is formed as G Sigma G^T + gain noise gain^T with G = [I, -gain] (the Joseph form), the same
-    value but positive semi-definite whatever rounding does.
+    With L L^T = Sigma_ss and V = L^-1 Sigma_sw, equation (8) is mu_w + V^T L^-1 (s - mu_s) and equation (9) is
+    Sigma_ww - V^T V: of second order in the number of weights, where a product of full matrices is of third.
 
     Args:
         joint: Over x = [w, s].
@@ -88,9 +92,8 @@ def condition(joint: JointGaussian, s: Array, noise: float) -> Conditional:
         raise OutOfRange("conditioning noise", noise, "positive")
     k = len(joint.mean) - len(s)
     Sigma = joint.covariance
-    Sigma_ss = Sigma[k:, k:] + noise * np.eye(len(s))
-    gain: Array = cho_solve(cho_factor(Sigma_ss), Sigma[k:, :k]).T
-    mean = joint.mean[:k] + gain @ (s - joint.mean[k:])
-    G = np.hstack([np.eye(k), -gain])
-    covariance = G @ Sigma @ G.T + noise * gain @ gain.T
-    return Conditional(frozen(mean), frozen(0.5 * (covariance + covariance.T)))
+    L = np.linalg.cholesky(Sigma[k:, k:] + noise * np.eye(len(s)))
+    right = np.column_stack([Sigma[k:, :k], s - joint.mean[k:]])
+    whitened = solve_triangular(L, right, lower=True, check_finite=False)
+    V, deviation = whitened[:, :k], whitened[:, k]
+    return Conditional(frozen(joint.mean[:k] + deviation @ V), frozen(Sigma[:k, :k] - V.T @ V))

@@ -7,6 +7,7 @@ from typing import Protocol, Self
 from lfd.arrays import Array, checked
 from lfd.demonstration import Demonstration, Situation
 from lfd.exceptions import OutOfRange
+from lfd.motion import MotionDistribution
 from lfd.trajectory import Trajectory
 
 PREDICTION_POINTS = 75  # the thesis' number of way-points in a prediction
@@ -64,5 +65,13 @@ class MovementModel(Protocol):
         Raises:
             WrongShape: The condition has another dimension than those of the demonstrations.
             TooFewPoints: n is less than 2.
+        """
+        ...
+
+    def distribution(self, situation: Situation) -> MotionDistribution:
+        """Everything the model expects for a situation: to sample, differentiate, lead through via-points, blend.
+
+        Raises:
+            WrongShape: The condition has another dimension than those of the demonstrations.
         """
         ...

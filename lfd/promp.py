@@ -6,14 +6,15 @@ from typing import Self
 
 import numpy as np
 
-from lfd.alignment import align
-from lfd.arrays import Array, checked
+from lfd.alignment import Selection, align
+from lfd.arrays import Array
 from lfd.basis import GaussianBasis
 from lfd.demonstration import Demonstration, Situation
-from lfd.encoding import Encoding, reference_rotation
-from lfd.exceptions import TooFewDemonstrations
+from lfd.encoding import OUTPUTS, Encoding, reference_rotation
+from lfd.exceptions import TooFewDemonstrations, WrongShape
 from lfd.gaussian import JointGaussian, condition, welford
 from lfd.model import PREDICTION_POINTS, Prediction
+from lfd.motion import MotionDistribution
 
 CONDITION_SCALE = 10.0  # the thesis' factor on the condition
 
@@ -30,12 +31,14 @@ class PrompOptions:
         conditioning_noise: Diagonal of Sigma_n in equation (10), for the condition times 10. The text says 0.03, its
             implementation used 0.1.
         observation_std: sigma of equation (13) [m].
+        selection: Of the demonstrations of a condition. The thesis' is `Selection.SIMILAR_PAIR`.
     """
 
     basis: GaussianBasis = _BASIS
     samples: int = 10
     conditioning_noise: float = 0.03
     observation_std: float = 0.01
+    selection: Selection = Selection.ALL
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,37 +65,34 @@ class ConditionedProMP:
 
         Raises:
             TooFewDemonstrations: There is none.
-            WrongShape: Their conditions have different dimensions.
         """
         if not demonstrations:
             raise TooFewDemonstrations
         options = options or PrompOptions()
         encoding = Encoding(options.basis, options.samples, reference_rotation(demonstrations), anchored=False)
-        samples = np.array([_sample(encoding, d) for d in align(demonstrations)])
+        aligned = align(demonstrations, selection=options.selection)
+        samples = np.array([_sample(encoding, d) for d in aligned])
         return cls(encoding, JointGaussian.fit(samples), options)
 
     def updated(self, demonstration: Demonstration) -> Self:
-        """The model after one step of Welford's method: the new motion counts as much as each earlier one.
-
-        See `MovementModel.updated`.
-        """
-        self._checked(demonstration.condition)
+        """The model after one step of Welford's method: the new motion counts as much as each earlier one."""
         return replace(self, joint=welford(self.joint, _sample(self.encoding, demonstration)))
 
     def predict(self, situation: Situation, n: int = PREDICTION_POINTS) -> Prediction:
         """Equations (12) and (13), see `MovementModel.predict`; the start orientation is not used."""
-        s = CONDITION_SCALE * self._checked(situation.condition)
-        given = condition(self.joint, s, self.options.conditioning_noise)
-        trajectory = self.encoding.decode(given.mean, situation, n)
-        N = self.options.basis.count
-        Sigma_w = given.covariance[:-1, :-1].reshape(N, 6, N, 6)[:, :3, :, :3]
-        Phi = self.encoding.rows(trajectory.phases)
-        covariances = np.einsum("ta,aibj,tb->tij", Phi, Sigma_w, Phi) + self.options.observation_std**2 * np.eye(3)
-        duration_std = trajectory.duration * np.sqrt(given.covariance[-1, -1])
-        return Prediction(trajectory, covariances, float(duration_std))
+        motion = self.distribution(situation)
+        return Prediction(motion.trajectory(n), motion.position_covariances(n), motion.duration_std)
 
-    def _checked(self, condition: Array) -> Array:
-        return checked("condition", condition, (len(self.joint.mean) - self.encoding.length,))
+    def distribution(self, situation: Situation) -> MotionDistribution:
+        """Equations (8) to (11), see `MovementModel.distribution`."""
+        s = CONDITION_SCALE * situation.condition
+        dimension = len(self.joint.mean) - (OUTPUTS * self.options.basis.count + 1)
+        if len(s) != dimension:
+            raise WrongShape("condition", f"({dimension},)", s.shape)
+        given = condition(self.joint, s, self.options.conditioning_noise)
+        return MotionDistribution(
+            self.encoding, situation, given.mean, given.covariance, noise_std=self.options.observation_std
+        )
 
 
 def _sample(encoding: Encoding, demonstration: Demonstration) -> Array:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from lfd.alignment import dtw
+from lfd.dtw import dtw
 from lfd.exceptions import OutOfRange
 from lfd.model import PREDICTION_POINTS
 from lfd.resampling import from_samples, resample
@@ -35,9 +35,9 @@ def refine(
     old, human = resample(prediction, longer), resample(refinement, longer)
     i, j = dtw(old.positions, human.positions).path.T
     phases = (1.0 - alpha) * old.phases[i] + alpha * human.phases[j]
+    times = ((1.0 - alpha) * prediction.duration + alpha * refinement.duration) * phases
     positions = (1.0 - alpha) * old.positions[i] + alpha * human.positions[j]
     orientations = slerp(old.orientations[i], human.orientations[j], np.full(len(i), alpha))
-    # At alpha 0 and 1 the path's repeated indices give one and the same point several times.
-    phases, first = np.unique(phases, return_index=True)
-    duration = (1.0 - alpha) * prediction.duration + alpha * refinement.duration
-    return from_samples(phases * duration, positions[first], orientations[first], n)
+    # At alpha 0 and 1, or a rounding error from them, the path's repeated indices give one point several times.
+    times, first = np.unique(times, return_index=True)
+    return from_samples(times, positions[first], orientations[first], n)

@@ -15,10 +15,18 @@ _SMALL = 1e-8  # [rad] below it the series replaces sin(x) / x
 
 
 def multiply(p: Array, q: Array) -> Array:
-    """Hamilton product p q: first rotate by q, then by p. Shapes (..., 4)."""
-    pw, pv, qw, qv = p[..., :1], p[..., 1:], q[..., :1], q[..., 1:]
-    scalar = pw * qw - np.sum(pv * qv, axis=-1, keepdims=True)
-    return np.concatenate([scalar, pw * qv + qw * pv + np.cross(pv, qv)], axis=-1)
+    """Hamilton product p q: first rotate by q, then by p. Shapes (..., 4).
+
+    Written out in components, which takes less than half as long for the one quaternion of a control period.
+    """
+    (pw, px, py, pz), (qw, qx, qy, qz) = np.moveaxis(p, -1, 0), np.moveaxis(q, -1, 0)
+    product = (
+        pw * qw - (px * qx + py * qy + pz * qz),
+        pw * qx + qw * px + (py * qz - pz * qy),
+        pw * qy + qw * py + (pz * qx - px * qz),
+        pw * qz + qw * pz + (px * qy - py * qx),
+    )
+    return np.stack(product, axis=-1)
 
 
 def conjugate(q: Array) -> Array:
@@ -89,8 +97,12 @@ def rotate(q: Array, v: Array) -> Array:
 
 def _cross(a: Array, b: Array) -> Array:
     """The cross product; written out it costs a tenth of NumPy's, in every control period."""
-    (ax, ay, az), (bx, by, bz) = np.moveaxis(a, -1, 0), np.moveaxis(b, -1, 0)
-    return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=-1)
+    ax, ay, az, bx, by, bz = a[..., 0], a[..., 1], a[..., 2], b[..., 0], b[..., 1], b[..., 2]
+    product = np.empty(np.broadcast(a, b).shape)
+    product[..., 0] = ay * bz - az * by
+    product[..., 1] = az * bx - ax * bz
+    product[..., 2] = ax * by - ay * bx
+    return product
 
 
 def matrix_from_quaternion(q: Array) -> Array:

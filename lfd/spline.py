@@ -1,6 +1,10 @@
-"""Cubic splines: lines through points with continuous curvature, exact for cubics."""
+"""Splines: smooth lines through points.
+
+SciPy's do the same or nearly, but loading them takes a second of every process' start.
+"""
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lfd.arrays import Array
 
@@ -8,9 +12,10 @@ from lfd.arrays import Array
 def cubic_spline(x: Array, y: Array, wanted: Array) -> Array:
     """The not-a-knot cubic spline through points; a parabola through three, a straight line through two.
 
+    Its curvature is continuous, and it is exact for cubics.
+
     The second derivatives solve the equations that make the first derivatives continuous, closed by the third
     derivatives' continuity at the second and the last but one point (de Boor, A Practical Guide to Splines, ch. IV).
-    SciPy's splines do the same, but loading them takes a second of every process' start.
 
     Args:
         x: Strictly increasing, shape (n,), n at least 2.
@@ -22,12 +27,46 @@ def cubic_spline(x: Array, y: Array, wanted: Array) -> Array:
     """
     h = np.diff(x)
     m = _curvatures(h, np.diff(y, axis=0) / h[:, None])
-    i = np.clip(np.searchsorted(x, wanted, side="right") - 1, 0, len(x) - 2)
+    i = _pieces(x, wanted)
     width = h[i][:, None]
     right = (wanted - x[i])[:, None] / width
     left = 1.0 - right
     bend = (left**3 - left) * m[i] + (right**3 - right) * m[i + 1]
     return np.asarray(left * y[i] + right * y[i + 1] + width**2 / 6.0 * bend, dtype=np.float64)
+
+
+def quadratic_spline(x: Array, y: Array, wanted: Array) -> Array:
+    """The quadratic spline through points whose first piece is straight: equations (E.1) to (E.6) with a_1 = 0.
+
+    Each piece is a parabola through its two points. That the first derivatives are continuous, (E.3) to (E.6), gives
+    the slope at each point from the one before, so no equations have to be solved. SciPy's
+    `interp1d(kind="quadratic")`, which the thesis' implementation used, is closed by another condition and is another
+    curve, except where the points lie on a straight line. Nothing damps what a bend sets off: a kink between two
+    pieces swings on, as large, to the last.
+
+    Args:
+        x: Strictly increasing, shape (n,), n at least 2.
+        y: Values, shape (n, d).
+        wanted: Where to evaluate, within x, shape (k,).
+
+    Returns:
+        Shape (k, d).
+    """
+    h = np.diff(x)
+    means = np.diff(y, axis=0) / h[:, None]
+    slopes = np.empty_like(y)
+    slopes[0] = means[0]
+    for left, mean in enumerate(means):
+        slopes[left + 1] = 2.0 * mean - slopes[left]
+    i = _pieces(x, wanted)
+    t = (wanted - x[i])[:, None]
+    a = (slopes[i + 1] - slopes[i]) / (2.0 * h[i][:, None])
+    return np.asarray(y[i] + slopes[i] * t + a * t**2, dtype=np.float64)
+
+
+def _pieces(x: Array, wanted: Array) -> NDArray[np.intp]:
+    """Index of the piece between points x (n,) in which each of the wanted (k,) lies."""
+    return np.clip(np.searchsorted(x, wanted, side="right") - 1, 0, len(x) - 2)
 
 
 def _curvatures(h: Array, slopes: Array) -> Array:

@@ -118,14 +118,16 @@ class MasterState(Message, frozen=True, kw_only=True):
     Attributes:
         displacement: from the device's neutral position, in base axes [m].
         velocity: of the displacement [m/s].
+        rotation: from the device's neutral orientation, rotation vector in base axes [rad].
         force: what the device renders to the hand (eq. 14) [N].
-        engaged: a hand is on the device and the clutch is closed; the displacement counts only then.
+        engaged: a hand is on the device and the clutch is closed; displacement and rotation count only then.
         epoch: of the authority under which the master commands.
         device: what kind of device this is.
     """
 
     displacement: Vector3 = (0.0, 0.0, 0.0)
     velocity: Vector3 = (0.0, 0.0, 0.0)
+    rotation: Vector3 = (0.0, 0.0, 0.0)
     force: Vector3 = (0.0, 0.0, 0.0)
     engaged: bool = False
     epoch: Count = 0
@@ -180,7 +182,9 @@ class RobotState(Message, frozen=True, kw_only=True):
         mode: of the episode that runs, or of the last one.
         episode: its number since the robot process started; 0 before the first.
         progress: of the episode, from 0 to 1.
-        offset: the correction as it is applied now, base axes [m].
+        offset: the correction of the position as it is applied now, base axes [m].
+        turn: the correction of the orientation as it is applied now, rotation vector in base axes [rad]; the
+            reference's orientation is the predicted one, then rotated by it.
         hold_reason: why the robot holds, empty where it does not.
         clamped: what was clamped in this period, each a short word with the place.
         applied_sequence: of the last master state that took effect.
@@ -197,6 +201,7 @@ class RobotState(Message, frozen=True, kw_only=True):
     episode: Count = 0
     progress: Real = 0.0
     offset: Vector3 = (0.0, 0.0, 0.0)
+    turn: Vector3 = (0.0, 0.0, 0.0)
     hold_reason: Text = ""
     clamped: Annotated[tuple[Text, ...], msgspec.Meta(max_length=16)] = ()
     applied_sequence: Count = 0
@@ -238,7 +243,7 @@ class SceneState(Message, frozen=True, kw_only=True):
         object_size: full edge lengths [m]; zero where there is no object.
         ellipsoid_radii: of the reached ellipsoid about the grasping frame [m].
         kicked_over_thresholds: largest displacement on each axis [m].
-        start: the pose in which every episode starts.
+        start: pose of the grasping frame from which the next motion starts.
         object_region: least and greatest corner of where objects may stand [m].
         condition: the external state that the motion depends on; empty where it is the object relative to the gripper
             at the start.
@@ -267,7 +272,12 @@ class Verdict(Message, frozen=True, kw_only=True):
         collision: the robot touched the environment.
         collision_position: where first, base frame [m].
         collision_force: normal force of the first contact [N].
+<<<<<<< HEAD
         ellipsoid_value: of eq. E.1, or the greatest (error / tolerance)^2 at a via-point; at most 1 where reached.
+=======
+        collision_between: the robot's link and the thing that it touched first.
+        ellipsoid_value: of eq. E.1; at most 1 inside.
+>>>>>>> main
         object_displacement: since the episode started [m].
     """
 
@@ -276,6 +286,7 @@ class Verdict(Message, frozen=True, kw_only=True):
     collision: bool
     collision_position: Vector3 | None = None
     collision_force: Real = 0.0
+    collision_between: tuple[Name, Name] | None = None
     ellipsoid_value: Real = 0.0
     object_displacement: Vector3 = (0.0, 0.0, 0.0)
 
@@ -312,7 +323,7 @@ class EpisodeResult(Message, frozen=True, kw_only=True):
         commanded: what the joints were told, as a motion of the grasping frame.
         measured: what the arm did.
         verdict: at its end.
-        operator_input: a hand was on the master at some time.
+        operator_input: the operator displaced or rotated the master at some time.
         clamped: ticks in which something was clamped.
         held: time spent holding [s].
         duration: from the first motion to the verdict [s].

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any, Generic, TypeVar
+from typing import Annotated, Any, Generic, TypeVar
 
 import msgspec
 
@@ -145,6 +145,8 @@ class AddDemonstration(msgspec.Struct, frozen=True):
         object_position: that the motion is relative to, base frame [m].
         scene: in which it was given.
         condition: the external state that it was right for; empty for the object relative to the motion's start.
+        prediction: that the motion refines, where it is learnt only in part.
+        alpha: of eq. 18, how far the prediction is moved towards the motion; 1 learns the motion itself.
     """
 
     kind: Kind
@@ -152,6 +154,8 @@ class AddDemonstration(msgspec.Struct, frozen=True):
     object_position: Vector3
     scene: Name
     condition: Condition = ()
+    prediction: Motion | None = None
+    alpha: Annotated[float, msgspec.Meta(ge=0.0, le=1.0)] = 1.0
 
 
 class Undo(msgspec.Struct, frozen=True):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import logging
+import math
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -13,11 +14,17 @@ import msgspec
 
 from lfd.exceptions import LfdError
 from protocol.exceptions import ProtocolError
+from protocol.messages import Vector3
 from protocol.table import query_table, topic_table
 from protocol.topics import checked_name
 from services.child import EXIT_BAD_INPUT
+<<<<<<< HEAD
 from services.config import Configuration, RobotSection, Scripted, load
 from services.exceptions import ServiceError
+=======
+from services.config import Configuration, Scripted, load
+from services.exceptions import CommandFailed, RoomMissing, ServiceError
+>>>>>>> main
 from services.processes import PROCESS_NAMES, PROCESSES, process
 from sim.exceptions import SimError
 
@@ -25,6 +32,12 @@ log = logging.getLogger(__name__)
 
 EXIT_FAILED = 1
 EXIT_INTERRUPTED = 130
+
+TAUGHT_S = 10.0
+"""Duration of a motion through waypoints, unless told otherwise: the thesis' time of an autonomous execution."""
+
+LONGEST_S = 3600.0
+"""Duration of the longest motion that a message carries."""
 
 EXAMPLES = """\
 examples:
@@ -34,7 +47,10 @@ examples:
                                               the robot's side, for operators on other machines
   retouch up --connect tcp/ROBOT:7447 --only master,viewer,station
                                               the operator's side
+  retouch teach --waypoints reach.csv --object 0.85,0.05,0.55
+                                              teach a running model a motion that you wrote down
   retouch top                                 what lives on the network, with rates, ages and drops
+  retouch reproduce                           the thesis' analyses, made again: one report
 """
 
 
@@ -82,7 +98,7 @@ def parser() -> argparse.ArgumentParser:
         _add_scene(commands.add_parser(one.name, parents=[common], help=f"the process that has to {one.about}"))
     router = commands.add_parser("router", parents=[common], help="where the processes of a site meet")
     router.add_argument("--listen", metavar="ENDPOINT", help="default: tcp/127.0.0.1:7447")
-    _add_scene(commands.add_parser("teach", parents=[common], help="teach an empty model its first demonstrations"))
+    _add_teach(commands, common)
     prepare = commands.add_parser("prepare", help="make and keep what every simulated run needs (once)")
     prepare.add_argument("--debug", action="store_true", help=argparse.SUPPRESS)
     echo = commands.add_parser("echo", parents=[common], help="print what passes on a key expression")
@@ -96,6 +112,7 @@ def parser() -> argparse.ArgumentParser:
     replay.add_argument("file", type=Path, metavar="FILE")
     replay.add_argument("--debug", action="store_true", help=argparse.SUPPRESS)
     commands.add_parser("topics", help="print the table of topics and queries")
+    _add_reproduce(commands)
     return root
 
 
@@ -105,6 +122,7 @@ def _seed(text: str) -> int:
     return int(text)
 
 
+<<<<<<< HEAD
 def _add_scene(command: _Parser) -> None:
     command.about_later = _about_scenes
     command.add_argument("--scene", metavar="S", help=f"the simulated scene (default: {RobotSection().scene})")
@@ -117,6 +135,17 @@ def _about_scenes() -> str:
     from sim.scenes import SCENES  # noqa: PLC0415
 
     return "scenes: " + "; ".join(f"{name} ({', '.join(scene.variants)})" for name, scene in SCENES.items())
+=======
+def _jobs(text: str) -> int:
+    if not text.isdecimal() or int(text) == 0:
+        raise argparse.ArgumentTypeError(f"must be a whole number, at least 1, not {text!r}")
+    return int(text)
+
+
+def _add_scene(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--scene", metavar="S", help="dishwasher (default) or table")
+    command.add_argument("--seed", type=_seed, metavar="N", help="of the object's position and the scripted hand")
+>>>>>>> main
 
 
 def _add_up(commands: argparse._SubParsersAction[_Parser], common: _Parser) -> None:
@@ -129,6 +158,68 @@ def _add_up(commands: argparse._SubParsersAction[_Parser], common: _Parser) -> N
     up.add_argument("--listen", metavar="ENDPOINT", help="where other machines may join (default: this machine only)")
     up.add_argument("--only", metavar="A,B", help=f"start only some of: {', '.join(PROCESS_NAMES)}")
     up.add_argument("--no-browser", action="store_true", help="do not open the page")
+
+
+def _add_reproduce(commands: argparse._SubParsersAction[_Parser]) -> None:
+    reproduce = commands.add_parser(
+        "reproduce",
+        help="make the thesis' analyses again, and one report of them",
+        description="Makes the thesis' analyses again, with its method and with the default model, and writes one"
+        " HTML report. What is done already is kept, and done again only where the code or the seed has changed.",
+    )
+    reproduce.add_argument("names", nargs="*", metavar="NAME", help="of analyses (default: all)")
+    reproduce.add_argument("--list", action="store_true", help="name the analyses and end")
+    reproduce.add_argument(
+        "--out", type=Path, metavar="FOLDER", default=Path("reproduction"), help="default: ./reproduction"
+    )
+    reproduce.add_argument("--fresh", action="store_true", help="do again what is done already")
+    reproduce.add_argument("--jobs", type=_jobs, metavar="N", default=1, help="analyses at once (default: 1)")
+    reproduce.add_argument("--seed", type=_seed, metavar="N", default=0, help="of all that is random (default: 0)")
+    reproduce.add_argument("--debug", action="store_true", help=argparse.SUPPRESS)
+
+
+def _add_teach(commands: argparse._SubParsersAction[_Parser], common: _Parser) -> None:
+    about = "teach an empty model its first demonstrations, or a model a motion through waypoints"
+    teach = commands.add_parser("teach", parents=[common], help=about, description=about)
+    _add_scene(teach)
+    teach.add_argument(
+        "--waypoints",
+        type=Path,
+        metavar="FILE",
+        help="CSV with the columns x,y,z,qw,qx,qy,qz: poses of the gripper in the base frame [m], at least three rows",
+    )
+    teach.add_argument(
+        "--object",
+        type=_position,
+        metavar="X,Y,Z",
+        help="where the waypoints lead to, base frame [m]; write --object=-X,Y,Z where the first is negative",
+    )
+    teach.add_argument("--duration", type=_seconds, metavar="S", help=f"of the motion [s] (default: {TAUGHT_S:g})")
+
+
+def _position(text: str) -> Vector3:
+    try:
+        x, y, z = (_finite(part) for part in text.split(","))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"must be X,Y,Z in metres, such as 0.85,0.05,0.55, not {text!r}") from None
+    return (x, y, z)
+
+
+def _seconds(text: str) -> float:
+    try:
+        seconds = _finite(text)
+    except ValueError:
+        seconds = 0.0
+    if not 0.0 < seconds <= LONGEST_S:
+        raise argparse.ArgumentTypeError(f"must be seconds, above 0 and at most {LONGEST_S:g}, not {text!r}")
+    return seconds
+
+
+def _finite(text: str) -> float:
+    number = float(text)
+    if not math.isfinite(number):
+        raise ValueError(text)
+    return number
 
 
 def configuration(arguments: argparse.Namespace) -> Configuration:
@@ -208,6 +299,8 @@ def _dispatch(arguments: argparse.Namespace) -> int:
 
         prepare_all()
         return 0
+    if arguments.command == "reproduce":
+        return _reproduce(arguments)
     settings = configuration(arguments)
     if arguments.supervised is not None:
         from services.worker import die_with_parent  # noqa: PLC0415
@@ -223,9 +316,7 @@ def _dispatch(arguments: argparse.Namespace) -> int:
 
             run_router(settings, arguments.connect)
         case "teach":
-            from services.teach import teach  # noqa: PLC0415
-
-            teach(settings)
+            _teach(settings, arguments)
         case "echo":
             from services.echo import echo  # noqa: PLC0415
 
@@ -243,3 +334,26 @@ def _dispatch(arguments: argparse.Namespace) -> int:
 
             run_process(process(name), settings)
     return 0
+
+
+def _reproduce(arguments: argparse.Namespace) -> int:
+    try:
+        from services.study.command import Request, reproduce, show_list  # noqa: PLC0415
+    except ModuleNotFoundError as error:
+        raise RoomMissing("study", error.name or "?") from None
+    if arguments.list:
+        show_list()
+        return 0
+    return reproduce(Request.from_arguments(arguments))
+
+
+def _teach(settings: Configuration, arguments: argparse.Namespace) -> None:
+    from services.teach import teach, teach_waypoints  # noqa: PLC0415
+
+    given = [flag for flag in ("waypoints", "object", "duration") if getattr(arguments, flag) is not None]
+    if not given:
+        teach(settings)
+    elif not {"waypoints", "object"} <= set(given):
+        raise CommandFailed(f"--{given[0]} alone teaches nothing: give --waypoints FILE and --object X,Y,Z")
+    else:
+        teach_waypoints(settings, arguments.waypoints, arguments.object, arguments.duration or TAUGHT_S)

@@ -28,7 +28,7 @@ class RobotSection(_Section, frozen=True):
         lease_s: how long the authority lasts without renewal [s].
         velocity_scale: share of the joints' velocity limits that the robot may use.
         self_distance_stop: distance between its own parts at which it stops [m].
-        master_gain: of the master's displacement on the reference.
+        master_gain: of the master's displacement on the reference; its rotation counts as it is.
     """
 
     scene: str = "dishwasher"
@@ -56,11 +56,23 @@ class PerceptionSection(_Section, frozen=True):
 
 
 class Keyboard(_Section, frozen=True, tag_field="kind", tag="keyboard"):
-    """The keys of the operator's page: growth of the displacement while held, decay after [m/s], largest [m]."""
+    """The keys of the operator's page.
+
+    Attributes:
+        growth: of the displacement while a key is held [m/s].
+        decay: of the displacement without [m/s].
+        reach: largest displacement along each axis [m].
+        turn_growth: of the rotation while a key is held [rad/s].
+        turn_decay: of the rotation without [rad/s].
+        turn_reach: largest rotation about each axis [rad].
+    """
 
     growth: Positive = 0.12
     decay: Positive = 0.05
     reach: Positive = 0.25
+    turn_growth: Positive = 0.4
+    turn_decay: Positive = 0.2
+    turn_reach: Positive = 0.8
 
 
 class Scripted(_Section, frozen=True, tag_field="kind", tag="scripted"):

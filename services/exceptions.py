@@ -2,6 +2,7 @@
 
 ServiceError
 ├── ConfigurationError   a wrong key, type or value in a configuration file
+├── WaypointFileError    waypoints in a file that make no motion
 ├── BusError             the network cannot be opened or used
 │   ├── EndpointInUse    another program listens there
 │   └── NameTaken        a process of this name is on the network already
@@ -24,6 +25,15 @@ class ConfigurationError(ServiceError):
         self.path = path
         self.reason = reason
         super().__init__(f"configuration {path}: {reason}")
+
+
+class WaypointFileError(ServiceError):
+    """A file of waypoints that cannot be used."""
+
+    def __init__(self, path: Path, reason: str) -> None:
+        self.path = path
+        self.reason = reason
+        super().__init__(f"waypoints {path}: {reason}")
 
 
 class BusError(ServiceError):

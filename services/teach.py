@@ -1,14 +1,17 @@
-"""`retouch teach`: gives an empty model its first demonstrations."""
+"""`retouch teach`: gives an empty model its first demonstrations, or a model a motion through waypoints."""
 
 from __future__ import annotations
 
 import logging
 import threading
+from pathlib import Path
 from typing import TypeVar
 
 import msgspec
 
+from lfd.waypoints import through_waypoints
 from protocol import queries
+from protocol.messages import Vector3
 from protocol.queries import AddDemonstration, Kind, Learnt, Query
 from services.arrays import motion_to_wire, vector3
 from services.bus import Failed
@@ -17,6 +20,7 @@ from services.config import Configuration
 from services.exceptions import CommandFailed
 from services.lessons import first_demonstrations
 from services.runner import stop_on_signals
+from services.waypoint_file import read_waypoints
 from services.zenoh_bus import ZenohBus, connect
 from sim.scenes import SCENES
 from sim.scenes import scene as find_scene
@@ -73,6 +77,42 @@ def teach(configuration: Configuration) -> None:
         bus.close()
 
 
+def teach_waypoints(configuration: Configuration, file: Path, object_position: Vector3, duration: float) -> None:
+    """Add the motion through a file's waypoints to what the model has learnt (OffKey, the teach pendant's method).
+
+    Args:
+        configuration: whose scene the motion is for.
+        file: see `read_waypoints`.
+        object_position: that the motion reaches, base frame [m].
+        duration: of the motion [s].
+
+    Raises:
+        ServiceError: the file cannot be used, or there is no model that takes the motion.
+        LfdError: the duration is not positive.
+        SimError: there is no such scene.
+    """
+    # All that a person can have got wrong shows before the network is asked for anything.
+    waypoints = read_waypoints(file)
+    taught = through_waypoints(waypoints.positions, waypoints.orientations, duration)
+    motion = motion_to_wire(taught.positions, taught.orientations, taught.duration)
+    scene = find_scene(configuration.robot.scene).name
+    stop = stop_on_signals()
+    bus = connect(configuration.connect, configuration.name, "teach", SystemClock())
+    try:
+        before = _answered(bus, queries.DESCRIBE, queries.Describe(), stop).state
+        kind = Kind.UPDATE if before.demonstrations or before.updates else Kind.INITIAL
+        request = AddDemonstration(kind, motion, object_position, scene)
+        state = _answered(bus, queries.ADD_DEMONSTRATION, request, stop).state
+    finally:
+        bus.close()
+    log.info(
+        "taught a motion through %d waypoints; the model has %d demonstrations and %d updates",
+        len(waypoints.positions),
+        state.demonstrations,
+        state.updates,
+    )
+
+
 def _answered(
     bus: ZenohBus, query: Query[Req, Learnt], request: Req, stop: threading.Event, within_s: float = ANSWER_S
 ) -> Learnt:
@@ -88,4 +128,4 @@ def _answered(
                 stop.wait(0.2)
             case Learnt():
                 return outcome
-    raise CommandFailed(f"could not {query.about}: {reason}")
+    raise CommandFailed(f"could not teach the model: {reason}")

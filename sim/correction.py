@@ -7,6 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.interpolation import through
+from sim.pose import Pose
+from sim.rotations import rotated, rotation_to
+from sim.scenes.scene import Corridor
 
 Array = NDArray[np.float64]
 
@@ -15,47 +18,66 @@ _FINENESS = 20  # points between two way-points by which lengths are measured
 
 @dataclass(frozen=True, eq=False)
 class Correction:
-    """A displacement for every progress of a prediction.
+    """A displacement and a rotation for every progress of a prediction.
 
     Attributes:
-        prediction: What the robot would do, at equal steps of progress, shape (n, 3) [m].
+        positions: What the robot would do, at equal steps of progress, shape (n, 3) [m].
+        orientations: The same, shape (n, 4).
         displacements: From it to where the operator wants the robot, shape (n, 3) [m].
+        rotations: From it to how the operator wants it turned, rotation vectors in base axes, shape (n, 3) [rad].
     """
 
-    prediction: Array
+    positions: Array
+    orientations: Array
     displacements: Array
+    rotations: Array
 
     def displacement(self, progress: float) -> Array:
         """The displacement wanted at a progress from 0 to 1, shape (3,) [m]."""
         return _at(self.displacements, progress)
 
-    def position(self, progress: float) -> Array:
-        """Where the operator wants the robot at a progress from 0 to 1, shape (3,) [m]."""
-        return _at(self.prediction, progress) + self.displacement(progress)
+    def rotation(self, progress: float) -> Array:
+        """The rotation wanted at a progress from 0 to 1, shape (3,) [rad]."""
+        return _at(self.rotations, progress)
+
+    def pose(self, progress: float) -> Pose:
+        """Where the operator wants the robot at a progress from 0 to 1."""
+        predicted = _at(self.orientations, progress)
+        orientation = rotated(predicted / np.linalg.norm(predicted), self.rotation(progress))
+        return Pose(_at(self.positions, progress) + self.displacement(progress), orientation)
 
 
-def plan(prediction: Array, safe: Array, known: Sequence[Array], exaggeration: float = 1.0) -> Correction:
+def plan(
+    positions: Array, orientations: Array, safe: Corridor, known: Sequence[Corridor], exaggeration: float = 1.0
+) -> Correction:
     """Plan the correction that leads a prediction along a safe way.
 
-    The operator recognises which of the ways that they know the robot means to take, and thereby which
-    way-point it will be at when; there they want it at the safe way's point of the same number. So the
-    orientation, which nobody corrects, still fits the place, and a prediction that takes the safe way
-    already is left alone whatever its timing.
+    The operator recognises which of the ways that they know the robot means to take, and thereby which way-point it
+    will be at when; there they want it as the safe way's point of the same number is, in place and orientation. So a
+    prediction that takes the safe way already is left alone whatever its timing.
 
     Args:
-        prediction: Positions of the grasping frame at equal steps of progress, shape (n, 3) [m].
-        safe: Way-points from the start to the object, shape (k, 3) [m].
-        known: Ways that the robot may have learnt, each shape (k, 3) [m]; `safe` is one of them.
-        exaggeration: Of the displacement; 1 is natural.
+        positions: Of the predicted grasping frame at equal steps of progress, shape (n, 3) [m].
+        orientations: The same, shape (n, 4); neighbours in one hemisphere.
+        safe: Way-points from the start to the object; they turn by a few degrees only, so that their quaternions are
+            interpolated like positions.
+        known: Ways that the robot may have learnt; `safe` is one of them.
+        exaggeration: Of the correction; 1 is natural.
     """
-    covered = _covered(prediction)
+    covered = _covered(positions)
 
-    def departure(way: Array) -> float:
-        return float(np.sum((through(way, _numbers(way, covered)) - prediction) ** 2))
+    def departure(way: Corridor) -> float:
+        return float(np.sum((through(way.positions, _numbers(way.positions, covered)) - positions) ** 2))
 
-    recognised = min(known, key=departure)
-    wanted = through(safe, _numbers(recognised, covered))
-    return Correction(prediction, exaggeration * (wanted - prediction))
+    numbers = _numbers(min(known, key=departure).positions, covered)
+    turned = through(safe.orientations, numbers)
+    turned /= np.linalg.norm(turned, axis=1, keepdims=True)
+    return Correction(
+        positions,
+        orientations,
+        exaggeration * (through(safe.positions, numbers) - positions),
+        exaggeration * rotation_to(orientations, turned),
+    )
 
 
 def plan_at_equal_progress(prediction: Array, safe: Array, exaggeration: float = 1.0) -> Correction:

@@ -27,7 +27,11 @@ class Steered(NamedTuple):
     orientations: Array
 
 
+<<<<<<< HEAD
 def steer(corridor: Corridor, rng: np.random.Generator, n: int = 200, freedom: Freedom | None = None) -> Steered:
+=======
+def steer(corridor: Corridor, rng: np.random.Generator | None, n: int = 200) -> Steered:
+>>>>>>> main
     """Steer from a corridor's first way-point to its last.
 
     The speed along the way is that of a minimum-jerk movement (Flash and Hogan 1985), where it is the person's; the
@@ -36,7 +40,7 @@ def steer(corridor: Corridor, rng: np.random.Generator, n: int = 200, freedom: F
 
     Args:
         corridor: To steer through.
-        rng: Of the person's unsteadiness.
+        rng: Of the person's unsteadiness; None for a steady hand.
         n: Number of samples.
         freedom: Of the person; all of it by default.
     """
@@ -46,7 +50,12 @@ def steer(corridor: Corridor, rng: np.random.Generator, n: int = 200, freedom: F
     numbers = _numbers(way, minimum_jerk(time)) if freedom.tempo else (len(way) - 1) * time
     orientations = through(corridor.orientations, numbers)
     orientations /= np.linalg.norm(orientations, axis=1, keepdims=True)
+<<<<<<< HEAD
     return Steered(through(way, numbers) + freedom.axes * _deviation(n, rng), orientations)
+=======
+    positions = through(corridor.positions, numbers)
+    return Steered(positions if rng is None else positions + _deviation(n, rng), orientations)
+>>>>>>> main
 
 
 def minimum_jerk(time: Array) -> Array:

@@ -1,4 +1,4 @@
-"""A haptic stylus without the hardware: a point mass with the device's own damping, in a box."""
+"""A haptic stylus without the hardware: a point mass with the device's own damping, in a box, and a free gimbal."""
 
 from dataclasses import dataclass, field
 
@@ -10,20 +10,22 @@ RATE_HZ = 1000.0
 
 @dataclass(frozen=True, slots=True)
 class StylusState:
-    """Where the tip of the stylus is, relative to the device's neutral position, in base axes.
+    """Where the tip of the stylus is, relative to the device's neutral pose, in base axes.
 
     Attributes:
         position: [m].
         velocity: [m/s].
+        rotation: Of the handle, rotation vector [rad].
     """
 
     position: Vector = (0.0, 0.0, 0.0)
     velocity: Vector = (0.0, 0.0, 0.0)
+    rotation: Vector = (0.0, 0.0, 0.0)
 
 
 @dataclass
 class Stylus:
-    """m dv/dt = F - c v, and no further than `reach` on each axis.
+    """m dv/dt = F - c v, and no further than `reach` on each axis; the handle turns as the fingers turn it.
 
     Integrated with the velocity first and the damping implicit: it never gains energy of its own. Plain floats, since
     a thousand steps a second in NumPy would cost more than the rest of the process.
@@ -40,12 +42,19 @@ class Stylus:
     reach: float = 0.25
     state: StylusState = field(default_factory=StylusState)
 
-    def step(self, force: Vector, dt: float) -> StylusState:
-        """Move on by dt [s] under the force of hand and motors together [N]."""
+    def step(self, force: Vector, dt: float, rotation: Vector | None = None) -> StylusState:
+        """Move on by dt [s].
+
+        Args:
+            force: Of hand and motors together [N].
+            dt: [s].
+            rotation: How the fingers hold the handle [rad]; without fingers the gimbal, which has neither motors nor
+                springs, stays as it is.
+        """
         (px, vx), (py, vy), (pz, vz) = (
             self._axis(self.state.position[i], self.state.velocity[i], force[i], dt) for i in (0, 1, 2)
         )
-        self.state = StylusState((px, py, pz), (vx, vy, vz))
+        self.state = StylusState((px, py, pz), (vx, vy, vz), self.state.rotation if rotation is None else rotation)
         return self.state
 
     def _axis(self, position: float, velocity: float, force: float, dt: float) -> tuple[float, float]:

@@ -46,12 +46,14 @@ class Sample:
     Attributes:
         displacement: from neutral [m].
         velocity: of the displacement [m/s].
+        rotation: from neutral, rotation vector [rad].
         force: rendered to the hand [N].
-        engaged: a hand is on the device and its displacement counts.
+        engaged: a hand is on the device, and displacement and rotation count.
     """
 
     displacement: Vector3 = ZERO
     velocity: Vector3 = ZERO
+    rotation: Vector3 = ZERO
     force: Vector3 = ZERO
     engaged: bool = False
 

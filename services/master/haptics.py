@@ -25,7 +25,12 @@ _PRIORITY = 10
 
 
 class Push(Protocol):
-    """Whoever pushes the stylus."""
+    """Whoever pushes and turns the stylus."""
+
+    @property
+    def rotation(self) -> Vector3 | None:
+        """How the handle is held, rotation vector in base axes; None where nobody holds it [rad]."""
+        ...
 
     def force(self, stylus: StylusState) -> Vector3:
         """The push [N]."""
@@ -66,7 +71,8 @@ class HapticLoop:
         """Push, feel, move [s]."""
         stylus = self._stylus.state
         (hx, hy, hz), (fx, fy, fz) = self._hand.force(stylus), self._feedback(stylus)
-        self.newest = Rendered(self._stylus.step((hx + fx, hy + fy, hz + fz), dt), (fx, fy, fz))
+        moved = self._stylus.step((hx + fx, hy + fy, hz + fz), dt, self._hand.rotation)
+        self.newest = Rendered(moved, (fx, fy, fz))
         return self.newest
 
     def advance_to(self, now_ns: int) -> Rendered:

@@ -7,6 +7,8 @@ import logging
 import numpy as np
 from numpy.typing import NDArray
 
+from lfd.exceptions import LfdError
+from lfd.trajectory import Trajectory
 from protocol.messages import ExecutionState, Figure, RobotState
 from protocol.topics import EXECUTION, OBJECT_POSE, SCENE_STATE
 from services.arrays import motion_from_wire
@@ -20,11 +22,13 @@ from sim import scenes
 from sim.correction import Correction, plan, plan_at_equal_progress
 from sim.exceptions import SimError
 from sim.hand import Hand, Seen
+from sim.pose import Pose
 from sim.stylus import Stylus
 
 log = logging.getLogger(__name__)
 
 _LEFT = 0.002  # [m] a correction that is further from the prediction is not dropped
+_TURNED = 0.01  # [rad] nor one that is turned further
 
 Episode = tuple[int, int]
 """The robot process' identity and its number for the episode."""
@@ -65,9 +69,15 @@ class ScriptedMaster:
             self._let_go()
         rendered = self._loop.newest if self._thread else self._loop.advance_to(moment.now_ns)
         stylus = rendered.stylus
-        if robot is not None and not self._hand.clutched and np.linalg.norm(robot.offset) > _LEFT:
+        if robot is not None and not self._hand.clutched and _corrected(robot):
             return None
-        return Sample(stylus.position, stylus.velocity, rendered.feedback, engaged=self._hand.clutched)
+        return Sample(
+            displacement=stylus.position,
+            velocity=stylus.velocity,
+            rotation=stylus.rotation,
+            force=rendered.feedback,
+            engaged=self._hand.clutched,
+        )
 
     def figures(self) -> tuple[Figure, ...]:
         """How regular the force loop is."""
@@ -94,7 +104,7 @@ class ScriptedMaster:
         self._gripped = episode
         try:
             correction = self._plan(received.message)
-        except (SimError, ServiceError) as error:
+        except (SimError, ServiceError, LfdError) as error:
             log.warning("episode %d is not corrected: %s", robot.episode, error)
             return
         if correction is None:
@@ -107,6 +117,7 @@ class ScriptedMaster:
         scene_state = self._scene.latest()
         if scene_state is None:
             return None
+<<<<<<< HEAD
         positions, _, _ = motion_from_wire(execution.prediction)
         arrangement = scene_state.message
         scene = scenes.scene(arrangement.name)
@@ -116,6 +127,15 @@ class ScriptedMaster:
         if scene.freedom.tempo:
             return plan(positions, safe, tuple(ways.values()), self._exaggeration)
         return plan_at_equal_progress(positions, safe, self._exaggeration)
+=======
+        prediction = Trajectory(*motion_from_wire(execution.prediction))
+        scene = scenes.scene(scene_state.message.name)
+        place = self._object_position(prediction.positions)
+        start = Pose(np.array(scene_state.message.start.position), np.array(scene_state.message.start.orientation))
+        ways = [scene.corridor(variant, place, start) for variant in scene.variants]
+        safe = scene.corridor(scene_state.message.variant, place, start)
+        return plan(prediction.positions, prediction.orientations, safe, ways, self._exaggeration)
+>>>>>>> main
 
     def _object_position(self, prediction: NDArray[np.float64]) -> NDArray[np.float64]:
         """Where the object was seen last; where it never was, the robot's guess is as good as any."""
@@ -123,10 +143,17 @@ class ScriptedMaster:
         return np.array(seen.message.pose.position) if seen else prediction[-1]
 
     def _look(self, robot: RobotState, now_ns: int) -> None:
+        measured = robot.measured
         seen = Seen(
             progress=robot.progress,
-            robot=np.array(robot.measured.position),
+            robot=Pose(np.array(measured.position), np.array(measured.orientation)),
             offset=np.array(robot.offset),
-            stylus=np.array(self._loop.newest.stylus.position),
+            turn=np.array(robot.turn),
+            stylus=self._loop.newest.stylus,
         )
         self._hand.observe(now_ns / 1e9, seen)
+
+
+def _corrected(robot: RobotState) -> bool:
+    """The robot is not where the prediction alone would have it."""
+    return bool(np.linalg.norm(robot.offset) > _LEFT or np.linalg.norm(robot.turn) > _TURNED)

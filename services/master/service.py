@@ -1,6 +1,6 @@
 """The master process: publishes the state of its device a hundred times a second.
 
-Lost input (focus, tab, link, authority) is told at once: the device disengages, and its displacement means nothing. A
+Lost input (focus, tab, link, authority) is told at once: the device disengages, and where it stands means nothing. A
 lost process is silent, and so is one that has not taken over yet: the robot holds the correction where it stands.
 """
 
@@ -78,6 +78,7 @@ class MasterService:
             MasterState(
                 displacement=sample.displacement,
                 velocity=sample.velocity,
+                rotation=sample.rotation,
                 force=sample.force,
                 engaged=sample.engaged,
                 epoch=authority.epoch if authority is not None else 0,

@@ -14,6 +14,7 @@ from lfd.demonstration import Demonstration, Situation
 from lfd.exceptions import LfdError
 from lfd.model import MovementModel
 from lfd.promp import ConditionedProMP
+from lfd.refinement import refine
 from lfd.storage import DemonstrationStore, StoredDemonstration
 from lfd.storage import Kind as StoredKind
 from lfd.trajectory import Trajectory
@@ -132,7 +133,7 @@ class ModelService:
 
     def _learnt(self, request: AddDemonstration) -> queries.Learnt:
         positions, orientations, duration = motion_from_wire(request.motion)
-        motion = Trajectory(positions, orientations, duration)
+        motion = _learnable(request, Trajectory(positions, orientations, duration))
         origin = np.array(request.object_position, dtype=np.float64)
         demonstration = (
             Demonstration(motion, origin, np.array(request.condition))
@@ -172,6 +173,13 @@ class ModelService:
             updates=sum(s.kind is StoredKind.UPDATE for s in self._stored),
             scene=self._stored[-1].scene if self._stored else "",
         )
+
+
+def _learnable(request: AddDemonstration, motion: Trajectory) -> Trajectory:
+    """Equation (18): the whole motion, or the prediction moved a part of the way towards it."""
+    if request.alpha == 1.0 or request.prediction is None:
+        return motion
+    return refine(Trajectory(*motion_from_wire(request.prediction)), motion, request.alpha, motion.n_points)
 
 
 def _situation(request: Predict) -> Situation:

@@ -20,6 +20,11 @@ SHORTEST_S, LONGEST_S = 0.5, 120.0
 FASTEST = 1.0  # [m/s] along the prediction
 FASTEST_TURN = 3.0  # [rad/s]
 START_DISTANCE = 0.5  # [m] between the measured pose and the prediction's start
+<<<<<<< HEAD
+=======
+REGION_MARGIN = 0.05  # [m]
+START_REACH = 0.3  # [m] of a start from the scene's own, along each axis
+>>>>>>> main
 
 
 def admit_prediction(positions: Array, orientations: Array, duration: float, measured: Pose) -> Trajectory:
@@ -67,6 +72,7 @@ def admit_prediction(positions: Array, orientations: Array, duration: float, mea
     return prediction
 
 
+<<<<<<< HEAD
 def admit_target(scene: AnyScene, request: Reset) -> Array | None:
     """The place of the target that a reset asks for; None where it asks for none.
 
@@ -90,15 +96,26 @@ def admit_target(scene: AnyScene, request: Reset) -> Array | None:
 
 
 def admit_reset(scene: Scene, variant: str, place: Array) -> None:
+=======
+def admit_reset(scene: Scene, variant: str, object_position: Array, start: Pose | None = None) -> None:
+>>>>>>> main
     """Let a reset pass that the scene allows.
 
     Args:
         scene: that the robot stands in.
         variant: asked for.
+<<<<<<< HEAD
         place: of the target, asked for, shape (d,) [m].
 
     Raises:
         Refusal: there is no such variant, or the target cannot stand there.
+=======
+        object_position: asked for, shape (3,) [m].
+        start: asked for; None for where it was put last.
+
+    Raises:
+        Refusal: there is no such variant, the object cannot stand there, or the start is far from the scene's.
+>>>>>>> main
     """
     if variant not in scene.variants:
         raise Refusal(f"scene {scene.name} has no variant {variant!r}: use one of {', '.join(scene.variants)}")
@@ -106,6 +123,12 @@ def admit_reset(scene: Scene, variant: str, place: Array) -> None:
         lower, upper = np.subtract(scene.region.lower, scene.margin), np.add(scene.region.upper, scene.margin)
         raise Refusal(
             f"the target cannot stand at {_point(place)} m: give a place from {_point(lower)} to {_point(upper)} m"
+        )
+    home = scene.start.position
+    if start is not None and not np.all(np.abs(start.position - home) <= START_REACH):
+        raise Refusal(
+            f"no motion can start at {_point(start.position)} m: give a place within {START_REACH:g} m of"
+            f" {_point(home)} m along each axis"
         )
 
 

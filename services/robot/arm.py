@@ -3,6 +3,7 @@
 The service and the offline rollout both drive this class; here execution, kinematics, limits, backend and verdict meet.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,15 +12,24 @@ from numpy.typing import NDArray
 from lfd.trajectory import Trajectory
 from protocol.messages import Phase
 from services.robot import safety
-from services.robot.backend import CONTROL_PERIOD, Backend, Observation
+from services.robot.backend import CONTROL_PERIOD, Backend, Blocked, Observation
+from services.robot.correction import UNCORRECTED, Correction
 from services.robot.episode import Episode, EpisodeOutcome
+<<<<<<< HEAD
 from services.robot.mechanism import InverseFailed, Mechanism
 from services.robot.verdict import Criteria, Verdict
+=======
+from services.robot.execution import angle_between
+from services.robot.kinematics import InverseFailed, Kinematics
+from services.robot.starts import StartImpossible, Starts
+from services.robot.verdict import Criteria, Judge, Verdict
+>>>>>>> main
 from sim.pose import Pose
 
 Array = NDArray[np.float64]
 
 OUT_OF_REACH = 0.005  # [m] between reference and command from which it is reported
+OUT_OF_TURN = 0.05  # [rad] the same of their orientations, which give way first at the joints' limits
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +42,7 @@ class Tick:
         reference: pose that the joints were to reach.
         phase: what the arm did.
         progress: of the episode, from 0 to 1.
-        offset: the correction as it was applied, shape (3,) [m].
+        correction: as it was applied.
         hold_reason: why the arm held, empty where it did not.
         clamped: what was clamped.
         self_distance: between parts of the robot, where they are nearest [m].
@@ -45,7 +55,7 @@ class Tick:
     reference: Pose
     phase: Phase
     progress: float
-    offset: Array
+    correction: Correction
     hold_reason: str
     clamped: tuple[str, ...]
     self_distance: float
@@ -60,7 +70,11 @@ class Arm:
         backend: what moves.
         kinematics: of it.
         criteria: by what episodes are judged.
+<<<<<<< HEAD
         home: joint positions in which episodes start, shape (m,).
+=======
+        starts: where episodes can start; at first they do at its home.
+>>>>>>> main
         velocity_scale: share of the joints' speed limits that may be used.
         self_distance_stop: distance between the robot's parts at which it stops [m].
     """
@@ -70,7 +84,7 @@ class Arm:
         backend: Backend,
         kinematics: Mechanism,
         criteria: Criteria,
-        home: Array,
+        starts: Starts,
         *,
         velocity_scale: float = 0.5,
         self_distance_stop: float = 0.005,
@@ -78,7 +92,8 @@ class Arm:
         self._backend = backend
         self._kinematics = kinematics
         self._criteria = criteria
-        self._home = home
+        self._starts = starts
+        self.start = starts.home
         speed = velocity_scale * kinematics.velocity_limit
         self._limits = safety.JointLimits(backend.joint_names, kinematics.lower, kinematics.upper, speed)
         self._velocity_scale = velocity_scale
@@ -108,14 +123,32 @@ class Arm:
         """The one that runs."""
         return self._episode
 
+<<<<<<< HEAD
     def reset(self, place: Array, variant: str) -> None:
         """Back to the start, the target and the scene put in place; the episode that runs is dropped.
+=======
+    def reset(self, object_position: Array, variant: str, start: Pose | None = None) -> None:
+        """Back to the start, the object and the scene put in place; the episode that runs is dropped.
+>>>>>>> main
 
         Args:
             place: of the target, see `Backend.reset`, shape (d,) [m].
             variant: arrangement of the scene.
+            start: pose of the grasping frame; as it was by default.
+
+        Raises:
+            StartImpossible: no motion can start there; nothing has changed.
         """
+<<<<<<< HEAD
         self._backend.reset(place, variant, self._home)
+=======
+        start = self.start if start is None else start
+        try:
+            self._backend.reset(object_position, variant, self._starts.joints(start))
+        except Blocked as error:
+            raise StartImpossible(start.position, str(error)) from error
+        self.start = start
+>>>>>>> main
         self._episode = None
         self._stand()
 
@@ -124,7 +157,7 @@ class Arm:
 
         Args:
             prediction: to execute, in the base frame.
-            look_ahead: after which the correction is to equal the displacement [s].
+            look_ahead: after which the correction is to equal the operator's [s].
         """
         self._stand()
         self._episode = Episode(prediction, self.measured, look_ahead, CONTROL_PERIOD)
@@ -147,11 +180,11 @@ class Arm:
         self._q = self.observation.q
         return episode.outcome(self._verdict, self.measured, reason) if episode is not None else None
 
-    def tick(self, displacement: Array, hold_reason: str = "") -> Tick:
+    def tick(self, wanted: Correction, hold_reason: str = "") -> Tick:
         """Give one command and see what it did.
 
         Args:
-            displacement: of the master, in base axes, shape (3,) [m].
+            wanted: the correction that the operator asks for.
             hold_reason: why a running episode may not go on, empty where it may.
         """
         episode = self._episode
@@ -164,7 +197,7 @@ class Arm:
             episode.hold()
         previous_q = self._q
         if episode is not None and not holding:
-            previous_q, clamped = self._follow(episode, displacement)
+            previous_q, clamped = self._follow(episode, wanted)
         self._backend.command(self._q, (self._q - previous_q) / CONTROL_PERIOD)
         self._observe()
         outcome = None
@@ -178,7 +211,7 @@ class Arm:
             reference=self._reference,
             phase=_phase(episode, holding=holding),
             progress=episode.execution.progress if episode is not None else 0.0,
-            offset=episode.execution.offset if episode is not None else np.zeros(3),
+            correction=episode.execution.correction if episode is not None else UNCORRECTED,
             hold_reason=hold_reason if holding else "",
             clamped=clamped,
             self_distance=self._self_distance,
@@ -186,19 +219,22 @@ class Arm:
             outcome=outcome,
         )
 
-    def _follow(self, episode: Episode, displacement: Array) -> tuple[Array, tuple[str, ...]]:
+    def _follow(self, episode: Episode, wanted: Correction) -> tuple[Array, tuple[str, ...]]:
         """Command the next reference; the joints that it started from, and what was clamped."""
+<<<<<<< HEAD
         clamped = []
         displacement = self._kinematics.admissible * displacement
         displacement, shortened = safety.clamp_length(displacement, safety.DISPLACEMENT_REACH)
         if shortened:
             clamped.append("displacement")
+=======
+        within, too_far = safety.clamp_correction(wanted)
+>>>>>>> main
         if episode.holding:
             self._q, self._reference = self.observation.q, self.measured
-        wanted = episode.advance(displacement, self.measured)
-        self._reference, shortened = safety.clamp_reference(self._reference, wanted, CONTROL_PERIOD)
-        if shortened:
-            clamped.append("reference speed")
+        reference = episode.advance(within, self.measured)
+        self._reference, too_fast = safety.clamp_reference(self._reference, reference, CONTROL_PERIOD)
+        clamped = [*too_far, *too_fast]
         q, target = self._q, self._reference
         # The limits allow a shorter step in a shorter period: the solver then keeps to the scaled speeds.
         period = self._velocity_scale * CONTROL_PERIOD
@@ -213,9 +249,7 @@ class Arm:
             self._fault = f"the robot comes within {distance * 1e3:.0f} mm of itself"
             return q, tuple(clamped)
         self._q, self._self_distance = q_next, distance
-        gap = float(np.linalg.norm(self._kinematics.forward(q_next).position - target.position))
-        if gap > OUT_OF_REACH:
-            clamped.append(f"reach: {gap * 1e3:.0f} mm short")
+        clamped.extend(_shortfall(self._kinematics.forward(q_next), target))
         return q, tuple(clamped)
 
     def _conclude(self, episode: Episode) -> EpisodeOutcome | None:
@@ -242,6 +276,16 @@ class Arm:
         self.measured = self._kinematics.forward(self.observation.q)
         seen = self.observation
         self._verdict: Verdict = self._judge.judge(self.measured, seen.object_pose.position, seen.touch)
+
+
+def _shortfall(commanded: Pose, reference: Pose) -> list[str]:
+    """By how much the joints do not bring the grasping frame to the reference, where that is worth saying."""
+    gap = float(np.linalg.norm(commanded.position - reference.position))
+    short = [f"reach: {gap * 1e3:.0f} mm short"] if gap > OUT_OF_REACH else []
+    if abs(float(commanded.orientation @ reference.orientation)) < math.cos(0.5 * OUT_OF_TURN):
+        angle = angle_between(commanded.orientation, reference.orientation)
+        short.append(f"reach: {math.degrees(angle):.0f} degrees short")
+    return short
 
 
 def _phase(episode: Episode | None, *, holding: bool) -> Phase:

@@ -6,6 +6,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from services.exceptions import ServiceError
 from sim.pose import Pose
 
 Array = NDArray[np.float64]
@@ -52,6 +53,15 @@ class Observation:
     condition: Array = field(default_factory=lambda: np.zeros(0))
 
 
+class Blocked(ServiceError):
+    """The arm cannot be put there: something stands in the way."""
+
+    def __init__(self, link: str, thing: str) -> None:
+        self.link = link
+        self.thing = thing
+        super().__init__(f"the robot's {link} would touch {thing}")
+
+
 class Backend(Protocol):
     """One arm that follows joint commands."""
 
@@ -72,6 +82,9 @@ class Backend(Protocol):
             place: of the target, as the scene counts it: an object's centre, or the y of via-points, shape (d,) [m].
             variant: arrangement of the scene.
             q: joint positions, shape (m,).
+
+        Raises:
+            Blocked: the arm would touch its environment there; nothing has changed.
         """
         ...
 

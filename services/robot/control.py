@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from protocol import messages
 from protocol.messages import MasterState, Mode, Phase
 from protocol.queries import AcquireAuthority, Adapt, Execute, Finish, ReleaseAuthority, ReleaseStop, Reset
 from services.arrays import motion_from_wire
@@ -16,11 +17,18 @@ from services.exceptions import ServiceError
 from services.robot.admission import admit_prediction, admit_reset, admit_target
 from services.robot.arm import Arm, Tick
 from services.robot.authority import Lease
+from services.robot.correction import UNCORRECTED, Correction
 from services.robot.episode import EpisodeOutcome
 from services.robot.execution import look_ahead
 from services.robot.refusal import Refusal
 from services.robot.safety import EmergencyStop, hold_reason
+<<<<<<< HEAD
 from sim.scenes import AnyScene
+=======
+from services.robot.starts import StartImpossible
+from sim.pose import Pose
+from sim.scenes.scene import Scene
+>>>>>>> main
 
 Array = NDArray[np.float64]
 
@@ -49,14 +57,14 @@ class Finished:
 
 
 class Control:
-    """Decides in every control period whether the arm may move, and under whose displacement.
+    """Decides in every control period whether the arm may move, and under whose correction.
 
     Args:
         arm: that it commands.
         scene: that the arm stands in.
         lease: of the authority.
         hold_after_s: age of the newest master state at which a refinement holds [s].
-        master_gain: of the master's displacement on the reference.
+        master_gain: of the master's displacement on the reference; its rotation counts as it is.
     """
 
     def __init__(self, arm: Arm, scene: AnyScene, lease: Lease, hold_after_s: float, master_gain: float) -> None:
@@ -107,11 +115,22 @@ class Control:
         """Put arm, target and scene back."""
         self._check(request.epoch)
         variant = self.arm.variant if request.variant is None else request.variant
+<<<<<<< HEAD
         asked = admit_target(self.scene, request)
         place = self._place if asked is None else asked
         admit_reset(self.scene, variant, place)
         self._place = place
         self.arm.reset(place, variant)
+=======
+        place = self._object_position if request.object_position is None else np.array(request.object_position)
+        start = None if request.start is None else _pose(request.start)
+        admit_reset(self.scene, variant, place, start)
+        try:
+            self.arm.reset(place, variant, start)
+        except StartImpossible as error:
+            raise Refusal(f"{error}: give another start") from error
+        self._object_position = place
+>>>>>>> main
 
     def press(self, by: str, reason: str) -> None:
         """Latch the emergency stop; the arm stands still at once."""
@@ -142,10 +161,11 @@ class Control:
             engaged=sample is not None and sample.message.engaged,
             hold_after_s=self._hold_after_s,
         )
-        displacement = np.zeros(3)
+        wanted = UNCORRECTED
         if self.refining and sample is not None and not reason:
-            displacement = self._master_gain * np.array(sample.message.displacement)
-        tick = self.arm.tick(displacement, reason)
+            master = sample.message
+            wanted = Correction(self._master_gain * np.array(master.displacement), np.array(master.rotation))
+        tick = self.arm.tick(wanted, reason)
         self._end(tick.outcome)
         return tick
 
@@ -171,3 +191,9 @@ class Control:
     def _check_stop(self) -> None:
         if self.stop.latched:
             raise Refusal(f"{self.stop}: release it first")
+
+
+def _pose(pose: messages.Pose) -> Pose:
+    """A pose from the wire, its quaternion normalised."""
+    orientation = np.array(pose.orientation)
+    return Pose(np.array(pose.position), orientation / np.linalg.norm(orientation))

@@ -3,21 +3,22 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lfd.trajectory import Trajectory
+from services.robot.correction import Correction
 from services.robot.execution import Execution
 from services.robot.recording import Recording
 from services.robot.verdict import Verdict
 from sim.pose import Pose
-
-Array = NDArray[np.float64]
 
 SETTLE_S = 0.5
 """The arm arrives and a toppling object falls before the verdict is given [s]."""
 
 INPUT_THRESHOLD = 0.0005
 """A displacement above this counts as the operator's input [m]."""
+
+TURN_THRESHOLD = 0.005
+"""A rotation above this does too [rad]: it moves what lies 0.1 m from its axis as far."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +33,7 @@ class EpisodeOutcome:
         verdict: at the end.
         completed: it ran to the prediction's end.
         reason: why not, empty where it did.
-        operator_input: a displacement took part in it.
+        operator_input: a correction of the operator's took part in it.
         clamped: control periods in which something was clamped.
         held: time spent holding [s].
         duration: from the first motion to the verdict [s].
@@ -57,7 +58,7 @@ class Episode:
     Args:
         prediction: what is executed.
         measured: pose of the grasping frame now.
-        look_ahead: after which the correction is to equal the displacement [s].
+        look_ahead: after which the correction is to equal the operator's [s].
         period: of the control [s].
     """
 
@@ -95,11 +96,11 @@ class Episode:
         self._ticks += 1
         self._held += 1
 
-    def advance(self, displacement: Array, measured: Pose) -> Pose:
+    def advance(self, wanted: Correction, measured: Pose) -> Pose:
         """Go on by one control period.
 
         Args:
-            displacement: of the master, in base axes, shape (3,) [m].
+            wanted: the correction that the operator asks for.
             measured: pose of the grasping frame, from where a hold is left.
 
         Returns:
@@ -113,8 +114,8 @@ class Episode:
             self._settled += 1
             return self.execution.reference
         if not self.execution.ramping:
-            self._input |= float(np.linalg.norm(displacement)) > INPUT_THRESHOLD
-        return self.execution.advance(displacement)
+            self._input |= _counts(wanted)
+        return self.execution.advance(wanted)
 
     def record(self, reference: Pose, commanded: Pose, measured: Pose, *, clamped: bool) -> None:
         """Keep what this period's command was and did."""
@@ -145,3 +146,9 @@ class Episode:
             held=self._held * self._period,
             duration=self._ticks * self._period,
         )
+
+
+def _counts(wanted: Correction) -> bool:
+    """It is more than a device's noise."""
+    displaced = float(np.linalg.norm(wanted.offset)) > INPUT_THRESHOLD
+    return displaced or float(np.linalg.norm(wanted.turn)) > TURN_THRESHOLD

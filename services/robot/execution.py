@@ -1,4 +1,4 @@
-"""Executes a prediction at the control rate and merges the operator's displacement into it.
+"""Executes a prediction at the control rate and merges the operator's correction into it.
 
 Equations (15) to (17) of the thesis move the NEXT way-point by the master's displacement d:
 
@@ -15,6 +15,10 @@ recedes with every period, so that
 over a period h in which d stands still. Without input the prediction is tracked exactly, each new sample acts in the
 next period, nothing jumps, and after release the correction returns to zero in the same way. Adapting the CURRENT
 way-point (eq. B.7) is the limit L = 0: o = d at once.
+
+The thesis corrects positions only and recommends orientations next (V-B). Here a rotation vector r in base axes follows
+the master's rotation by the same law, and rotates the orientation that is predicted: R_new = exp(r) R. On its way r
+does not leave the ball that the master's reach spans, far from where rotation vectors wrap around.
 """
 
 import math
@@ -25,6 +29,7 @@ from numpy.typing import NDArray
 from lfd.resampling import Interpolation, at_phases
 from lfd.rotations import conjugate, log_map, multiply, slerp
 from lfd.trajectory import Trajectory
+from services.robot.correction import UNCORRECTED, Correction
 from sim.pose import Pose
 
 Array = NDArray[np.float64]
@@ -47,7 +52,7 @@ class Execution:
     Args:
         measured: pose of the grasping frame now.
         prediction: in the base frame, any number of way-points.
-        look_ahead: L, after which the correction is to equal the displacement [s]; 0 moves the current way-point.
+        look_ahead: L, after which the correction is to equal the operator's [s]; 0 moves the current way-point.
         period: of the control [s].
     """
 
@@ -59,7 +64,7 @@ class Execution:
         self._period = period
         self._gain = -math.expm1(-period / look_ahead) if look_ahead > 0.0 else 1.0
         self._tick = 0
-        self.offset: Array = np.zeros(3)
+        self.correction: Correction = UNCORRECTED
         self._ramp = Ramp(measured, self.nominal, period, RAMP_MIN_S)
 
     @property
@@ -92,11 +97,11 @@ class Execution:
         """Where the grasping frame should be now."""
         return self._ramp.pose if self.ramping else self._corrected()
 
-    def advance(self, displacement: Array) -> Pose:
+    def advance(self, wanted: Correction) -> Pose:
         """Go on by one control period.
 
         Args:
-            displacement: of the master, in base axes, shape (3,) [m]; ignored on the ramp.
+            wanted: the correction that the operator asks for; ignored on the ramp.
 
         Returns:
             The reference at the end of the period.
@@ -105,7 +110,7 @@ class Execution:
             self._ramp.advance()
         elif not self.finished:
             self._tick += 1
-            self.offset = self.offset + self._gain * (displacement - self.offset)
+            self.correction = self.correction.towards(wanted, self._gain)
         return self.reference
 
     def rejoin(self, measured: Pose) -> None:
@@ -116,7 +121,7 @@ class Execution:
         self._ramp = Ramp(measured, self._corrected(), self._period, RAMP_MIN_S if self.ramping else 0.0)
 
     def _corrected(self) -> Pose:
-        return Pose(self._positions[self._tick] + self.offset, self._orientations[self._tick])
+        return self.correction.of(self.nominal)
 
 
 class Ramp:

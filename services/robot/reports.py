@@ -9,6 +9,7 @@ from services.bus import Bus
 from services.robot import wire
 from services.robot.arm import Tick
 from services.robot.control import Control, Finished
+from sim.pose import Pose
 
 
 class Schedule:
@@ -42,7 +43,11 @@ class Reports:
         self._schedule = Schedule()
         self._epoch = -1
         self._stop_latched: bool | None = None
+<<<<<<< HEAD
         self._arranged: tuple[str, bytes] | None = None
+=======
+        self._arranged: tuple[str, Pose] | None = None
+>>>>>>> main
         self._finished: Finished | None = None
 
     def publish(self, now_ns: int, tick: Tick, applied_sequence: int, applied_latency: float) -> None:
@@ -66,11 +71,18 @@ class Reports:
         if due(topics.SAFETY_STATE, now_ns) or self._stop_latched != control.stop.latched:
             self._stop_latched = control.stop.latched
             self._bus.publish(topics.SAFETY_STATE, self._safety_state(tick))
+<<<<<<< HEAD
         arranged = (control.arm.variant, control.arm.condition.tobytes())
         if due(topics.SCENE_STATE, now_ns) or self._arranged != arranged:
             self._arranged = arranged
             state = wire.scene_state(control.scene, control.arm.variant, control.arm.condition)
             self._bus.publish(topics.SCENE_STATE, state)
+=======
+        arranged = (control.arm.variant, control.arm.start)
+        if due(topics.SCENE_STATE, now_ns) or self._arranged != arranged:
+            self._arranged = arranged
+            self._bus.publish(topics.SCENE_STATE, wire.scene_state(control.scene, *arranged))
+>>>>>>> main
         if due(topics.EXECUTION, now_ns):
             self._publish_execution()
         self._publish_result(now_ns)
@@ -108,7 +120,8 @@ class Reports:
             mode=order.execute.mode if order is not None else messages.Mode.AUTONOMOUS,
             episode=order.episode if order is not None else 0,
             progress=tick.progress,
-            offset=vector3(tick.offset),
+            offset=vector3(tick.correction.offset),
+            turn=vector3(tick.correction.turn),
             hold_reason=tick.hold_reason,
             clamped=tick.clamped[:16],
             applied_sequence=applied_sequence,

@@ -8,15 +8,25 @@ from numpy.typing import NDArray
 
 from lfd.trajectory import Trajectory
 from services.robot.arm import Arm, Tick
+<<<<<<< HEAD
 from services.robot.backend import CONTROL_PERIOD, Backend
+=======
+from services.robot.backend import CONTROL_PERIOD
+from services.robot.correction import UNCORRECTED, Correction
+>>>>>>> main
 from services.robot.episode import EpisodeOutcome
 from services.robot.execution import look_ahead
 from services.robot.kinematics import Kinematics
 from services.robot.mechanism import Mechanism
 from services.robot.particle import ParticleBackend, ParticleKinematics
 from services.robot.simulation import Simulation
+<<<<<<< HEAD
 from services.robot.verdict import Criteria, ReachingCriteria
 from services.robot.via_points import ViaPointCriteria
+=======
+from services.robot.starts import Starts
+from services.robot.verdict import Criteria
+>>>>>>> main
 from sim.description import RobotDescription
 from sim.pose import Pose
 from sim.scenes import AnyScene
@@ -25,9 +35,6 @@ from sim.scenes.scene import ReachingScene
 from sim.world import World
 
 Array = NDArray[np.float64]
-
-HOME_SEED = 0
-"""Of the random starts in the search for the start's joint positions: the same in every process."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,19 +45,19 @@ class RolloutView:
         time: since the rollout began [s].
         progress: of the prediction, from 0 to 1.
         nominal: what the prediction alone says now.
-        offset: the correction as it is applied now, shape (3,) [m].
+        correction: as it is applied now.
         tick: the last control period.
     """
 
     time: float
     progress: float
     nominal: Pose
-    offset: Array
+    correction: Correction
     tick: Tick
 
 
-Displacement = Callable[[RolloutView], Array]
-"""The operator: from what is seen to the master's displacement, in base axes, shape (3,) [m]."""
+Operator = Callable[[RolloutView], Correction]
+"""From what is seen to the correction that is asked for."""
 
 
 def kinematics_of(scene: AnyScene, description: RobotDescription) -> Mechanism:
@@ -88,18 +95,26 @@ def simulated_arm(
 
     Raises:
         UnknownVariant: the scene has no such variant.
-        Unreachable: the arm cannot reach the scene's start.
+        StartImpossible: the arm cannot reach the scene's start.
     """
+<<<<<<< HEAD
     kinematics = kinematics or kinematics_of(scene, description)
     rng = np.random.default_rng(HOME_SEED)
     home = kinematics.solve(scene.start.position, scene.start.orientation, [scene.posture], rng)
     backend, criteria = _stage(scene, variant, description)
     backend.reset(scene.training_positions[0], variant, home)
+=======
+    kinematics = kinematics or Kinematics(description.urdf, scene.posture)
+    starts = Starts(kinematics, scene.start, scene.posture, self_distance_stop)
+    world = World(scene, variant, description)
+    world.reset(scene.training_positions[0], variant, starts.joints(scene.start))
+    criteria = Criteria(scene.reached_radii, scene.kicked_thresholds)
+>>>>>>> main
     return Arm(
         backend,
         kinematics,
         criteria,
-        home,
+        starts,
         velocity_scale=velocity_scale,
         self_distance_stop=self_distance_stop,
     )
@@ -121,7 +136,8 @@ def rollout(
     place: Array,
     *,
     variant: str | None = None,
-    displacement: Displacement | None = None,
+    start: Pose | None = None,
+    operator: Operator | None = None,
     after: float | None = None,
 ) -> EpisodeOutcome:
     """Reset the arm and execute a prediction to the end.
@@ -131,18 +147,26 @@ def rollout(
         prediction: in the base frame.
         place: of the target: centre of the object, shape (3,) [m], or y of the via-points, shape (2,) [m].
         variant: of the scene; as it is by default.
-        displacement: the operator; none by default.
+        start: of the grasping frame; as it was by default.
+        operator: who corrects it; nobody by default.
         after: look-ahead of the correction [s]; one way-point interval by default, 0 moves the current way-point.
+
+    Raises:
+        StartImpossible: no motion can start there.
     """
+<<<<<<< HEAD
     arm.reset(place, arm.variant if variant is None else variant)
+=======
+    arm.reset(object_position, arm.variant if variant is None else variant, start)
+>>>>>>> main
     arm.begin(prediction, look_ahead(prediction) if after is None else after)
-    tick = arm.tick(np.zeros(3))
+    tick = arm.tick(UNCORRECTED)
     time = CONTROL_PERIOD
     while tick.outcome is None:
-        wanted = np.zeros(3)
-        if displacement is not None and arm.episode is not None:
+        wanted = UNCORRECTED
+        if operator is not None and arm.episode is not None:
             execution = arm.episode.execution
-            wanted = displacement(RolloutView(time, execution.progress, execution.nominal, execution.offset, tick))
+            wanted = operator(RolloutView(time, execution.progress, execution.nominal, execution.correction, tick))
         tick = arm.tick(wanted)
         time += CONTROL_PERIOD
     return tick.outcome

@@ -3,17 +3,22 @@
 Nothing here knows a clock or a bus: ages and requests are passed in, decisions and reasons come out.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from lfd.rotations import slerp
+from services.robot.correction import Correction
 from sim.pose import Pose
 
 Array = NDArray[np.float64]
 
 REFERENCE_SPEED = 1.2  # [m/s] that the reference has at most
+REFERENCE_TURN_SPEED = 1.5  # [rad/s] that it turns at most: at twice as much the arm is left behind by decimetres
 DISPLACEMENT_REACH = 0.3  # [m] of the operator's correction
+ROTATION_REACH = 1.0  # [rad] of the operator's correction
 FORCE_STOP = 300.0  # [N] of a touch, above which the arm stops; running into a wall gives half of it
 
 
@@ -108,10 +113,41 @@ def clamp_length(vector: Array, longest: float) -> tuple[Array, bool]:
     return vector * (longest / length), True
 
 
-def clamp_reference(previous: Pose, wanted: Pose, period: float) -> tuple[Pose, bool]:
-    """The wanted reference, no further from the previous one than `REFERENCE_SPEED` allows, and whether it was."""
-    step, clamped = clamp_length(wanted.position - previous.position, REFERENCE_SPEED * period)
-    return (Pose(previous.position + step, wanted.orientation), True) if clamped else (wanted, False)
+def clamp_correction(wanted: Correction) -> tuple[Correction, tuple[str, ...]]:
+    """The operator's correction within its reach, and what was clamped."""
+    offset, displaced = clamp_length(wanted.offset, DISPLACEMENT_REACH)
+    turn, rotated = clamp_length(wanted.turn, ROTATION_REACH)
+    if not (displaced or rotated):
+        return wanted, ()
+    return Correction(offset, turn), _named(("displacement", displaced), ("rotation", rotated))
+
+
+def clamp_reference(previous: Pose, wanted: Pose, period: float) -> tuple[Pose, tuple[str, ...]]:
+    """The wanted reference, no further from the previous one than its two speeds allow, and what was clamped.
+
+    Args:
+        previous: reference, one period ago.
+        wanted: reference now.
+        period: [s].
+    """
+    step, moved = clamp_length(wanted.position - previous.position, REFERENCE_SPEED * period)
+    orientation, turned = _clamp_turn(previous.orientation, wanted.orientation, REFERENCE_TURN_SPEED * period)
+    if not (moved or turned):
+        return wanted, ()
+    position = previous.position + step if moved else wanted.position
+    return Pose(position, orientation), _named(("reference speed", moved), ("reference turn speed", turned))
+
+
+def _clamp_turn(previous: Array, wanted: Array, widest: float) -> tuple[Array, bool]:
+    """The wanted orientation, turned from the previous one by at most `widest` [rad], and whether that was less."""
+    cosine = abs(float(previous @ wanted))  # of half the angle, whichever signs the two quaternions have
+    if cosine >= math.cos(0.5 * widest * (1.0 + 1e-9)):
+        return wanted, False
+    return slerp(previous, wanted, np.asarray(widest / (2.0 * math.acos(cosine)))), True
+
+
+def _named(*clamps: tuple[str, bool]) -> tuple[str, ...]:
+    return tuple(name for name, clamped in clamps if clamped)
 
 
 def self_collision(distance: float, previous: float, limit: float) -> bool:

@@ -40,7 +40,7 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> RobotService:
 
     Raises:
         SimError: there is no such scene or variant, or the robot's description is not installed.
-        Unreachable: the arm cannot reach the scene's start.
+        StartImpossible: the arm cannot reach the scene's start.
     """
     section = configuration.robot
     description = prepare()

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from services.robot.backend import Observation, Touch
+from services.robot.backend import Blocked, Observation, Touch
 from sim.description import CONTROLLED_JOINTS
 from sim.pose import Pose
 from sim.world import World
@@ -31,9 +31,22 @@ class Simulation:
         """Of the scene."""
         return self._world.variant
 
+<<<<<<< HEAD
     def reset(self, place: Array, variant: str, q: Array) -> None:
         """Put everything back, time included."""
         self._world.reset(place, variant, q)
+=======
+    def reset(self, object_position: Array, variant: str, q: Array) -> None:
+        """Put everything back, time included; as it was where the arm would touch something."""
+        world = self._world
+        before, state = world.variant, world.state
+        world.reset(object_position, variant, q)
+        touch = self.observe().touch
+        if touch is not None:
+            world.reset(object_position, before, q)
+            world.set_state(state)
+            raise Blocked(*touch.between)
+>>>>>>> main
 
     def command(self, q: Array, qd: Array) -> None:
         """Ten milliseconds of physics."""

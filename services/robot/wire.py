@@ -37,6 +37,7 @@ def verdict(value: Verdict) -> messages.Verdict:
         collision=value.collision is not None,
         collision_position=vector3(value.collision.position) if value.collision is not None else None,
         collision_force=value.collision.force if value.collision is not None else 0.0,
+        collision_between=value.collision.between if value.collision is not None else None,
         ellipsoid_value=value.ellipsoid_value,
         object_displacement=vector3(value.displacement),
     )
@@ -63,6 +64,7 @@ def episode_result(finished: Finished) -> messages.EpisodeResult:
     )
 
 
+<<<<<<< HEAD
 def scene_state(scene: AnyScene, variant: str, condition: Array) -> messages.SceneState:
     """The scene as it stands.
 
@@ -80,6 +82,22 @@ def scene_state(scene: AnyScene, variant: str, condition: Array) -> messages.Sce
         kicked_over_thresholds=_NONE,
         start=pose(scene.start),
         object_region=(_NONE, _NONE),
+=======
+def scene_state(scene: Scene, variant: str, start: Pose) -> messages.SceneState:
+    """The scene in one of its variants, with a start of the next motion."""
+    boxes = tuple(
+        messages.Box(box.name, box.centre, box.half_sizes, box.quaternion, box.rgba) for box in scene.boxes(variant)
+    )
+    return messages.SceneState(
+        name=scene.name,
+        variant=variant,
+        boxes=boxes,
+        object_size=OBJECT_SIZE,
+        ellipsoid_radii=vector3(scene.reached_radii),
+        kicked_over_thresholds=vector3(scene.kicked_thresholds),
+        start=pose(start),
+        object_region=(vector3(scene.region.lower), vector3(scene.region.upper)),
+>>>>>>> main
         variants=scene.variants,
         condition=tuple(condition.tolist()),
     )

@@ -39,25 +39,40 @@ BUTTONS = (
 
 MINUS = "\N{MINUS SIGN}"
 
-KEYS = (
+PUSH_KEYS = (
     (("KeyQ", "Q", "+x", "forward"), ("KeyW", "W", "+y", "left"), ("KeyE", "E", "+z", "up")),
     (("KeyA", "A", f"{MINUS}x", "back"), ("KeyS", "S", f"{MINUS}y", "right"), ("KeyD", "D", f"{MINUS}z", "down")),
 )
 """Rows of keys as they lie under the hand: code, cap, axis of the base frame, direction."""
 
+TURN_KEYS = (
+    (("KeyR", "R", "+x", "roll right"), ("KeyT", "T", "+y", "tilt down"), ("KeyY", "Y", "+z", "turn left")),
+    (
+        ("KeyF", "F", f"{MINUS}x", "roll left"),
+        ("KeyG", "G", f"{MINUS}y", "tilt up"),
+        ("KeyH", "H", f"{MINUS}z", "turn right"),
+    ),
+)
+"""The same of the keys to their right, which rotate about the axis."""
+
 
 def keys() -> None:
     """The keys and what they do; the page's script lights those that are held."""
     with block("panel keys"):
-        with block("keyboard"):
-            for row in KEYS:
-                for code, cap, axis, direction in row:
-                    with block("key").props(f"data-key={code}"):
-                        text(cap, "key-cap")
-                        text(axis, "key-axis")
-                        text(direction, "key-direction")
-        text("Hold a key to push the motion; let go to return.", "keys-help")
+        with block("keyboards"):
+            for rows in (PUSH_KEYS, TURN_KEYS):
+                _keyboard(rows)
+        text("Hold a key to push or turn the gripper; let go to return.", "keys-help")
         text("Let go of everything to use the keys again.", "keys-let-go")
+
+
+def _keyboard(rows: tuple[tuple[tuple[str, str, str, str], ...], ...]) -> None:
+    with block("keyboard"):
+        for code, cap, axis, direction in (key for row in rows for key in row):
+            with block("key").props(f"data-key={code}"):
+                text(cap, "key-cap")
+                text(axis, "key-axis")
+                text(direction, "key-direction")
 
 
 class Actions:

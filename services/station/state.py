@@ -9,6 +9,7 @@ from typing import Any
 import msgspec
 
 from protocol import messages
+<<<<<<< HEAD
 from protocol.messages import (
     Attempt,
     Condition,
@@ -21,6 +22,10 @@ from protocol.messages import (
     Vector3,
 )
 from protocol.queries import Adapt, Query
+=======
+from protocol.messages import Attempt, EpisodeResult, Mode, ModelState, Motion, ObjectPose, Outcome, Vector3
+from protocol.queries import Adapt, Query, Reset
+>>>>>>> main
 
 
 class Action(Enum):
@@ -80,6 +85,7 @@ class Settings:
         variant: arrangement of the scene that the run is about; empty for the one that was changed.
         scripted: the recommended action is taken at once.
         once: the recommended action after the loop has closed is to end.
+        arrangement: what every reset asks for, its epoch aside; drawn at random where there is none.
     """
 
     holder: str
@@ -91,6 +97,7 @@ class Settings:
     variant: str = ""
     scripted: bool = False
     once: bool = False
+    arrangement: Reset | None = None
 
 
 @dataclass(frozen=True)

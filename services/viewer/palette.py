@@ -14,6 +14,8 @@ BACKGROUND = 0x0E1116FF
 
 AXES = np.array([STOP, GO, OBJECT], dtype=np.uint32)
 """x, y, z."""
+AXES_TURNED = np.array([0xF2A2A5FF, 0x96E0BDFF, 0x9AC2F2FF], dtype=np.uint32)
+"""About x, y, z: the same, paler."""
 JOINTS = np.array(
     [TRUTH, PREDICTED, REFINED, 0x009E73FF, 0xF0E442FF, OBJECT, 0xD55E00FF, FORCE],
     dtype=np.uint32,

@@ -16,9 +16,11 @@ _LATENCIES = ("operator to robot [ms]", "object pose error [mm]")
 def log_legends(recording: rr.RecordingStream) -> None:
     """Name and colour what has a fixed number of lines."""
     force = rr.SeriesLines(names=[f"{axis} [N]" for axis in _AXES], colors=palette.AXES, widths=[1.5])
-    correction = rr.SeriesLines(names=[f"{axis} [m]" for axis in _AXES], colors=palette.AXES, widths=[1.5])
+    offset = rr.SeriesLines(names=[f"{axis} [mm]" for axis in _AXES], colors=palette.AXES, widths=[1.5])
+    turn = rr.SeriesLines(names=[f"about {axis} [deg]" for axis in _AXES], colors=palette.AXES_TURNED, widths=[1.5])
     recording.log(entities.FORCE_SERIES, force, static=True)
-    recording.log(entities.CORRECTION, correction, static=True)
+    recording.log(f"{entities.CORRECTION}/offset", offset, static=True)
+    recording.log(f"{entities.CORRECTION}/turn", turn, static=True)
     for name, colour in zip(_LATENCIES, (palette.REFINED, palette.PREDICTED), strict=True):
         line = rr.SeriesLines(names=[name], colors=[colour], widths=[1.5])
         recording.log(f"{entities.LATENCY}/{name.split(' [')[0].replace(' ', '_')}", line, static=True)
@@ -41,9 +43,10 @@ def log_force(recording: rr.RecordingStream, force: Sequence[float]) -> None:
     recording.log(entities.FORCE_SERIES, rr.Scalars(force))
 
 
-def log_correction(recording: rr.RecordingStream, offset: Sequence[float]) -> None:
-    """The correction as the robot applies it, base axes [m]."""
-    recording.log(entities.CORRECTION, rr.Scalars(offset))
+def log_correction(recording: rr.RecordingStream, offset: Sequence[float], turn: Sequence[float]) -> None:
+    """The correction as the robot applies it, in base axes: offset [m] and rotation vector [rad]."""
+    recording.log(f"{entities.CORRECTION}/offset", rr.Scalars(1e3 * np.asarray(offset)))
+    recording.log(f"{entities.CORRECTION}/turn", rr.Scalars(np.degrees(turn)))
 
 
 def log_latency(recording: rr.RecordingStream, latency_s: float) -> None:

@@ -154,7 +154,7 @@ class ViewerService:
         self._write(*self._journal.robot(robot))
         if self._pace.due("robot", None, now_ns):
             series.log_joints(self._stream, robot.q)
-            series.log_correction(self._stream, robot.offset)
+            series.log_correction(self._stream, robot.offset, robot.turn)
             series.log_latency(self._stream, robot.applied_latency)
 
     def _log_master(self, now_ns: int) -> None:

@@ -74,9 +74,9 @@ TABLE = ReachingScene(
     start=_START,
     posture=np.array([0.2830, 0.9342, 0.5981, 0.2594, 1.9075, 0.5393, 0.9049, 2.0147]),
     head=np.array([0.0, -0.78]),
-    region=Region((0.70, 0.02, _OBJECT_Z), (0.82, 0.20, _OBJECT_Z)),
+    region=Region((0.65, 0.02, _OBJECT_Z), (0.85, 0.24, _OBJECT_Z)),
     training_positions=np.array(
-        [[0.71, 0.03, _OBJECT_Z], [0.71, 0.19, _OBJECT_Z], [0.81, 0.03, _OBJECT_Z], [0.81, 0.19, _OBJECT_Z]]
+        [[0.67, 0.04, _OBJECT_Z], [0.67, 0.22, _OBJECT_Z], [0.83, 0.04, _OBJECT_Z], [0.83, 0.22, _OBJECT_Z]]
     ),
     reached_radii=np.array([0.05, 0.065, 0.05]),
     kicked_thresholds=np.array([0.10, 0.10, 0.10]),

@@ -11,7 +11,6 @@ import subprocess
 import sys
 import tempfile
 import time
-from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
@@ -23,24 +22,14 @@ from protocol.exceptions import ProtocolError
 from protocol.messages import Mode, Phase
 from services.clock import SystemClock
 from services.zenoh_bus import Passing, close_session, open_session, watch
+<<<<<<< HEAD
 from sim.scenes import SCENES
+=======
+from tests.bench.support.results import Result, write_json
+>>>>>>> main
 
 RUN_TIMEOUT_S = 300.0
 MEMORY_EVERY_S = 5.0
-
-
-@dataclass(frozen=True)
-class Result:
-    """A measured figure beside its goal; `met` is None where there is no goal."""
-
-    name: str
-    value: float
-    unit: str
-    goal: float | None = None
-
-    @property
-    def met(self):
-        return None if self.goal is None else bool(self.value <= self.goal)
 
 
 class Ear:
@@ -191,10 +180,9 @@ def main():
     results = figures(*run(arguments.scene))
     width = max(len(r.name) for r in results)
     for r in results:
-        goal = "" if r.goal is None else f"   goal {r.goal:g}: {'met' if r.met else 'MISSED'}"
-        print(f"{r.name:<{width}} {r.value:10.2f} {r.unit}{goal}")
+        print(f"{r.name:<{width}} {r.value:10.2f} {r.unit}   {r.verdict}".rstrip())
     if arguments.json is not None:
-        arguments.json.write_text(json.dumps([{**asdict(r), "met": r.met} for r in results], indent=2) + "\n")
+        write_json(arguments.json, results)
 
 
 if __name__ == "__main__":

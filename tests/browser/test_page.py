@@ -84,6 +84,20 @@ def test_a_held_key_arrives_lights_up_and_goes(tab, station, eventually):
     assert tab.page.locator("[data-held]").count() == 0
 
 
+def test_the_keys_that_turn_lie_beside_those_that_push(tab, station, eventually):
+    page, _ = station
+    places = {code: tab.page.locator(f"[data-key=Key{code}]").bounding_box() for code in "QWERTYASDFGH"}
+    for row in ("QWERTY", "ASDFGH"):
+        assert [places[code]["x"] for code in row] == sorted(places[code]["x"] for code in row)
+        assert len({places[code]["y"] for code in row}) == 1
+    for code in "RFTGYH":
+        tab.page.keyboard.down(f"Key{code}")
+        eventually(lambda code=code: page.take_input().keys == (f"Key{code}",))
+        assert tab.page.locator(f"[data-key=Key{code}][data-held]").count() == 1
+        tab.page.keyboard.up(f"Key{code}")
+        eventually(lambda: page.take_input().keys == ())
+
+
 def test_a_held_key_goes_with_the_focus(tab, station, eventually):
     page, _ = station
     tab.page.keyboard.down("KeyE")

@@ -1,18 +1,12 @@
 """Motions for the tests of lfd: synthetic ones, and the recordings where they are there."""
 
-import csv
-from collections import defaultdict
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from lfd.demonstration import Demonstration
-from lfd.resampling import from_samples
 from lfd.rotations import exp_map
 from lfd.trajectory import Trajectory
-
-RECORDINGS = Path(__file__).resolve().parents[3] / "shared" / "data"
+from tests import recordings as recorded
 
 
 @pytest.fixture
@@ -38,40 +32,17 @@ def reach():
 @pytest.fixture(scope="session")
 def recordings():
     """A function that reads the recorded demonstrations of one set."""
-    if not RECORDINGS.is_dir():
-        pytest.skip(f"the recordings are not at {RECORDINGS}")
-
-    def read(name):
-        return [_demonstration(path) for path in sorted((RECORDINGS / "demonstrations" / name).glob("*.csv"))]
-
-    return read
+    if not recorded.FOLDER.is_dir():
+        pytest.skip(f"the recordings are not at {recorded.FOLDER}")
+    return lambda name: [
+        recorded.demonstration(path) for path in sorted((recorded.FOLDER / "demonstrations" / name).glob("*.csv"))
+    ]
 
 
 @pytest.fixture(scope="session")
 def refinements():
-    """The recorded refinements, a list for each (operator, method, model), in order."""
-    path = RECORDINGS / "refinements" / "refinements.csv"
-    if not path.is_file():
-        pytest.skip(f"the recorded refinements are not at {path}")
-    samples = defaultdict(list)
-    with path.open() as file:
-        for row in csv.DictReader(file):
-            key = row["operator"], row["method"], row["model"], int(row["update"])
-            samples[key].append([float(row[name]) for name in COLUMNS])
-    sequences = defaultdict(list)
-    for key in sorted(samples):
-        table = np.array(samples[key])
-        # They were recorded by number, not by time; the experiment executed predictions in 10 s.
-        trajectory = Trajectory(table[:, 3:6], table[:, 6:], duration=10.0)
-        sequences[key[:3]].append(Demonstration.reaching(trajectory, table[0, :3]))
-    return list(sequences.values())
-
-
-COLUMNS = ["object_x", "object_y", "object_z", "x", "y", "z", "qw", "qx", "qy", "qz"]
-
-
-def _demonstration(path):
-    table = np.genfromtxt(path, delimiter=",", names=True)
-    columns = np.column_stack([table[name] for name in COLUMNS])
-    trajectory = from_samples(table["t"], columns[:, 3:6], columns[:, 6:], n=100)
-    return Demonstration.reaching(trajectory, columns[0, :3])
+    """The recorded refinements, a tuple for each (operator, method, model), in order."""
+    found = recorded.sequences(recorded.FOLDER)
+    if not found:
+        pytest.skip(f"the recorded refinements are not at {recorded.FOLDER}")
+    return [sequence.refinements for sequence in found]

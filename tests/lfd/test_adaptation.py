@@ -1,12 +1,15 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lfd.adaptation import AdaptiveProMP
+from lfd.adaptation import AdaptiveOptions, AdaptiveProMP
 from lfd.alignment import group_by_condition
+from lfd.correction import CorrectionOptions
 from lfd.demonstration import Demonstration, Situation
-from lfd.exceptions import TooFewDemonstrations
+from lfd.exceptions import NothingToTakeBack, TooFewDemonstrations, WrongShape
 from lfd.promp import ConditionedProMP
 from lfd.rotations import exp_map
 from lfd.trajectory import Trajectory
@@ -22,6 +25,47 @@ def gap(model, demonstration):
     """Root mean square distance between the prediction and what was demonstrated at its condition [m]."""
     difference = predict(model, demonstration).trajectory.positions - demonstration.trajectory.positions
     return np.sqrt(np.mean(np.sum(difference**2, axis=1)))
+
+
+def path(model, demonstration):
+    return predict(model, demonstration).trajectory.positions
+
+
+def decoded(model, demonstration):
+    """What the model's basis can express of a demonstration."""
+    vector = model.encoding.encode(demonstration)
+    return model.encoding.decode(vector, demonstration.situation, demonstration.trajectory.n_points).positions
+
+
+def straight(condition, n=60):
+    """A motion along x that leads y and z linearly to the condition's first and last component."""
+    t = np.linspace(0.0, 1.0, n)
+    y, z = np.sin(np.pi / 2 * t) * condition[0], t * condition[-1]
+    still = np.tile([1.0, 0.0, 0.0, 0.0], (n, 1))
+    return Demonstration(Trajectory(np.column_stack([0.4 * t, y, z]), still, 4.0), np.zeros(3), np.array(condition))
+
+
+def scaled(demonstration, factor=1e3):
+    trajectory = demonstration.trajectory
+    longer = replace(trajectory, positions=factor * trajectory.positions)
+    return Demonstration(longer, factor * demonstration.origin, factor * demonstration.condition)
+
+
+def anything(rng, c, n=20):
+    """A wild motion at a wild condition; now and then the same one again, or one that stands still."""
+    kind = rng.integers(4)
+    condition = np.zeros(c) if kind == 0 else rng.normal(size=c)
+    positions = np.zeros((n, 3)) if kind == 1 else np.cumsum(rng.normal(size=(n, 3)), axis=0)
+    orientations = exp_map(np.cumsum(0.3 * rng.normal(size=(n, 3)), axis=0))
+    return Demonstration(Trajectory(positions, orientations, rng.uniform(0.5, 20.0)), rng.normal(size=3), condition)
+
+
+@pytest.fixture
+def recipe(reach):
+    """Demonstrations, a correction and a wanted motion in general position."""
+    places = [[0.9, 0.3, 0.6], [0.85, 0.05, 0.62], [0.92, -0.3, 0.58], [0.8, -0.1, 0.65], [0.95, 0.15, 0.5]]
+    demonstrations = [reach(place, bend=0.05 * i, duration=4.0 + i) for i, place in enumerate(places)]
+    return demonstrations, reach([0.88, 0.1, 0.6], bend=0.2), reach([0.9, 0.0, 0.55])
 
 
 def standard_deviation(model, demonstration):
@@ -48,25 +92,132 @@ def test_the_newest_of_contradicting_corrections_wins(model, reach):
     assert gap(model, reach(MIDDLE, bend=bends[-1])) < 0.02
 
 
-@pytest.mark.parametrize("apart", [0.005, 0.02, 0.05, 0.1])
-def test_contradicting_corrections_side_by_side_do_not_overshoot(model, reach, apart):
-    """Between and beyond two opposite corrections the prediction departs hardly further than they did."""
+@pytest.mark.parametrize(("apart", "most"), [(0.005, 1.05), (0.02, 1.05), (0.05, 1.05), (0.1, 1.5), (0.2, 1.6)])
+def test_contradicting_corrections_side_by_side_do_not_run_away(model, reach, apart, most):
+    """Beyond two opposite corrections the prediction departs little further than they did."""
     model = model.updated(reach(MIDDLE, bend=0.2)).updated(reach(np.add(MIDDLE, [0.0, apart, 0.0]), bend=-0.2))
     for y in np.linspace(-0.15, 0.25, 11):
         straight = reach([0.9, y, 0.6])
         difference = predict(model, straight).trajectory.positions - straight.trajectory.positions
-        assert np.abs(difference[:, 1]).max() < 1.3 * 0.2
+        assert np.abs(difference[:, 1]).max() < most * 0.2
+
+
+def sideways(model, corrected, reach, offset):
+    """By how much a correction moves the prediction for an object further to the right by `offset` [m]."""
+    elsewhere = reach(np.add(LEFT, [0.0, -offset, 0.0]))
+    change = predict(corrected, elsewhere).trajectory.positions - predict(model, elsewhere).trajectory.positions
+    return np.abs(change).max()
 
 
 def test_a_correction_fades_with_distance_and_leaves_far_places_alone(model, reach):
     corrected = model.updated(reach(LEFT, bend=0.25))
-    sideways = []
-    for offset in [0.0, 0.03, 0.06, 0.1, 0.2, 0.4]:
-        elsewhere = reach(np.add(LEFT, [0.0, -offset, 0.0]))
-        change = predict(corrected, elsewhere).trajectory.positions - predict(model, elsewhere).trajectory.positions
-        sideways.append(np.abs(change).max())
-    assert (np.diff(sideways) < 0.0).all()
-    assert sideways[-1] < 0.01 * sideways[0]
+    moved = [sideways(model, corrected, reach, offset) for offset in (0.0, 0.03, 0.06, 0.1, 0.2, 0.4, 0.8, 2.0)]
+    assert (np.diff(moved) < 0.0).all()
+    assert moved[-1] < 0.1 * moved[0]
+
+
+def test_a_correction_acts_wider_the_more_it_surprises(model, reach):
+    """A small one is a detail of its place; a large one says that the world has changed."""
+    shares = []
+    for bend in (0.01, 0.05, 0.25):
+        corrected = model.updated(reach(LEFT, bend=bend))
+        shares.append(sideways(model, corrected, reach, 0.2) / sideways(model, corrected, reach, 0.0))
+    assert (np.diff(shares) > 0.0).all()
+    assert shares[-1] > 0.75
+
+
+def test_where_the_demonstrations_left_a_trend_open_a_correction_teaches_it_and_keeps_what_was_taught(reach):
+    """One demonstration says nothing about other conditions: correcting one of them is no reason to forget it."""
+    taught = straight([0.0, 0.0])
+    corrected = AdaptiveProMP.fit([taught]).updated(straight([0.1, -0.1]))
+    np.testing.assert_allclose(path(corrected, taught), taught.trajectory.positions, atol=0.004)
+    half = straight([0.05, -0.05])
+    np.testing.assert_allclose(path(corrected, half), half.trajectory.positions, atol=0.006)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_linear_family_is_recovered_exactly_also_where_nothing_was_taught(seed):
+    rng = np.random.default_rng(seed)
+    model = AdaptiveProMP.fit([straight(s) for s in rng.uniform(-0.3, 0.3, size=(7, 2))])
+    for s in rng.uniform(-1.0, 1.0, size=(5, 2)):
+        np.testing.assert_allclose(path(model, straight(s)), decoded(model, straight(s)), atol=1e-10)
+
+
+def test_metres_and_millimetres_give_the_same(reach, recipe):
+    """Lengths are relative to the motions' own extent; only the unit of the result changes."""
+    demonstrations, correction, wanted = recipe
+    small = AdaptiveProMP.fit(demonstrations).updated(correction).predict(wanted.situation)
+    large = AdaptiveProMP.fit([scaled(d) for d in demonstrations]).updated(scaled(correction))
+    prediction = large.predict(scaled(wanted).situation)
+    np.testing.assert_allclose(prediction.trajectory.positions, 1e3 * small.trajectory.positions, rtol=1e-9, atol=1e-7)
+    np.testing.assert_allclose(prediction.position_covariances, 1e6 * small.position_covariances, rtol=1e-8, atol=1e-4)
+
+
+def test_the_order_of_the_demonstrations_does_not_matter(recipe):
+    demonstrations, correction, wanted = recipe
+    there = AdaptiveProMP.fit(demonstrations).updated(correction).predict(wanted.situation)
+    back = AdaptiveProMP.fit(demonstrations[::-1]).updated(correction).predict(wanted.situation)
+    np.testing.assert_allclose(back.trajectory.positions, there.trajectory.positions, atol=1e-9)
+    np.testing.assert_allclose(back.position_covariances, there.position_covariances, atol=1e-9)
+
+
+def test_the_sign_of_quaternions_does_not_matter(recipe):
+    demonstrations, correction, wanted = recipe
+
+    def flipped(d):
+        return replace(d, trajectory=replace(d.trajectory, orientations=-d.trajectory.orientations))
+
+    plain = AdaptiveProMP.fit(demonstrations).updated(correction).predict(wanted.situation)
+    other = AdaptiveProMP.fit([flipped(d) for d in demonstrations]).updated(flipped(correction))
+    prediction = other.predict(flipped(wanted).situation)
+    np.testing.assert_allclose(prediction.trajectory.positions, plain.trajectory.positions, atol=1e-9)
+    same = np.abs(np.sum(prediction.trajectory.orientations * plain.trajectory.orientations, axis=1))
+    np.testing.assert_allclose(same, 1.0, atol=1e-9)
+
+
+def test_taking_back_a_correction_gives_the_model_before_it(model, reach):
+    corrected = model.updated(reach(MIDDLE, bend=0.2))
+    again = corrected.updated(reach(LEFT, bend=-0.1)).undone()
+    for wanted in (reach(MIDDLE), reach(LEFT)):
+        np.testing.assert_allclose(path(again, wanted), path(corrected, wanted), atol=1e-12)
+    with pytest.raises(NothingToTakeBack):
+        model.undone()
+
+
+def test_memory_is_bounded_and_the_newest_corrections_are_kept(reach):
+    options = AdaptiveOptions(correction=CorrectionOptions(most=3))
+    model = AdaptiveProMP.fit([reach(LEFT), reach(RIGHT)], options)
+    for bend in (0.1, 0.2, -0.1, 0.05, 0.15):
+        model = model.updated(reach(MIDDLE, bend=bend))
+    assert len(model.corrections) == 3
+    assert gap(model, reach(MIDDLE, bend=0.15)) < 0.01
+
+
+def test_a_condition_of_another_dimension_is_refused(model):
+    with pytest.raises(WrongShape):
+        model.updated(straight([0.1, 0.2]))
+    with pytest.raises(WrongShape):
+        model.predict(straight([0.1, 0.2]).situation)
+    with pytest.raises(WrongShape):
+        AdaptiveProMP.fit([straight([0.1, 0.2]), straight([0.1])])
+
+
+@given(st.integers(1, 5), st.integers(1, 4), st.integers(0, 3), st.integers(0, 2**32 - 1))
+@settings(max_examples=40, deadline=None)
+def test_whatever_was_taught_covariances_are_positive_and_orientations_unit(M, c, J, seed):
+    rng = np.random.default_rng(seed)
+    model = AdaptiveProMP.fit([anything(rng, c) for _ in range(M)])
+    for _ in range(J):
+        model = model.updated(anything(rng, c))
+    wanted = anything(rng, c)
+    prediction = model.predict(wanted.situation)
+    least = np.linalg.eigvalsh(prediction.position_covariances).min()
+    assert least >= -1e-12 * np.abs(prediction.position_covariances).max()
+    np.testing.assert_allclose(np.linalg.norm(prediction.trajectory.orientations, axis=1), 1.0, atol=1e-12)
+    np.testing.assert_allclose(prediction.trajectory.positions[0], wanted.trajectory.positions[0], atol=1e-9)
+    distribution = model.distribution(wanted.situation)
+    covariances = distribution.position_covariances(75)
+    np.testing.assert_allclose(covariances, prediction.position_covariances, atol=1e-9 * np.abs(covariances).max())
 
 
 def test_a_new_place_extends_the_trend(reach):

@@ -1,52 +1,12 @@
 from dataclasses import replace
-from functools import cache
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from lfd.alignment import align, dtw, group_by_condition, reference, warp
+from lfd import alignment
+from lfd.alignment import Selection, align, distance_matrix, group_by_condition, most_similar, reference, warp
+from lfd.dtw import dtw
 from lfd.resampling import at_phases
-
-sequences = st.lists(st.tuples(st.floats(-5, 5), st.floats(-5, 5)), min_size=1, max_size=8).map(np.array)
-
-
-def defined_distance(a, b):
-    """The recursion that defines dynamic time warping."""
-
-    @cache
-    def total(i, j):
-        cost = float(np.linalg.norm(a[i] - b[j]))
-        before = [total(x, y) for x, y in ((i - 1, j), (i, j - 1), (i - 1, j - 1)) if x >= 0 and y >= 0]
-        return cost + min(before, default=0.0)
-
-    return total(len(a) - 1, len(b) - 1)
-
-
-@given(sequences, sequences)
-def test_distance_is_that_of_the_definition_and_of_the_path(a, b):
-    alignment = dtw(a, b)
-    i, j = alignment.path.T
-    assert alignment.distance == pytest.approx(defined_distance(a, b), abs=1e-9)
-    assert alignment.distance == pytest.approx(np.linalg.norm(a[i] - b[j], axis=1).sum(), abs=1e-9)
-
-
-@given(sequences, sequences)
-def test_path_leads_from_corner_to_corner_in_single_steps(a, b):
-    path = dtw(a, b).path
-    assert path[0].tolist() == [0, 0]
-    assert path[-1].tolist() == [len(a) - 1, len(b) - 1]
-    assert {tuple(step) for step in np.diff(path, axis=0)} <= {(0, 1), (1, 0), (1, 1)}
-
-
-def test_the_example_of_appendix_d():
-    """The sequences 1 2 4 3 and 1 1 2 4 align at no cost once each repeats what the other lacks, but for the end."""
-    X, Y = np.array([[1.0], [2.0], [4.0], [3.0]]), np.array([[1.0], [1.0], [2.0], [4.0]])
-    alignment = dtw(X, Y)
-    assert alignment.distance == pytest.approx(1.0)
-    assert X[alignment.path[:, 0], 0].tolist() == [1, 1, 2, 4, 3]
-    assert Y[alignment.path[:, 1], 0].tolist() == [1, 1, 2, 4, 4]
 
 
 def test_warping_takes_out_a_difference_of_tempo(reach):
@@ -59,8 +19,26 @@ def test_warping_takes_out_a_difference_of_tempo(reach):
 
 
 def test_reference_is_the_most_central_trajectory(reach):
-    trajectories = [reach([0.9, 0.2, 0.6], bend=bend).trajectory for bend in (-0.3, 0.0, 0.02, 0.3)]
-    assert reference(trajectories) in (1, 2)
+    trajectories = [reach([0.9, 0.2, 0.6], bend=bend).trajectory for bend in (-0.3, -0.2, 0.0, 0.05, 0.3)]
+    distances = distance_matrix(trajectories)
+    np.testing.assert_array_equal(distances, distances.T)
+    assert reference(distances) == 2
+    assert most_similar(distances, to=2) == 3
+
+
+def test_the_example_of_appendix_d():
+    """The sums 1868, 1348 and 1778 of equation (D.8) are those of these distances; trajectories 2 and 3 are used."""
+    distances = np.array([[0.0, 719, 1149], [719, 0, 629], [1149, 629, 0]])
+    assert distances.sum(axis=1).tolist() == [1868, 1348, 1778]
+    assert reference(distances) == 1
+    assert most_similar(distances, to=1) == 2
+
+
+def test_the_most_similar_need_not_have_the_second_lowest_sum():
+    distances = np.array([[0.0, 3, 4, 4], [3, 0, 9, 9], [4, 9, 0, 5], [4, 9, 5, 0]])
+    assert np.argsort(distances.sum(axis=1), kind="stable")[1] == 2
+    assert reference(distances) == 0
+    assert most_similar(distances, to=0) == 1
 
 
 def test_conditions_group_within_the_tolerance_and_along_chains():
@@ -77,3 +55,54 @@ def test_align_changes_the_tempo_within_a_condition_and_nothing_else(reach):
     assert aligned[1].trajectory.positions.tolist() == other.trajectory.positions.tolist()
     difference = aligned[0].trajectory.positions - aligned[2].trajectory.positions
     assert np.abs(difference).max() < 0.15 * np.abs(first.trajectory.positions - trajectory.positions).max()
+
+
+def test_by_the_thesis_only_the_reference_and_the_one_most_similar_to_it_stay(reach):
+    other = reach([0.9, -0.2, 0.6])
+    bends = (0.0, 0.02, 0.3)
+    demonstrations = [other, *(reach([0.9, 0.2, 0.6], bend, duration=4.0 + i) for i, bend in enumerate(bends))]
+    kept = align(demonstrations, selection=Selection.SIMILAR_PAIR)
+    assert [d.trajectory.duration for d in kept] == [other.trajectory.duration, 4.0, 5.0]
+    assert len(align(demonstrations)) == len(demonstrations)
+
+
+@pytest.mark.parametrize("selection", Selection)
+def test_two_of_a_condition_are_treated_alike_by_both_selections(reach, selection):
+    demonstrations = [reach([0.9, 0.2, 0.6], bend) for bend in (0.0, 0.1)]
+    aligned, expected = align(demonstrations, selection=selection), align(demonstrations)
+    assert [d.trajectory.positions.tolist() for d in aligned] == [d.trajectory.positions.tolist() for d in expected]
+
+
+def test_alignment_does_not_depend_on_where_the_object_stands(reach):
+    """Demonstrations are compared relative to their own origin."""
+    here = [reach([0.9, 0.2, 0.6], bend) for bend in (0.0, 0.2)]
+    shift = np.array([0.3, -1.0, 0.2])
+    there = replace(
+        here[1],
+        trajectory=replace(here[1].trajectory, positions=here[1].trajectory.positions + shift),
+        origin=here[1].origin + shift,
+    )
+    moved, expected = align([here[0], there])[1], align(here)[1]
+    np.testing.assert_allclose(moved.trajectory.positions, expected.trajectory.positions + shift, atol=1e-12)
+
+
+def test_many_of_one_condition_cost_no_more_than_in_proportion(reach, monkeypatch):
+    """Of every further demonstration beyond the ones compared, one more alignment."""
+    monkeypatch.setattr(alignment, "COMPARED", 4)
+    calls = []
+
+    def counted(a, b):
+        calls.append(1)
+        return dtw(a, b)
+
+    monkeypatch.setattr(alignment, "dtw", counted)
+    counts = []
+    for count in (4, 5, 12):
+        calls.clear()
+        align([reach([0.9, 0.2, 0.6], bend=0.01 * i, n=10) for i in range(count)])
+        counts.append(len(calls))
+    assert counts == [6 + 3, 6 + 4, 6 + 11]
+
+
+def test_nothing_to_align_is_nothing():
+    assert align([]) == []

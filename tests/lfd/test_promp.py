@@ -1,7 +1,10 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from lfd.basis import GaussianBasis, weights
+from lfd.alignment import Selection
+from lfd.basis import GaussianBasis
 from lfd.demonstration import Situation
 from lfd.exceptions import NotFinite, TooFewDemonstrations
 from lfd.promp import ConditionedProMP, PrompOptions
@@ -31,10 +34,11 @@ def test_mean_is_that_of_one_model_for_each_output(demonstrations):
     for axis in range(3):
         w = np.array(
             [
-                weights(
+                np.linalg.lstsq(
                     basis.matrix(np.linspace(0, 1, 10)),
-                    resample(d.trajectory, 10).positions[:, [axis]] - d.origin[axis],
-                )[:, 0]
+                    resample(d.trajectory, 10).positions[:, axis] - d.origin[axis],
+                    rcond=None,
+                )[0]
                 for d in demonstrations
             ]
         )
@@ -42,6 +46,21 @@ def test_mean_is_that_of_one_model_for_each_output(demonstrations):
         gain = Sigma[:10, 10:] @ np.linalg.inv(Sigma[10:, 10:] + 0.03 * np.eye(3))
         mean = basis.matrix(np.linspace(0, 1, 50)) @ (w.mean(axis=0) + gain @ (wanted - s.mean(axis=0)))
         np.testing.assert_allclose(predicted.trajectory.positions[:, axis], mean + target[axis], atol=1e-8)
+
+
+def test_by_the_thesis_selection_two_of_a_condition_are_learnt_from(demonstrations, reach):
+    repeated = [*demonstrations, reach(OBJECTS[0], bend=0.02), reach(OBJECTS[0], bend=0.3)]
+    assert ConditionedProMP.fit(repeated).joint.count == 6
+    pair = PrompOptions(selection=Selection.SIMILAR_PAIR)
+    assert ConditionedProMP.fit(repeated, pair).joint.count == 5
+
+
+def test_the_duration_is_certain_where_the_condition_tells_all_of_it(demonstrations):
+    """The variance that is left is zero but for rounding, on either side."""
+    for scale in np.geomspace(0.1, 10.0, 20):
+        along = [replace(d, condition=scale * np.log([d.trajectory.duration])) for d in demonstrations]
+        model = ConditionedProMP.fit(along, PrompOptions(conditioning_noise=1e-20))
+        assert model.predict(along[0].situation).duration_std == pytest.approx(0.0, abs=1e-6)
 
 
 def test_an_update_equals_a_fit_of_all(demonstrations):

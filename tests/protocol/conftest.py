@@ -15,7 +15,7 @@ EXAMPLES = {
     Motion: Motion(Array("<f8", (2, 3), b"\0" * 48), Array("<f8", (2, 4), b"\0" * 64), 1.0),
     bool: True,
     int: 7,
-    float: 1.5,
+    float: 0.5,
     str: "x",
     bytes: b"\x01",
 }

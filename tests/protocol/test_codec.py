@@ -84,6 +84,13 @@ def test_a_damaged_message_decodes_or_is_a_protocol_error(cut, flip):
             assert isinstance(decode(topic, payload), messages.MasterState)
 
 
+def test_a_master_without_rotation_is_one_that_does_not_turn():
+    earlier = msgpack.packb({"displacement": [0.1, 0.0, 0.0], "engaged": True, "device": "stylus"})
+    expected = messages.MasterState(displacement=(0.1, 0.0, 0.0), engaged=True, device="stylus")
+    assert decode(topics.MASTER_STATE, earlier) == expected
+    assert expected.rotation == (0.0, 0.0, 0.0)
+
+
 @pytest.mark.parametrize("number", [float("nan"), float("inf"), -float("inf"), 1e10])
 def test_numbers_that_are_no_measurement_do_not_pass(number):
     payload = encode(topics.MASTER_STATE, messages.MasterState(displacement=(0.0, number, 0.0)))

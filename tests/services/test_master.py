@@ -55,8 +55,9 @@ def test_it_publishes_at_the_topics_rate_though_nobody_is_there():
 
 
 def test_a_held_key_moves_the_device_and_the_epoch_stands_in_the_state():
-    state = Desk().run(1.0)
+    state = Desk().run(1.0, keys=("KeyQ", "KeyG"))
     assert state.displacement == pytest.approx((0.12, 0.0, 0.0), abs=0.002)
+    assert state.rotation == pytest.approx((0.0, -0.4, 0.0), abs=0.006)
     assert state.engaged
     assert state.epoch == 7
 

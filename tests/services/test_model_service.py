@@ -32,11 +32,11 @@ class Rig:
         self.service.step(self.clock.now_ns())
         return pending.poll()
 
-    def teach(self, kind, bend=0.0, at=OBJECT):
+    def teach(self, kind, bend=0.0, at=OBJECT, **more):
         t = np.linspace(0.0, 1.0, 40)[:, None]
         path = np.array(START.position) + t * (np.array(at) - START.position) + np.sin(np.pi * t) * [0.0, 0.0, bend]
         motion = motion_to_wire(path, np.tile(START.orientation, (40, 1)), 10.0)
-        return self.ask(queries.ADD_DEMONSTRATION, AddDemonstration(kind, motion, at, "dishwasher"))
+        return self.ask(queries.ADD_DEMONSTRATION, AddDemonstration(kind, motion, at, "dishwasher", **more))
 
     def predict(self, at=OBJECT):
         return self.ask(queries.PREDICT, queries.Predict(at, START))
@@ -86,6 +86,20 @@ def test_a_correction_changes_the_prediction_at_its_condition_and_undo_takes_it_
     np.testing.assert_allclose(positions(rig.predict()), before, atol=1e-12)
     assert (learnt.state.updates, undone.state.updates) == (1, 0)
     assert undone.state.version > learnt.state.version
+
+
+def test_a_correction_that_is_half_believed_moves_the_prediction_half_the_way(rig):
+    """Equation (18) with alpha = 0.5."""
+    rig.teach(Kind.INITIAL)
+    before = rig.predict().prediction
+    rig.teach(Kind.UPDATE, bend=0.1, prediction=before.motion, alpha=0.5)
+    raised = positions(rig.predict())[:, 2] - motion_from_wire(before.motion)[0][:, 2]
+    assert np.max(raised) == pytest.approx(0.05, abs=0.005)
+
+
+def test_a_model_of_another_condition_refuses_the_motion(rig):
+    rig.teach(Kind.INITIAL)
+    assert "condition" in rig.teach(Kind.UPDATE, condition=(0.1, 0.2)).reason
 
 
 @pytest.mark.parametrize("kind", ["adaptive", "promp"])

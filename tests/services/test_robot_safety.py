@@ -3,7 +3,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from lfd.rotations import exp_map
 from services.robot import safety
+from services.robot.correction import Correction
+from services.robot.execution import angle_between
 from services.robot.safety import EmergencyStop, JointLimits, hold_reason
 from sim.pose import Pose
 
@@ -54,9 +57,34 @@ def test_a_step_that_is_too_fast_keeps_its_direction():
 def test_the_reference_cannot_jump():
     far = Pose(np.array([1.0, 0.0, 0.0]), IDENTITY)
     near, clamped = safety.clamp_reference(Pose(np.zeros(3), IDENTITY), far, PERIOD)
-    assert clamped
+    assert clamped == ("reference speed",)
     assert np.linalg.norm(near.position) == pytest.approx(safety.REFERENCE_SPEED * PERIOD)
-    assert safety.clamp_reference(near, near, PERIOD) == (near, False)
+    assert safety.clamp_reference(near, near, PERIOD) == (near, ())
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_the_reference_cannot_spin_whatever_the_sign_of_its_quaternion(sign):
+    widest = safety.REFERENCE_TURN_SPEED * PERIOD
+    pose, turned = Pose(np.zeros(3), IDENTITY), Pose(np.zeros(3), sign * exp_map(np.array([0.0, 10.5 * widest, 0.0])))
+    for _ in range(10):
+        before = pose
+        pose, clamped = safety.clamp_reference(before, turned, PERIOD)
+        assert clamped == ("reference turn speed",)
+        assert angle_between(before.orientation, pose.orientation) == pytest.approx(widest)
+    assert safety.clamp_reference(pose, turned, PERIOD) == (turned, ())
+
+
+@given(st.tuples(*[st.floats(-2.0, 2.0)] * 3), st.tuples(*[st.floats(-4.0, 4.0)] * 3))
+def test_a_correction_keeps_to_its_reach_and_its_direction_and_each_clamp_is_named(offset, turn):
+    wanted = Correction(np.array(offset), np.array(turn))
+    within, names = safety.clamp_correction(wanted)
+    for vector, clamped, reach, name in (
+        (wanted.offset, within.offset, safety.DISPLACEMENT_REACH, "displacement"),
+        (wanted.turn, within.turn, safety.ROTATION_REACH, "rotation"),
+    ):
+        assert np.linalg.norm(clamped) <= reach * (1.0 + 1e-9)
+        assert (name in names) == (np.linalg.norm(vector) > reach * (1.0 + 1e-9))
+        np.testing.assert_allclose(np.cross(vector, clamped), 0.0, atol=1e-12)
 
 
 def test_a_robot_too_close_to_itself_may_only_move_away():

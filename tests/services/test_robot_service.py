@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from lfd.rotations import exp_map, multiply
 from protocol import messages, queries, topics
 from protocol.messages import Mode, Phase
 from protocol.queries import Accepted, AuthorityGranted, EpisodeStarted, Refused
@@ -8,6 +9,7 @@ from services.arrays import from_wire, motion_to_wire
 from services.clock import ManualClock
 from services.config import Configuration
 from services.memory_bus import MemoryNetwork
+from services.robot import safety
 from services.robot.service import build
 from sim.scenes import scene
 
@@ -31,7 +33,7 @@ class Site:
         self.execution = self.operator.subscribe(topics.EXECUTION)
         self.epoch = 0
 
-    def run(self, seconds, *, renew=True, master=None, epoch=None):
+    def run(self, seconds, *, renew=True, master=None, rotation=(0.0, 0.0, 0.0), epoch=None):
         for _ in range(round(seconds * 100)):
             self.clock.advance(0.01)
             epoch_now = self.epoch if epoch is None else epoch
@@ -40,7 +42,7 @@ class Site:
                     topics.AUTHORITY_RENEWAL, messages.AuthorityRenewal(holder="ann", epoch=self.epoch)
                 )
             if master is not None:
-                state = messages.MasterState(displacement=master, engaged=True, epoch=epoch_now)
+                state = messages.MasterState(displacement=master, rotation=rotation, engaged=True, epoch=epoch_now)
                 self.operator.publish(topics.MASTER_STATE, state)
             self.service.step(self.clock.now_ns())
 
@@ -140,10 +142,40 @@ def test_the_operators_displacement_becomes_the_refinement(site):
     assert site.state.measured.position[2] == pytest.approx(SCENE.start.position[2] + 0.05, abs=2e-3)
 
 
+@pytest.mark.parametrize("adapt", queries.Adapt)
+def test_the_operators_rotation_becomes_the_refinement_s_orientation(site, adapt):
+    turn = np.array([0.0, -0.2, 0.1])
+    site.acquire()
+    site.execute(Mode.REFINE, motion=site.lift(duration=3.0), adapt=adapt)
+    site.run(2.0, master=(0.0, 0.0, 0.0), rotation=tuple(turn.tolist()))
+    np.testing.assert_allclose(site.state.turn, turn, atol=1e-6)
+    site.run(2.5, master=(0.0, 0.0, 0.0), rotation=tuple(turn.tolist()))
+    result = site.take_results()[0]
+    assert result.operator_input, "turning alone is input too"
+    assert result.completed
+    wanted = multiply(exp_map(turn), SCENE.start.orientation)
+    for motion in (result.refined, result.commanded, result.measured):
+        orientations = from_wire(motion.orientations)
+        np.testing.assert_allclose(np.linalg.norm(orientations, axis=1), 1.0, atol=1e-12)
+        assert abs(orientations[-1] @ wanted) == pytest.approx(1.0, abs=1e-5)
+    moved = from_wire(result.commanded.positions) - from_wire(result.prediction.positions)
+    np.testing.assert_allclose(moved, 0.0, atol=3e-3)
+    np.testing.assert_allclose(moved[-1], 0.0, atol=1e-4)
+
+
+def test_a_rotation_beyond_the_reach_is_clamped_and_said(site):
+    site.acquire()
+    site.execute(Mode.REFINE, motion=site.lift(duration=3.0))
+    site.run(1.2, master=(0.0, 0.0, 0.0), rotation=(0.0, -1e9, 0.0))
+    assert "rotation" in site.state.clamped
+    site.run(3.0, master=(0.0, 0.0, 0.0), rotation=(0.0, -1e9, 0.0))
+    assert np.linalg.norm(site.state.turn) <= safety.ROTATION_REACH * (1.0 + 1e-6)
+
+
 def test_a_refinement_holds_when_the_master_falls_silent_and_goes_on_when_it_is_back(site):
     site.acquire()
     site.execute(Mode.REFINE)
-    site.run(1.0, master=(0.0, 0.0, 0.01))
+    site.run(1.0, master=(0.0, 0.0, 0.01), rotation=(0.0, -0.1, 0.0))
     site.run(0.09)
     assert site.state.phase is Phase.EXECUTE
     site.run(0.04)
@@ -151,9 +183,11 @@ def test_a_refinement_holds_when_the_master_falls_silent_and_goes_on_when_it_is_
     assert held.phase is Phase.HOLD
     assert "100 ms" in held.hold_reason
     site.run(1.0)
-    assert (site.state.progress, site.state.offset, site.state.reference) == (
+    assert held.turn[1] < 0.0
+    assert (site.state.progress, site.state.offset, site.state.turn, site.state.reference) == (
         held.progress,
         held.offset,
+        held.turn,
         held.reference,
     )
     site.run(2.0, master=(0.0, 0.0, 0.01))
@@ -248,6 +282,40 @@ def test_reset_brings_arm_and_object_back_and_changes_the_variant(site):
     assert scenes.latest().message.variant == "b2"
     np.testing.assert_allclose(world.latest().message.object_pose.position, place, atol=2e-3)
     np.testing.assert_allclose(site.state.measured.position, SCENE.start.position, atol=1e-3)
+
+
+def test_reset_takes_a_start_keeps_it_and_announces_it_at_once(site):
+    site.acquire()
+    scenes = site.operator.subscribe(topics.SCENE_STATE)
+    x, y, z = SCENE.start.position.tolist()
+    w, i, j, k = SCENE.start.orientation.tolist()
+    start = messages.Pose((x - 0.05, y + 0.1, z), (w, i, j, k))
+    assert site.ask(queries.RESET, queries.Reset(site.epoch, start=start)) == Accepted()
+    assert scenes.latest().message.start.position == start.position
+    np.testing.assert_allclose(site.state.measured.position, start.position, atol=1e-3)
+    assert site.ask(queries.RESET, queries.Reset(site.epoch)) == Accepted()
+    np.testing.assert_allclose(site.state.measured.position, start.position, atol=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("offset", "reason"),
+    [
+        ((0.0, 0.0, 0.4), "give a place within"),
+        ((-0.3, 0.3, 0.3), "does not reach it in that orientation: give another start"),
+        ((0.09, 0.04, 0.01), "would touch basket_front: give another start"),
+    ],
+)
+def test_a_start_that_cannot_be_is_refused_and_nothing_changes(site, offset, reason):
+    site.acquire()
+    before = site.state
+    start = messages.Pose(tuple((SCENE.start.position + offset).tolist()), tuple(SCENE.start.orientation.tolist()))
+    refused = site.ask(queries.RESET, queries.Reset(site.epoch, "b2", start=start))
+    assert isinstance(refused, Refused)
+    assert reason in refused.reason
+    assert "\n" not in refused.reason
+    site.run(0.2)
+    np.testing.assert_allclose(site.state.q, before.q, atol=1e-4)
+    assert site.service._control.arm.variant == "b1"
 
 
 def test_every_topic_comes_at_the_rate_of_the_registry(site):

@@ -107,9 +107,17 @@ def publish_everything(bus, tick, object_size=(0.05, 0.05, 0.1)):
         ),
     )
     q = (0.1, 0.01 * tick, 0.0)
-    bus.publish(
-        ROBOT_STATE, RobotState(joint_names=JOINTS, q=q, qd=q, measured=HERE, reference=HERE, phase=Phase.EXECUTE)
+    robot = RobotState(
+        joint_names=JOINTS,
+        q=q,
+        qd=q,
+        measured=HERE,
+        reference=HERE,
+        phase=Phase.EXECUTE,
+        offset=(0.05, 0.0, 0.0),
+        turn=(0.0, np.pi / 6, 0.0),
     )
+    bus.publish(ROBOT_STATE, robot)
     bus.publish(MASTER_STATE, MasterState(force=(0.0, 0.0, 1.0 * tick)))
     bus.publish(WORLD_STATE, WorldState(time=0.0, qpos=to_wire(np.zeros(5)), object_pose=HERE))
     bus.publish(OBJECT_POSE, ObjectPose(pose=HERE, tag=7, error=0.001))
@@ -160,6 +168,8 @@ def test_the_recording_is_sound_and_holds_what_was_published(system):
         entities.FORCE,
         entities.JOINTS,
         entities.JOURNAL,
+        f"{entities.CORRECTION}/offset",
+        f"{entities.CORRECTION}/turn",
         f"{entities.CAMERAS}/head",
         f"{entities.ROBOT}/moving",
     )
@@ -253,4 +263,24 @@ def test_a_folder_that_cannot_be_written_to_is_named(configuration, tmp_path):
 
     (tmp_path / "runs").write_text("a file")
     with pytest.raises(ViewerError, match="folder"):
+<<<<<<< HEAD
         Recording(msgspec.structs.replace(configuration.viewer, folder=str(tmp_path / "runs")), "testbed", 0, Eye())
+=======
+        Recording(msgspec.structs.replace(configuration.viewer, folder=str(tmp_path / "runs")), "testbed", 0)
+
+
+def test_the_correction_is_shown_in_millimetres_and_degrees(tmp_path):
+    import rerun as rr
+    from rerun.chunk import RrdReader
+
+    from services.viewer import entities, series
+
+    path = tmp_path / "correction.rrd"
+    with rr.RecordingStream("test") as stream:
+        stream.save(path)
+        series.log_correction(stream, (0.05, 0.0, -0.01), (0.0, np.pi / 6, 0.0))
+        stream.disconnect()
+    shown = {c.entity_path: c.to_record_batch().to_pydict().get("Scalars:scalars") for c in RrdReader(path).stream()}
+    np.testing.assert_allclose(shown[f"{entities.CORRECTION}/offset"], [[50.0, 0.0, -10.0]])
+    np.testing.assert_allclose(shown[f"{entities.CORRECTION}/turn"], [[0.0, 30.0, 0.0]])
+>>>>>>> main

@@ -172,6 +172,20 @@ def test_the_run_is_about_the_changed_variant_and_one_object_position():
     assert resets == {("b2", (0.85, 0.05, 0.5))}
 
 
+def test_an_arrangement_is_what_every_reset_asks_for():
+    arrangement = queries.Reset(0, "b1", (0.9, 0.1, 0.5), start=POSE)
+    site = Site(replace(SCRIPTED, arrangement=arrangement), [COLLIDED, REACHED, REACHED])
+    site.run_to(Phase.FINISHED)
+    resets = [ask.request for ask in site.asked if ask.query is queries.RESET]
+    assert resets == [queries.Reset(site.epoch, "b1", (0.9, 0.1, 0.5), start=POSE)] * 3
+
+
+def test_a_run_without_refinements_executes_once():
+    site = Site(replace(SCRIPTED, refinements_allowed=0), [COLLIDED])
+    site.run_to(Phase.FINISHED)
+    assert [attempt.mode for attempt in site.state.attempts] == [Mode.AUTONOMOUS]
+
+
 def test_refinements_run_slower_than_predictions_and_are_learnt_in_a_predictions_tempo():
     site = Site(SCRIPTED, [COLLIDED, REACHED, REACHED])
     site.run_to(Phase.FINISHED)

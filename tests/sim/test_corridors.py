@@ -6,9 +6,16 @@ from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation, Slerp
 
 from services.robot.kinematics import Kinematics
+from services.robot.starts import Starts
 from sim.description import RobotDescription
+<<<<<<< HEAD
 from sim.scenes import REACHING
 from sim.scenes.scene import Corridor, ReachingScene
+=======
+from sim.pose import Pose
+from sim.scenes import SCENES
+from sim.scenes.scene import Corridor, Scene
+>>>>>>> main
 from sim.world import CONTROL_PERIOD, World
 
 pytestmark = pytest.mark.sim
@@ -16,6 +23,7 @@ SCENE = pytest.mark.parametrize("place", REACHING.values(), ids=REACHING)
 
 DURATION = 10.0  # [s]
 MARGIN = 0.03  # [m]
+OFFSETS = ((0.0, 0.05, 0.05), (-0.1, -0.1, 0.0), (-0.1, 0.05, 0.1), (-0.05, 0.0, 0.0))  # [m]
 
 
 class Rollout:
@@ -73,6 +81,21 @@ def test_each_variants_own_corridor_reaches_with_room_to_spare(stage: tuple[Worl
         assert rollout.margin >= MARGIN
         assert rollout.reached
         assert np.all(rollout.displacement < world.scene.kicked_thresholds / 10)
+
+
+def test_a_corridor_from_any_free_start_reaches(stage: tuple[World, Kinematics]) -> None:
+    world, kinematics = stage
+    scene = world.scene
+    starts = Starts(kinematics, scene.start, scene.posture, self_distance=0.005)
+    for variant, offset in zip(scene.variants * 2, OFFSETS, strict=True):
+        start = Pose(scene.start.position + offset, scene.start.orientation)
+        position = scene.region.sample(np.random.default_rng(3))
+        world.reset(position, variant, starts.joints(start))
+        assert not world.observe().contacts
+        rollout = Rollout(world, kinematics, scene.corridor(variant, position, start), margins=False)
+        assert not rollout.collided
+        assert rollout.reached
+        assert np.all(rollout.displacement < scene.kicked_thresholds / 10)
 
 
 def test_the_trained_motion_collides_in_the_changed_scene(stage: tuple[World, Kinematics]) -> None:

@@ -56,6 +56,15 @@ def test_without_a_hand_the_energy_falls(position, velocity):
         before = after
 
 
+def test_the_handle_turns_as_it_is_held_and_stays_when_it_is_let_go():
+    """The gimbal has neither motors nor springs; turning it does not move the tip."""
+    stylus = Stylus()
+    for angle in (0.1, 0.3, -0.2):
+        assert stylus.step((0.0, 0.0, 0.0), DT, (angle, 0.0, 2.0 * angle)).rotation == (angle, 0.0, 2.0 * angle)
+    assert stylus.step((0.1, 0.0, 0.0), DT).rotation == (-0.2, 0.0, -0.4)
+    assert stylus.state.position[1:] == (0.0, 0.0)
+
+
 @settings(max_examples=25)
 @given(force=st.tuples(*[st.floats(-100.0, 100.0)] * 3))
 def test_it_stops_at_the_edge_of_its_workspace(force):

@@ -54,8 +54,9 @@ class Person:
             if received is None or received.message.mode is not Mode.REFINE or seen is None:
                 return None
             place = np.array(seen.message.pose.position)
-            ways = [DISHWASHER.corridor(variant, place).positions for variant in DISHWASHER.variants]
-            self._correction = plan(motion_from_wire(received.message.prediction)[0], ways[1], ways)
+            ways = [DISHWASHER.corridor(variant, place) for variant in DISHWASHER.variants]
+            positions, orientations, _ = motion_from_wire(received.message.prediction)
+            self._correction = plan(positions, orientations, ways[1], ways)
         return self._correction.displacement(min(1.0, progress + LEAD))
 
     def _hold(self, keys):

@@ -251,6 +251,7 @@ def test_sound_messages_with_senseless_content_stop_nobody(network, unmoved):
         (topics.ROBOT_STATE, replace(robot, joint_names=(), q=(1e9,) * 64, clamped=("",) * 16)),
         (topics.OBJECT_POSE, replace(decode[topics.OBJECT_POSE.name], tag=2**53, error=-1e9)),
         (topics.MASTER_STATE, replace(decode[topics.MASTER_STATE.name], displacement=(1e9, 1e9, 1e9), engaged=True)),
+        (topics.MASTER_STATE, replace(decode[topics.MASTER_STATE.name], rotation=(1e9, -1e9, 1e9), engaged=True)),
         (topics.OPERATOR_INPUT, messages.OperatorInput(keys=("\0",) * 32, focused=True, axes=(1e9,) * 16)),
         (topics.AUTHORITY_RENEWAL, messages.AuthorityRenewal(holder="stranger", epoch=2**53)),
         (topics.EMERGENCY_STOP, messages.EmergencyStop(pressed=False, by="")),

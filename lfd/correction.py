@@ -1,0 +1,195 @@
+"""What corrections change: a Gaussian process over the condition, on top of what the demonstrations say.
+
+The change at s, given the changes y_j that the corrections made at s_j, is C(s, s_j) (C + R)^-1 y. C has two parts:
+
+1. What the demonstrations left open: how uncertain their mean and trend are, and the room between their conditions.
+   A correction that this explains says nothing new about places where the demonstrations are sure.
+2. Where the corrections are larger than that, the world has changed: a part as large as the surprise, and as wide as
+   the motion is long.
+
+So a correction acts near its condition and, smoothly, less with distance; it acts wider the more it surprises.
+"""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Self
+
+import numpy as np
+from scipy.linalg import cho_factor, cho_solve
+from scipy.spatial.distance import cdist
+
+from lfd.arrays import Array
+from lfd.regression import Regression
+
+
+@dataclass(frozen=True)
+class CorrectionOptions:
+    """Fixed once for all data; lengths are fractions of the extent of the motions.
+
+    Attributes:
+        noise: Variance of a correction relative to what it could have changed [-].
+        forgetting: Variance added to a correction for each newer one at its condition, relative as the noise [-].
+        mean_std: Uncertainty of one demonstration as the mean of its condition.
+        near_std: Of the room between the demonstrations' conditions.
+        slope_std: By how much a motion may change as its condition changes by one unit, both lengths [-].
+        reach: Length over which a surprising correction fades.
+        most: Corrections kept; beyond it the most outdated is forgotten.
+    """
+
+    noise: float = 0.01
+    forgetting: float = 2.0
+    mean_std: float = 0.02
+    near_std: float = 0.03
+    slope_std: float = 1.0
+    reach: float = 1.6
+    most: int = 200
+
+
+@dataclass(frozen=True, eq=False)
+class Corrections:
+    """The corrections of a regression, oldest first.
+
+    Attributes:
+        regression: What is corrected.
+        options: Parameters.
+        conditions: s_j, shape (J, c).
+        changes: y_j = x_j - m(s_j), where m is the regression's mean, shape (J, D).
+        nearness: k(s_j, S) to the demonstrations' conditions, shape (J, M).
+        solved: (K + r I)^-1 of that, shape (J, M).
+        openness: Part 1 of C between the corrections, shape (J, J).
+    """
+
+    regression: Regression
+    options: CorrectionOptions
+    conditions: Array
+    changes: Array
+    nearness: Array
+    solved: Array
+    openness: Array
+
+    @classmethod
+    def none(cls, regression: Regression, options: CorrectionOptions) -> Self:
+        """No correction yet."""
+        M, c = regression.conditions.shape
+        D = regression.vectors.shape[1]
+        shapes = ((0, c), (0, D), (0, M), (0, M), (0, 0))
+        return cls(regression, options, *(np.zeros(shape) for shape in shapes))
+
+    def __len__(self) -> int:
+        return len(self.conditions)
+
+    def added(self, s: Array, x: Array) -> Self:
+        """With a newer correction: at s (c,) the vector is x (D,)."""
+        k = self.regression.near(s)
+        solved = self.regression.solved(k)
+        row = self._open(s, k)
+        corner = self._open_at(s, k, solved)
+        longer = replace(
+            self,
+            conditions=np.vstack([self.conditions, s]),
+            changes=np.vstack([self.changes, x - self.regression.mean(s)]),
+            nearness=np.vstack([self.nearness, k]),
+            solved=np.vstack([self.solved, solved]),
+            openness=np.block([[self.openness, row[:, None]], [row[None], np.full((1, 1), corner)]]),
+        )
+        return longer if len(longer) <= self.options.most else longer.without(int(np.argmax(longer._outdated)))
+
+    def without(self, index: int) -> Self:
+        """Without the correction of that index; -1 is the newest."""
+        kept = np.delete(np.arange(len(self)), index)
+        return replace(
+            self,
+            conditions=self.conditions[kept],
+            changes=self.changes[kept],
+            nearness=self.nearness[kept],
+            solved=self.solved[kept],
+            openness=self.openness[np.ix_(kept, kept)],
+        )
+
+    def change(self, s: Array, k: Array) -> Array:
+        """What the corrections change at s (c,), given k = `regression.near(s)`, shape (D,)."""
+        if not len(self):
+            return np.zeros(self.changes.shape[1])
+        change: Array = self._covariances(s, k) @ self._gain
+        return change
+
+    def open_share(self, s: Array, k: Array) -> float:
+        """The share of the variance at s that the corrections have left: 1 far from all, nearly 0 at the newest."""
+        if not len(self):
+            return 1.0
+        covariances = self._covariances(s, k)
+        before = self._open_at(s, k, self.regression.solved(k)) + self.surprise
+        explained = float(covariances @ cho_solve(self._factor, covariances))
+        return min(max(1.0 - explained / before, 0.0), 1.0)
+
+    @cached_property
+    def surprise(self) -> float:
+        """Mean square by which the corrections exceed what the demonstrations left open; the measure's unit squared."""
+        if not len(self):
+            return 0.0
+        squares = np.sum((self.changes @ self.regression.measure) ** 2, axis=1)
+        return max(float(np.mean(squares - np.diag(self.openness))), 0.0)
+
+    @cached_property
+    def surprising_share(self) -> float:
+        """The share of the corrections' mean square that was a surprise."""
+        squares = np.sum((self.changes @ self.regression.measure) ** 2, axis=1)
+        return self.surprise / float(np.mean(squares)) if self.surprise > 0.0 else 0.0
+
+    def _covariances(self, s: Array, k: Array) -> Array:
+        return np.asarray(self._open(s, k) + self.surprise * self._wide(s[None])[0], dtype=np.float64)
+
+    def _open(self, s: Array, k: Array) -> Array:
+        """Part 1 of C between s and the corrections, shape (J,)."""
+        regression, extent = self.regression, self.regression.extent
+        near = regression.kernel(s[None], self.conditions)[0] - self.solved @ k
+        mean = (self.options.mean_std * extent) ** 2 / len(regression.conditions)
+        slopes = (self.conditions - self._middle) @ self._slope_covariance @ (s - self._middle)
+        return np.asarray(mean + slopes + (self.options.near_std * extent) ** 2 * near, dtype=np.float64)
+
+    def _open_at(self, s: Array, k: Array, solved: Array) -> float:
+        extent, away = self.regression.extent, s - self._middle
+        mean = (self.options.mean_std * extent) ** 2 / len(self.regression.conditions)
+        near = max(1.0 - float(k @ solved), 0.0)
+        return mean + float(away @ self._slope_covariance @ away) + (self.options.near_std * extent) ** 2 * near
+
+    def _wide(self, s: Array) -> Array:
+        """Part 2 of C between s (m, c) and the corrections, at one unit of surprise, shape (m, J).
+
+        The Matern kernel of order 3/2: smooth, but not so smooth that two corrections against each other, side by side,
+        would be taken for a slope and overshoot beyond them.
+        """
+        distances = np.sqrt(3.0) * cdist(s, self.conditions) / (self.options.reach * self.regression.extent)
+        wide: Array = (1.0 + distances) * np.exp(-distances)
+        return wide
+
+    @cached_property
+    def _middle(self) -> Array:
+        return np.asarray(self.regression.conditions.mean(axis=0), dtype=np.float64)
+
+    @cached_property
+    def _slope_covariance(self) -> Array:
+        """Of each output's slope, given demonstrations of `mean_std` and before them `slope_std`, shape (c, c)."""
+        variance = (self.options.mean_std * self.regression.extent) ** 2
+        deviations = self.regression.conditions - self._middle
+        values, axes = np.linalg.eigh(deviations.T @ deviations)
+        prior = self.options.slope_std**2
+        return np.asarray(axes * (prior * variance / (prior * np.maximum(values, 0.0) + variance)) @ axes.T)
+
+    @cached_property
+    def _outdated(self) -> Array:
+        """How many newer corrections lie at the condition of each, fading with distance, shape (J,)."""
+        newer: Array = np.triu(self.regression.kernel(self.conditions, self.conditions) ** 4, k=1)
+        return np.asarray(newer.sum(axis=1), dtype=np.float64)
+
+    @cached_property
+    def _factor(self) -> tuple[Array, bool]:
+        C = self.openness + self.surprise * self._wide(self.conditions)
+        noise = np.diag(C) * (self.options.noise + self.options.forgetting * self._outdated)
+        factor: tuple[Array, bool] = cho_factor(C + np.diag(noise))
+        return factor
+
+    @cached_property
+    def _gain(self) -> Array:
+        gain: Array = cho_solve(self._factor, self.changes)
+        return gain

@@ -1,0 +1,44 @@
+"""What the operator changes in a pose: the displacement of eq. 15-17, and its counterpart for the orientation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lfd.rotations import exp_map, multiply
+from sim.pose import Pose
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Correction:
+    """A translation and a rotation, both in base axes; a pose corrected by it is (p + offset, exp(turn) R).
+
+    Attributes:
+        offset: added to the position, shape (3,) [m].
+        turn: rotation vector, shape (3,) [rad]; the rotation stands on the left of the pose's own, and leaves the
+            position of the frame where it is.
+    """
+
+    offset: Array
+    turn: Array
+
+    def of(self, pose: Pose) -> Pose:
+        """The corrected pose; without a turn the orientation stays what it was, to the last bit."""
+        orientation = multiply(exp_map(self.turn), pose.orientation) if self.turn.any() else pose.orientation
+        return Pose(pose.position + self.offset, orientation)
+
+    def towards(self, other: Correction, share: float) -> Correction:
+        """The correction that is moved by a share, from 0 to 1, of the way to another one."""
+        return Correction(
+            self.offset + share * (other.offset - self.offset), self.turn + share * (other.turn - self.turn)
+        )
+
+
+UNCORRECTED = Correction(np.zeros(3), np.zeros(3))
+"""The prediction alone."""
+UNCORRECTED.offset.setflags(write=False)
+UNCORRECTED.turn.setflags(write=False)

@@ -1,0 +1,242 @@
+"""Both models through the same conditions: taught by Algorithm 1, then executed once more without teaching."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from lfd.demonstration import Demonstration
+from protocol import messages
+from services.arrays import quaternion, vector3
+from services.rehearsal.rehearsal import Plan, Rehearsed, rehearse_all
+from services.rehearsal.result import Arrangement, Course
+from services.robot.lesson import demonstrate
+from services.robot.rollout import simulated_arm
+from services.study.analysis import Context, Figure, Holds, Row
+from services.study.models import KINDS, Kind
+from services.study.scenery import draw_way, furnish, place_object
+from services.study.style import DEMONSTRATION_LINE, REFINEMENT, Line, drawn, panels
+from sim.description import prepare
+from sim.pose import Pose
+from sim.scenes.scene import Scene, Vector
+
+Array = NDArray[np.float64]
+
+MODELS = ("promp", "adaptive")
+"""The model process' names of `KINDS`, in their order."""
+
+_REFINEMENT_LINE = Line(REFINEMENT, 1.4)
+_COLUMNS = 4
+
+
+@dataclass(frozen=True, eq=False)
+class Question:
+    """What is taught, and how.
+
+    Attributes:
+        scene: of all conditions.
+        demonstrated: that the models start from, in the scene's first variant.
+        refined: conditions that Algorithm 1 goes through.
+        executed: conditions of the second round.
+        shown: least and greatest corner of the part of space to draw [m].
+    """
+
+    scene: Scene
+    demonstrated: tuple[Arrangement, ...]
+    refined: tuple[Arrangement, ...]
+    executed: tuple[Arrangement, ...]
+    shown: tuple[Vector, Vector]
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """What came out, for both models in the order of `KINDS`.
+
+    Attributes:
+        question: that was asked.
+        demonstrations: that both models started from.
+        of_kinds: both rounds of each model.
+    """
+
+    question: Question
+    demonstrations: tuple[Demonstration, ...]
+    of_kinds: tuple[Rehearsed, ...]
+
+
+def arrangement(scene: Scene, variant: str, object_position: Sequence[float], offset: Sequence[float]) -> Arrangement:
+    """An arrangement whose start is moved by an offset from the scene's own [m]."""
+    start = messages.Pose(vector3(scene.start.position + np.array(offset)), quaternion(scene.start.orientation))
+    return Arrangement(variant, vector3(object_position), start)
+
+
+def taught(scene: Scene, arrangements: Sequence[Arrangement], rng: np.random.Generator) -> tuple[Demonstration, ...]:
+    """A demonstration under each arrangement, given in the simulator by the scripted operator.
+
+    Raises:
+        CommandFailed: no motion to some object succeeded.
+        StartImpossible: no motion can start there.
+    """
+    arm = simulated_arm(scene, scene.variants[0], prepare())
+    return tuple(
+        demonstrate(arm, scene, np.array(one.object_position), rng, _pose(one.start) if one.start else None)
+        for one in arrangements
+    )
+
+
+def answered(question: Question, context: Context) -> Answer:
+    """Teach both models, each in a process of its own where there are several cores."""
+    demonstrations = taught(question.scene, question.demonstrated, context.rng())
+    plans = [
+        Plan(question.scene.name, model, demonstrations, question.refined, question.executed, seed=context.seed)
+        for model in MODELS
+    ]
+    return Answer(question, demonstrations, tuple(rehearse_all(plans, os.cpu_count() or 1, context.advance)))
+
+
+def needed(rehearsed: Rehearsed) -> int:
+    """Under how many conditions the first prediction failed."""
+    return sum(course.needed_refinement for course in rehearsed.first)
+
+
+def holds(answer: Answer, needed_by_thesis: int) -> Holds:
+    """Of the claim that few refinements are needed and that every condition is reached in the second round."""
+    conditioned = answer.of_kinds[0]
+    if not all(course.success for course in conditioned.second):
+        return Holds.NO
+    return Holds.YES if needed(conditioned) <= needed_by_thesis else Holds.DIFFERS
+
+
+def sentence(answer: Answer, needed_by_thesis: int) -> str:
+    """What came out, in words."""
+    conditioned, adaptive = answer.of_kinds
+    total = len(answer.question.refined)
+    first = (
+        f"Without exaggeration the thesis' method needed refinements under {needed(conditioned)} of {total} conditions"
+        f" (in the thesis {needed_by_thesis}), the default model under {needed(adaptive)}."
+    )
+    missed = [len(one.second) - sum(course.success for course in one.second) for one in answer.of_kinds]
+    if not any(missed):
+        return f"{first} In the second round both reached every condition."
+    return (
+        f"{first} In the second round the thesis' method failed under {missed[0]} of {len(conditioned.second)}, the"
+        f" default model under {missed[1]}."
+    )
+
+
+def rows(answer: Answer, needed_by_thesis: int) -> tuple[Row, ...]:
+    """What the report's table says."""
+    question = answer.question
+
+    def row(quantity: str, thesis: float | None, values: Sequence[float]) -> Row:
+        return Row(quantity, "", thesis, *values)
+
+    kinds = answer.of_kinds
+    return (
+        row(
+            f"conditions that needed a refinement, of {len(question.refined)}",
+            needed_by_thesis,
+            [needed(one) for one in kinds],
+        ),
+        row("updates of the model in all", None, [sum(course.updates for course in one.first) for one in kinds]),
+        row("attempts at refining in all", None, [sum(course.refinements for course in one.first) for one in kinds]),
+        row(
+            f"conditions reached in the second round, of {len(question.executed)}",
+            len(question.executed),
+            [sum(course.success for course in one.second) for one in kinds],
+        ),
+    )
+
+
+def notes(answer: Answer) -> tuple[str, ...]:
+    """Which predictions failed and by what, for each model; and the operator's own failures."""
+    said = []
+    for kind, rehearsed in zip(KINDS, answer.of_kinds, strict=True):
+        first = [f"{number}: {_history(course)}" for number, course in enumerate(rehearsed.first, 1)]
+        second = [
+            f"{number}: {course.attempts[0].failure}"
+            for number, course in enumerate(rehearsed.second, 1)
+            if course.attempts and not course.success
+        ]
+        failed = f" In the second round failed {'; '.join(second)}." if second else ""
+        said.append(f"{kind.label[0].upper()}{kind.label[1:]}, condition by condition: {'; '.join(first)}.{failed}")
+    return tuple(said)
+
+
+def _history(course: Course) -> str:
+    if not course.needed_refinement:
+        return "reached"
+    steps = [
+        f"{'refinement' if a.mode is messages.Mode.REFINE else 'prediction'} {a.failure}"
+        for a in course.attempts
+        if a.failure
+    ]
+    outcome = (
+        f"reached after {course.updates} update{'s' if course.updates != 1 else ''}" if course.success else "given up"
+    )
+    return f"{', then '.join(steps)}; {outcome}"
+
+
+def first_rounds(answer: Answer, titles: Sequence[str], caption: str) -> list[Figure]:
+    """Predictions and refinements condition by condition, a figure for each model.
+
+    Args:
+        answer: what came out.
+        titles: of the conditions.
+        caption: without the model's name.
+    """
+    return [
+        _first_round(
+            answer.question,
+            rehearsed,
+            kind=kind,
+            titles=titles,
+            name=f"first-{model}",
+            caption=f"{caption}: {kind.label}.",
+        )
+        for kind, model, rehearsed in zip(KINDS, MODELS, answer.of_kinds, strict=True)
+    ]
+
+
+def _first_round(
+    question: Question, rehearsed: Rehearsed, *, kind: Kind, titles: Sequence[str], name: str, caption: str
+) -> Figure:
+    canvas, panes = panels(titles, height=2.7, rows=-(-len(titles) // _COLUMNS), solid=True)
+    for axes, course in zip(panes, rehearsed.first, strict=True):
+        furnish(axes, question.scene.boxes(course.arrangement.variant), *question.shown)
+        place_object(axes, course.arrangement.object_position)
+        _draw_course(axes, course, kind)
+    return drawn(canvas, name, caption, raster=True)
+
+
+def _draw_course(axes: Axes, course: Course, kind: Kind) -> None:
+    for attempt in course.attempts:
+        if attempt.mode is messages.Mode.REFINE:
+            draw_way(axes, attempt.refined.positions, _REFINEMENT_LINE, "refinement")
+        else:
+            style = "-" if attempt.success else (0.0, (2.0, 1.5))
+            label = f"{kind.label}: prediction" if attempt.success else f"{kind.label}: prediction that failed"
+            draw_way(axes, attempt.prediction.positions, Line(kind.line.color, 1.3, style), label)
+
+
+def second_round(answer: Answer, caption: str) -> Figure:
+    """All predictions of the second round, a panel for each model, with the demonstrations that they started from."""
+    question = answer.question
+    canvas, panes = panels([kind.label for kind in KINDS], height=3.6, solid=True)
+    for axes, kind, rehearsed in zip(panes, KINDS, answer.of_kinds, strict=True):
+        variant = question.executed[-1].variant
+        furnish(axes, question.scene.boxes(variant), *question.shown)
+        for demonstration in answer.demonstrations:
+            draw_way(axes, demonstration.trajectory.positions, DEMONSTRATION_LINE, "demonstration")
+        for course in rehearsed.second:
+            place_object(axes, course.arrangement.object_position)
+            _draw_course(axes, course, kind)
+    return drawn(canvas, "second", f"{caption}.", raster=True)
+
+
+def _pose(pose: messages.Pose) -> Pose:
+    return Pose(np.array(pose.position), np.array(pose.orientation))
