@@ -1,10 +1,9 @@
 """What a motion is predicted from, and a motion that was right there."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Self
 
-from lfd.arrays import Array, checked, checked_quaternions, frozen
+from lfd.arrays import Array, checked, checked_quaternions
 from lfd.trajectory import Trajectory
 
 
@@ -97,16 +96,6 @@ def checked_condition(values: Array) -> Array:
         NotFinite: A number is NaN or infinite.
     """
     return checked("condition", values, (None,)) if len(values) else checked("condition", values, (1,))
-
-
-def conditions(demonstrations: Sequence[Demonstration]) -> Array:
-    """The conditions of demonstrations, at least one, shape (M, c), read-only.
-
-    Raises:
-        WrongShape: One has another dimension than the first.
-    """
-    shape = demonstrations[0].condition.shape
-    return frozen([checked("condition", d.condition, shape) for d in demonstrations])
 
 
 def relative_to_origin(trajectory: Trajectory, origin: Array) -> Trajectory:

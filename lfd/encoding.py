@@ -46,11 +46,6 @@ class Encoding:
     def __post_init__(self) -> None:
         object.__setattr__(self, "rotation", checked_quaternions("rotation", self.rotation, (4,)))
 
-    @property
-    def length(self) -> int:
-        """Of a vector: 6 N + 1."""
-        return 6 * self.basis.count + 1
-
     def encode(self, demonstration: Demonstration) -> Array:
         """The vector of a demonstration, shape (6 N + 1,): N x 6 weights row by row, then ln(duration / s)."""
         trajectory = resample(demonstration.trajectory, self.samples)

@@ -48,11 +48,7 @@ class MovementModel(Protocol):
         ...
 
     def updated(self, demonstration: Demonstration) -> Self:
-        """The model that has also learnt `demonstration`, the motion that a refinement led to.
-
-        Raises:
-            WrongShape: Its condition has another dimension than those of the demonstrations.
-        """
+        """The model that has also learnt `demonstration`, the motion that a refinement led to."""
         ...
 
     def predict(self, situation: Situation, n: int = PREDICTION_POINTS) -> Prediction:

@@ -272,12 +272,8 @@ class Verdict(Message, frozen=True, kw_only=True):
         collision: the robot touched the environment.
         collision_position: where first, base frame [m].
         collision_force: normal force of the first contact [N].
-<<<<<<< HEAD
-        ellipsoid_value: of eq. E.1, or the greatest (error / tolerance)^2 at a via-point; at most 1 where reached.
-=======
         collision_between: the robot's link and the thing that it touched first.
-        ellipsoid_value: of eq. E.1; at most 1 inside.
->>>>>>> main
+        ellipsoid_value: of eq. E.1, or the greatest (error / tolerance)^2 at a via-point; at most 1 where reached.
         object_displacement: since the episode started [m].
     """
 

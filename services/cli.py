@@ -18,13 +18,8 @@ from protocol.messages import Vector3
 from protocol.table import query_table, topic_table
 from protocol.topics import checked_name
 from services.child import EXIT_BAD_INPUT
-<<<<<<< HEAD
 from services.config import Configuration, RobotSection, Scripted, load
-from services.exceptions import ServiceError
-=======
-from services.config import Configuration, Scripted, load
 from services.exceptions import CommandFailed, RoomMissing, ServiceError
->>>>>>> main
 from services.processes import PROCESS_NAMES, PROCESSES, process
 from sim.exceptions import SimError
 
@@ -122,7 +117,12 @@ def _seed(text: str) -> int:
     return int(text)
 
 
-<<<<<<< HEAD
+def _jobs(text: str) -> int:
+    if not text.isdecimal() or int(text) == 0:
+        raise argparse.ArgumentTypeError(f"must be a whole number, at least 1, not {text!r}")
+    return int(text)
+
+
 def _add_scene(command: _Parser) -> None:
     command.about_later = _about_scenes
     command.add_argument("--scene", metavar="S", help=f"the simulated scene (default: {RobotSection().scene})")
@@ -135,17 +135,6 @@ def _about_scenes() -> str:
     from sim.scenes import SCENES  # noqa: PLC0415
 
     return "scenes: " + "; ".join(f"{name} ({', '.join(scene.variants)})" for name, scene in SCENES.items())
-=======
-def _jobs(text: str) -> int:
-    if not text.isdecimal() or int(text) == 0:
-        raise argparse.ArgumentTypeError(f"must be a whole number, at least 1, not {text!r}")
-    return int(text)
-
-
-def _add_scene(command: argparse.ArgumentParser) -> None:
-    command.add_argument("--scene", metavar="S", help="dishwasher (default) or table")
-    command.add_argument("--seed", type=_seed, metavar="N", help="of the object's position and the scripted hand")
->>>>>>> main
 
 
 def _add_up(commands: argparse._SubParsersAction[_Parser], common: _Parser) -> None:

@@ -80,16 +80,19 @@ def plan(
     )
 
 
-def plan_at_equal_progress(prediction: Array, safe: Array, exaggeration: float = 1.0) -> Correction:
+def plan_at_equal_progress(
+    positions: Array, orientations: Array, safe: Corridor, exaggeration: float = 1.0
+) -> Correction:
     """Plan the correction of a motion whose tempo is not a person's to change: each moment has its place on the way.
 
     Args:
-        prediction: Positions of the grasping frame at equal steps of progress, shape (n, 3) [m].
-        safe: Way-points at equal steps of progress, shape (k, 3) [m].
+        positions: Of the predicted grasping frame at equal steps of progress, shape (n, 3) [m].
+        orientations: The same, shape (n, 4); they are left as they are.
+        safe: Way-points at equal steps of progress.
         exaggeration: Of the displacement; 1 is natural.
     """
-    wanted = through(safe, np.linspace(0.0, len(safe) - 1.0, len(prediction)))
-    return Correction(prediction, exaggeration * (wanted - prediction))
+    wanted = through(safe.positions, np.linspace(0.0, len(safe.positions) - 1.0, len(positions)))
+    return Correction(positions, orientations, exaggeration * (wanted - positions), np.zeros_like(positions))
 
 
 def _numbers(way: Array, covered: Array) -> Array:

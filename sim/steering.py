@@ -27,11 +27,7 @@ class Steered(NamedTuple):
     orientations: Array
 
 
-<<<<<<< HEAD
-def steer(corridor: Corridor, rng: np.random.Generator, n: int = 200, freedom: Freedom | None = None) -> Steered:
-=======
-def steer(corridor: Corridor, rng: np.random.Generator | None, n: int = 200) -> Steered:
->>>>>>> main
+def steer(corridor: Corridor, rng: np.random.Generator | None, n: int = 200, freedom: Freedom | None = None) -> Steered:
     """Steer from a corridor's first way-point to its last.
 
     The speed along the way is that of a minimum-jerk movement (Flash and Hogan 1985), where it is the person's; the
@@ -50,12 +46,8 @@ def steer(corridor: Corridor, rng: np.random.Generator | None, n: int = 200) -> 
     numbers = _numbers(way, minimum_jerk(time)) if freedom.tempo else (len(way) - 1) * time
     orientations = through(corridor.orientations, numbers)
     orientations /= np.linalg.norm(orientations, axis=1, keepdims=True)
-<<<<<<< HEAD
-    return Steered(through(way, numbers) + freedom.axes * _deviation(n, rng), orientations)
-=======
-    positions = through(corridor.positions, numbers)
-    return Steered(positions if rng is None else positions + _deviation(n, rng), orientations)
->>>>>>> main
+    positions = through(way, numbers)
+    return Steered(positions if rng is None else positions + freedom.axes * _deviation(n, rng), orientations)
 
 
 def minimum_jerk(time: Array) -> Array:

@@ -117,25 +117,16 @@ class ScriptedMaster:
         scene_state = self._scene.latest()
         if scene_state is None:
             return None
-<<<<<<< HEAD
-        positions, _, _ = motion_from_wire(execution.prediction)
         arrangement = scene_state.message
-        scene = scenes.scene(arrangement.name)
-        place = np.array(arrangement.condition) if arrangement.condition else self._object_position(positions)
-        ways = {variant: scene.corridor(variant, place).positions for variant in scene.variants}
-        safe = scene.corridor(arrangement.variant, place).positions
-        if scene.freedom.tempo:
-            return plan(positions, safe, tuple(ways.values()), self._exaggeration)
-        return plan_at_equal_progress(positions, safe, self._exaggeration)
-=======
         prediction = Trajectory(*motion_from_wire(execution.prediction))
-        scene = scenes.scene(scene_state.message.name)
-        place = self._object_position(prediction.positions)
-        start = Pose(np.array(scene_state.message.start.position), np.array(scene_state.message.start.orientation))
+        scene = scenes.scene(arrangement.name)
+        place = np.array(arrangement.condition or self._object_position(prediction.positions))
+        start = Pose(np.array(arrangement.start.position), np.array(arrangement.start.orientation))
+        safe = scene.corridor(arrangement.variant, place, start)
+        if not scene.freedom.tempo:
+            return plan_at_equal_progress(prediction.positions, prediction.orientations, safe, self._exaggeration)
         ways = [scene.corridor(variant, place, start) for variant in scene.variants]
-        safe = scene.corridor(scene_state.message.variant, place, start)
         return plan(prediction.positions, prediction.orientations, safe, ways, self._exaggeration)
->>>>>>> main
 
     def _object_position(self, prediction: NDArray[np.float64]) -> NDArray[np.float64]:
         """Where the object was seen last; where it never was, the robot's guess is as good as any."""

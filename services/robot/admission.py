@@ -20,11 +20,7 @@ SHORTEST_S, LONGEST_S = 0.5, 120.0
 FASTEST = 1.0  # [m/s] along the prediction
 FASTEST_TURN = 3.0  # [rad/s]
 START_DISTANCE = 0.5  # [m] between the measured pose and the prediction's start
-<<<<<<< HEAD
-=======
-REGION_MARGIN = 0.05  # [m]
 START_REACH = 0.3  # [m] of a start from the scene's own, along each axis
->>>>>>> main
 
 
 def admit_prediction(positions: Array, orientations: Array, duration: float, measured: Pose) -> Trajectory:
@@ -72,7 +68,6 @@ def admit_prediction(positions: Array, orientations: Array, duration: float, mea
     return prediction
 
 
-<<<<<<< HEAD
 def admit_target(scene: AnyScene, request: Reset) -> Array | None:
     """The place of the target that a reset asks for; None where it asks for none.
 
@@ -95,27 +90,17 @@ def admit_target(scene: AnyScene, request: Reset) -> Array | None:
     return None if asked is None else np.array(asked)
 
 
-def admit_reset(scene: Scene, variant: str, place: Array) -> None:
-=======
-def admit_reset(scene: Scene, variant: str, object_position: Array, start: Pose | None = None) -> None:
->>>>>>> main
+def admit_reset(scene: Scene, variant: str, place: Array, start: Pose | None = None) -> None:
     """Let a reset pass that the scene allows.
 
     Args:
         scene: that the robot stands in.
         variant: asked for.
-<<<<<<< HEAD
         place: of the target, asked for, shape (d,) [m].
-
-    Raises:
-        Refusal: there is no such variant, or the target cannot stand there.
-=======
-        object_position: asked for, shape (3,) [m].
         start: asked for; None for where it was put last.
 
     Raises:
-        Refusal: there is no such variant, the object cannot stand there, or the start is far from the scene's.
->>>>>>> main
+        Refusal: there is no such variant, the target cannot stand there, or the start is far from the scene's.
     """
     if variant not in scene.variants:
         raise Refusal(f"scene {scene.name} has no variant {variant!r}: use one of {', '.join(scene.variants)}")

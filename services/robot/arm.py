@@ -15,15 +15,10 @@ from services.robot import safety
 from services.robot.backend import CONTROL_PERIOD, Backend, Blocked, Observation
 from services.robot.correction import UNCORRECTED, Correction
 from services.robot.episode import Episode, EpisodeOutcome
-<<<<<<< HEAD
-from services.robot.mechanism import InverseFailed, Mechanism
-from services.robot.verdict import Criteria, Verdict
-=======
 from services.robot.execution import angle_between
-from services.robot.kinematics import InverseFailed, Kinematics
+from services.robot.mechanism import InverseFailed, Mechanism
 from services.robot.starts import StartImpossible, Starts
-from services.robot.verdict import Criteria, Judge, Verdict
->>>>>>> main
+from services.robot.verdict import Criteria, Verdict
 from sim.pose import Pose
 
 Array = NDArray[np.float64]
@@ -70,11 +65,7 @@ class Arm:
         backend: what moves.
         kinematics: of it.
         criteria: by what episodes are judged.
-<<<<<<< HEAD
-        home: joint positions in which episodes start, shape (m,).
-=======
         starts: where episodes can start; at first they do at its home.
->>>>>>> main
         velocity_scale: share of the joints' speed limits that may be used.
         self_distance_stop: distance between the robot's parts at which it stops [m].
     """
@@ -123,13 +114,8 @@ class Arm:
         """The one that runs."""
         return self._episode
 
-<<<<<<< HEAD
-    def reset(self, place: Array, variant: str) -> None:
+    def reset(self, place: Array, variant: str, start: Pose | None = None) -> None:
         """Back to the start, the target and the scene put in place; the episode that runs is dropped.
-=======
-    def reset(self, object_position: Array, variant: str, start: Pose | None = None) -> None:
-        """Back to the start, the object and the scene put in place; the episode that runs is dropped.
->>>>>>> main
 
         Args:
             place: of the target, see `Backend.reset`, shape (d,) [m].
@@ -139,16 +125,12 @@ class Arm:
         Raises:
             StartImpossible: no motion can start there; nothing has changed.
         """
-<<<<<<< HEAD
-        self._backend.reset(place, variant, self._home)
-=======
         start = self.start if start is None else start
         try:
-            self._backend.reset(object_position, variant, self._starts.joints(start))
+            self._backend.reset(place, variant, self._starts.joints(start))
         except Blocked as error:
             raise StartImpossible(start.position, str(error)) from error
         self.start = start
->>>>>>> main
         self._episode = None
         self._stand()
 
@@ -221,15 +203,7 @@ class Arm:
 
     def _follow(self, episode: Episode, wanted: Correction) -> tuple[Array, tuple[str, ...]]:
         """Command the next reference; the joints that it started from, and what was clamped."""
-<<<<<<< HEAD
-        clamped = []
-        displacement = self._kinematics.admissible * displacement
-        displacement, shortened = safety.clamp_length(displacement, safety.DISPLACEMENT_REACH)
-        if shortened:
-            clamped.append("displacement")
-=======
-        within, too_far = safety.clamp_correction(wanted)
->>>>>>> main
+        within, too_far = safety.clamp_correction(self._kinematics.admitted(wanted))
         if episode.holding:
             self._q, self._reference = self.observation.q, self.measured
         reference = episode.advance(within, self.measured)

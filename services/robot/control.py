@@ -22,13 +22,9 @@ from services.robot.episode import EpisodeOutcome
 from services.robot.execution import look_ahead
 from services.robot.refusal import Refusal
 from services.robot.safety import EmergencyStop, hold_reason
-<<<<<<< HEAD
-from sim.scenes import AnyScene
-=======
 from services.robot.starts import StartImpossible
 from sim.pose import Pose
-from sim.scenes.scene import Scene
->>>>>>> main
+from sim.scenes import AnyScene
 
 Array = NDArray[np.float64]
 
@@ -115,22 +111,15 @@ class Control:
         """Put arm, target and scene back."""
         self._check(request.epoch)
         variant = self.arm.variant if request.variant is None else request.variant
-<<<<<<< HEAD
         asked = admit_target(self.scene, request)
         place = self._place if asked is None else asked
-        admit_reset(self.scene, variant, place)
-        self._place = place
-        self.arm.reset(place, variant)
-=======
-        place = self._object_position if request.object_position is None else np.array(request.object_position)
         start = None if request.start is None else _pose(request.start)
         admit_reset(self.scene, variant, place, start)
         try:
             self.arm.reset(place, variant, start)
         except StartImpossible as error:
             raise Refusal(f"{error}: give another start") from error
-        self._object_position = place
->>>>>>> main
+        self._place = place
 
     def press(self, by: str, reason: str) -> None:
         """Latch the emergency stop; the arm stands still at once."""

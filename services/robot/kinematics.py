@@ -14,8 +14,8 @@ from pink.limits import ConfigurationLimit, VelocityLimit
 from pink.tasks import FrameTask, PostureTask
 from qpsolvers.exceptions import QPError
 
-from services.exceptions import ServiceError
-from services.robot.mechanism import InverseFailed
+from services.robot.correction import Correction
+from services.robot.mechanism import InverseFailed, Unreachable
 from sim.description import CONTROLLED_JOINTS, GRASPING_FRAME
 from sim.pose import Pose
 
@@ -44,15 +44,6 @@ _LIMBS = (
 _TRUNK = ("base_link_0", "torso_fixed_column_link_0", "torso_lift_link_0", "head_2_link_0")
 
 
-class Unreachable(ServiceError):
-    """No joint configuration was found that puts the grasping frame there."""
-
-    def __init__(self, position: Array) -> None:
-        self.position = position
-        place = ", ".join(f"{value:.3f}" for value in position)
-        super().__init__(f"the arm cannot reach ({place}) m in that orientation: choose a pose closer to the robot")
-
-
 class Kinematics:
     """Forward and inverse kinematics of the grasping frame, and the distance of the robot to itself.
 
@@ -77,7 +68,6 @@ class Kinematics:
         self.lower: Array = self._model.lowerPositionLimit.copy()
         self.upper: Array = self._model.upperPositionLimit.copy()
         self.velocity_limit: Array = self._model.velocityLimit.copy()
-        self.admissible: Array = np.ones(3)
 
         self._configuration = pink.Configuration(self._model, self._data, (self.lower + self.upper) / 2)
         self._pose_task = FrameTask(GRASPING_FRAME, _POSITION_COST, _ORIENTATION_COST, _LM_DAMPING)
@@ -94,6 +84,10 @@ class Kinematics:
         """
         pin.forwardKinematics(self._model, self._data, q)
         return _pose(pin.updateFramePlacement(self._model, self._data, self._frame))
+
+    def admitted(self, wanted: Correction) -> Correction:
+        """All of it."""
+        return wanted
 
     def solve_step(self, q: Array, position: Array, orientation: Array, dt: float) -> tuple[Array, Array]:
         """Move one tick towards a pose: one iteration of differential inverse kinematics.

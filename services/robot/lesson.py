@@ -10,14 +10,10 @@ from services.exceptions import CommandFailed
 from services.robot.arm import Arm
 from services.robot.rollout import rollout, simulated_arm
 from sim.description import prepare
-<<<<<<< HEAD
+from sim.pose import Pose
 from sim.scenes import AnyScene
 from sim.scenes.particle import ParticleScene
 from sim.scenes.scene import ReachingScene
-=======
-from sim.pose import Pose
-from sim.scenes.scene import Scene
->>>>>>> main
 from sim.steering import steer
 
 Array = NDArray[np.float64]
@@ -46,49 +42,41 @@ def lesson(scene: AnyScene, places: Array | None = None, variant: str | None = N
     rng = np.random.default_rng(SEED)
     arm = simulated_arm(scene, variant, prepare())
     return [
-        demonstrate(arm, scene, place, rng, variant)
+        demonstrate(arm, scene, place, rng, variant=variant)
         for place in (scene.training_positions if places is None else places)
     ]
 
 
-<<<<<<< HEAD
-def demonstrate(arm: Arm, scene: AnyScene, place: Array, rng: np.random.Generator, variant: str) -> Demonstration:
-    """Steer the arm to the target, again where that fails; the motion as measured.
-=======
 def demonstrate(
-    arm: Arm, scene: Scene, position: Array, rng: np.random.Generator, start: Pose | None = None
+    arm: Arm,
+    scene: AnyScene,
+    place: Array,
+    rng: np.random.Generator,
+    *,
+    variant: str | None = None,
+    start: Pose | None = None,
 ) -> Demonstration:
-    """Steer the arm to an object, again where that fails; the motion as measured.
->>>>>>> main
+    """Steer the arm to the target, again where that fails; the motion as measured.
 
     Args:
         arm: in the scene.
         scene: whose corridor is steered through.
         place: of the target, shape (d,) [m].
         rng: of the person's unsteadiness.
-<<<<<<< HEAD
-        variant: of the scene.
-=======
+        variant: of the scene; its first by default.
         start: of the motion; the scene's by default.
->>>>>>> main
 
     Raises:
         CommandFailed: no try succeeded.
         StartImpossible: no motion can start there.
     """
+    variant = variant or scene.variants[0]
     start = scene.start if start is None else start
     for _ in range(TRIES):
-<<<<<<< HEAD
-        way = steer(scene.corridor(variant, place), rng, freedom=scene.freedom)
+        way = steer(scene.corridor(variant, place, start), rng, freedom=scene.freedom)
         times = np.linspace(0.0, DURATION_S, len(way.positions))
         trajectory = from_samples(times, way.positions, way.orientations, POINTS)
-        outcome = rollout(arm, trajectory, place, variant=variant)
-=======
-        way = steer(scene.corridor(scene.variants[0], position, start), rng)
-        times = np.linspace(0.0, DURATION_S, len(way.positions))
-        trajectory = from_samples(times, way.positions, way.orientations, POINTS)
-        outcome = rollout(arm, trajectory, position, variant=scene.variants[0], start=start)
->>>>>>> main
+        outcome = rollout(arm, trajectory, place, variant=variant, start=start)
         if outcome.verdict.success:
             return _demonstration(scene, place, outcome.measured)
     raise CommandFailed(f"no motion to a target at {np.round(place, 3).tolist()} succeeded in {TRIES} tries")

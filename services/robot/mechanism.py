@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from services.exceptions import ServiceError
+from services.robot.correction import Correction
 from sim.pose import Pose
 
 Array = NDArray[np.float64]
@@ -20,6 +21,15 @@ class InverseFailed(ServiceError):
         super().__init__(f"inverse kinematics found no step ({reason}): move the robot away from its joint limits")
 
 
+class Unreachable(ServiceError):
+    """No joint configuration was found that puts the grasping frame there."""
+
+    def __init__(self, position: Array) -> None:
+        self.position = position
+        place = ", ".join(f"{value:.3f}" for value in position)
+        super().__init__(f"the robot cannot reach ({place}) m in that orientation: choose a pose closer to the robot")
+
+
 class Mechanism(Protocol):
     """Forward and inverse kinematics of the grasping frame.
 
@@ -27,16 +37,18 @@ class Mechanism(Protocol):
         lower: least joint positions, shape (m,).
         upper: greatest joint positions, shape (m,).
         velocity_limit: greatest joint speeds, shape (m,).
-        admissible: base axes along which an operator can displace the grasping frame, 1 or 0 each, shape (3,).
     """
 
     lower: Array
     upper: Array
     velocity_limit: Array
-    admissible: Array
 
     def forward(self, q: Array) -> Pose:
         """The pose of the grasping frame in the base frame at joint positions q, shape (m,)."""
+        ...
+
+    def admitted(self, wanted: Correction) -> Correction:
+        """What the robot can follow of an operator's correction."""
         ...
 
     def solve_step(self, q: Array, position: Array, orientation: Array, dt: float) -> tuple[Array, Array]:
@@ -66,7 +78,7 @@ class Mechanism(Protocol):
             rng: of further starts.
 
         Raises:
-            ServiceError: there are none.
+            Unreachable: there are none.
         """
         ...
 

@@ -5,7 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from services.robot.backend import CONTROL_PERIOD, Observation, Touch
+from services.robot.backend import CONTROL_PERIOD, Blocked, Observation, Touch
+from services.robot.correction import Correction
+from services.robot.mechanism import Unreachable
 from sim.pose import Pose
 from sim.scenes.particle import ParticleScene
 from sim.scenes.scene import NO_ROTATION, Box, Group
@@ -16,6 +18,7 @@ JOINTS = ("particle_x", "particle_y", "particle_z")
 
 _REACH = 0.5  # [m] of each slide, to both sides
 _SPEED = 1.0  # [m/s] of each slide
+_FLAT = 1e-6  # [m, or of a quaternion] that a start may lie beside the plane
 _APART = 1e3  # [m] what has one part only is as far from itself as can be said
 
 
@@ -23,18 +26,22 @@ class ParticleKinematics:
     """The joint positions are the position; the orientation never changes. See `Mechanism`.
 
     Args:
-        admissible: base axes along which an operator can displace the particle, 1 or 0 each.
+        axes: base axes along which an operator can displace the particle, 1 or 0 each.
     """
 
-    def __init__(self, admissible: Sequence[float]) -> None:
+    def __init__(self, axes: Sequence[float]) -> None:
         self.lower: Array = np.full(3, -_REACH)
         self.upper: Array = np.full(3, _REACH)
         self.velocity_limit: Array = np.full(3, _SPEED)
-        self.admissible: Array = np.array(admissible)
+        self._axes: Array = np.array(axes)
 
     def forward(self, q: Array) -> Pose:
         """Where the particle is."""
         return Pose(q.copy(), np.array(NO_ROTATION))
+
+    def admitted(self, wanted: Correction) -> Correction:
+        """Its displacement along the axes; a point cannot be turned."""
+        return Correction(self._axes * wanted.offset, np.zeros(3))
 
     def solve_step(self, q: Array, position: Array, orientation: Array, dt: float) -> tuple[Array, Array]:
         """Straight to the position, each slide as fast as it may."""
@@ -44,8 +51,11 @@ class ParticleKinematics:
         return q + step, step / dt
 
     def solve(self, position: Array, orientation: Array, seeds: Sequence[Array], rng: np.random.Generator) -> Array:
-        """The position itself."""
-        del orientation, seeds, rng
+        """The position itself, in the plane and without a rotation."""
+        del seeds, rng
+        inside = np.all((self.lower <= position) & (position <= self.upper))
+        if not (inside and abs(position[2]) <= _FLAT and abs(orientation @ NO_ROTATION) >= 1.0 - _FLAT):
+            raise Unreachable(position)
         return position.copy()
 
     def self_distance(self, q: Array) -> float:
@@ -81,7 +91,11 @@ class ParticleBackend:
 
     def reset(self, place: Array, variant: str, q: Array) -> None:
         """Put the particle at q and the via-points at their y, shape (2,) [m]."""
-        self._solid = tuple(box for box in self._scene.boxes(variant) if box.group is not Group.DETAIL)
+        solid = tuple(box for box in self._scene.boxes(variant) if box.group is not Group.DETAIL)
+        touch = self._touched(solid, q)
+        if touch is not None:
+            raise Blocked(*touch.between)
+        self._solid = solid
         self._variant = variant
         self._condition = place.copy()
         self._q, self._qd, self._time = q.copy(), np.zeros(3), 0.0
@@ -99,16 +113,16 @@ class ParticleBackend:
             q=self._q.copy(),
             qd=self._qd.copy(),
             object_pose=Pose(goal, np.array(NO_ROTATION)),
-            touch=self._touch(),
+            touch=self._touched(self._solid, self._q),
             world=np.concatenate([self._q, self._condition]),
             condition=self._condition.copy(),
         )
 
-    def _touch(self) -> Touch | None:
-        """The first box that the particle reaches into; it weighs nothing, so that no force comes of it."""
-        for box in self._solid:
-            nearest = _nearest(box, self._q)
-            if np.linalg.norm(nearest - self._q) <= self._scene.radius:
+    def _touched(self, solid: Sequence[Box], q: Array) -> Touch | None:
+        """The first box that the particle at q reaches into; it weighs nothing, so that no force comes of it."""
+        for box in solid:
+            nearest = _nearest(box, q)
+            if np.linalg.norm(nearest - q) <= self._scene.radius:
                 return Touch(nearest, 0.0, ("particle", box.name))
         return None
 

@@ -8,25 +8,17 @@ from numpy.typing import NDArray
 
 from lfd.trajectory import Trajectory
 from services.robot.arm import Arm, Tick
-<<<<<<< HEAD
 from services.robot.backend import CONTROL_PERIOD, Backend
-=======
-from services.robot.backend import CONTROL_PERIOD
 from services.robot.correction import UNCORRECTED, Correction
->>>>>>> main
 from services.robot.episode import EpisodeOutcome
 from services.robot.execution import look_ahead
 from services.robot.kinematics import Kinematics
 from services.robot.mechanism import Mechanism
 from services.robot.particle import ParticleBackend, ParticleKinematics
 from services.robot.simulation import Simulation
-<<<<<<< HEAD
+from services.robot.starts import Starts
 from services.robot.verdict import Criteria, ReachingCriteria
 from services.robot.via_points import ViaPointCriteria
-=======
-from services.robot.starts import Starts
-from services.robot.verdict import Criteria
->>>>>>> main
 from sim.description import RobotDescription
 from sim.pose import Pose
 from sim.scenes import AnyScene
@@ -97,19 +89,10 @@ def simulated_arm(
         UnknownVariant: the scene has no such variant.
         StartImpossible: the arm cannot reach the scene's start.
     """
-<<<<<<< HEAD
     kinematics = kinematics or kinematics_of(scene, description)
-    rng = np.random.default_rng(HOME_SEED)
-    home = kinematics.solve(scene.start.position, scene.start.orientation, [scene.posture], rng)
-    backend, criteria = _stage(scene, variant, description)
-    backend.reset(scene.training_positions[0], variant, home)
-=======
-    kinematics = kinematics or Kinematics(description.urdf, scene.posture)
     starts = Starts(kinematics, scene.start, scene.posture, self_distance_stop)
-    world = World(scene, variant, description)
-    world.reset(scene.training_positions[0], variant, starts.joints(scene.start))
-    criteria = Criteria(scene.reached_radii, scene.kicked_thresholds)
->>>>>>> main
+    backend, criteria = _stage(scene, variant, description)
+    backend.reset(scene.training_positions[0], variant, starts.joints(scene.start))
     return Arm(
         backend,
         kinematics,
@@ -154,11 +137,7 @@ def rollout(
     Raises:
         StartImpossible: no motion can start there.
     """
-<<<<<<< HEAD
-    arm.reset(place, arm.variant if variant is None else variant)
-=======
-    arm.reset(object_position, arm.variant if variant is None else variant, start)
->>>>>>> main
+    arm.reset(place, arm.variant if variant is None else variant, start)
     arm.begin(prediction, look_ahead(prediction) if after is None else after)
     tick = arm.tick(UNCORRECTED)
     time = CONTROL_PERIOD

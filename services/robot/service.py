@@ -69,7 +69,7 @@ class TimedKinematics:
 
     def __init__(self, clock: Clock, kinematics: Mechanism) -> None:
         self.lower, self.upper = kinematics.lower, kinematics.upper
-        self.velocity_limit, self.admissible = kinematics.velocity_limit, kinematics.admissible
+        self.velocity_limit, self.admitted = kinematics.velocity_limit, kinematics.admitted
         self.forward, self.solve, self.self_distance = kinematics.forward, kinematics.solve, kinematics.self_distance
         self._clock = clock
         self._solve_step = kinematics.solve_step

@@ -31,22 +31,16 @@ class Simulation:
         """Of the scene."""
         return self._world.variant
 
-<<<<<<< HEAD
     def reset(self, place: Array, variant: str, q: Array) -> None:
-        """Put everything back, time included."""
-        self._world.reset(place, variant, q)
-=======
-    def reset(self, object_position: Array, variant: str, q: Array) -> None:
         """Put everything back, time included; as it was where the arm would touch something."""
         world = self._world
         before, state = world.variant, world.state
-        world.reset(object_position, variant, q)
+        world.reset(place, variant, q)
         touch = self.observe().touch
         if touch is not None:
-            world.reset(object_position, before, q)
+            world.reset(place, before, q)
             world.set_state(state)
             raise Blocked(*touch.between)
->>>>>>> main
 
     def command(self, q: Array, qd: Array) -> None:
         """Ten milliseconds of physics."""

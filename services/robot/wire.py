@@ -64,13 +64,13 @@ def episode_result(finished: Finished) -> messages.EpisodeResult:
     )
 
 
-<<<<<<< HEAD
-def scene_state(scene: AnyScene, variant: str, condition: Array) -> messages.SceneState:
+def scene_state(scene: AnyScene, variant: str, start: Pose, condition: Array) -> messages.SceneState:
     """The scene as it stands.
 
     Args:
         scene: which.
         variant: of it.
+        start: of the next motion.
         condition: the external state that motions depend on in it, shape (c,); empty where it is the object's.
     """
     bare = messages.SceneState(
@@ -80,24 +80,8 @@ def scene_state(scene: AnyScene, variant: str, condition: Array) -> messages.Sce
         object_size=_NONE,
         ellipsoid_radii=_NONE,
         kicked_over_thresholds=_NONE,
-        start=pose(scene.start),
-        object_region=(_NONE, _NONE),
-=======
-def scene_state(scene: Scene, variant: str, start: Pose) -> messages.SceneState:
-    """The scene in one of its variants, with a start of the next motion."""
-    boxes = tuple(
-        messages.Box(box.name, box.centre, box.half_sizes, box.quaternion, box.rgba) for box in scene.boxes(variant)
-    )
-    return messages.SceneState(
-        name=scene.name,
-        variant=variant,
-        boxes=boxes,
-        object_size=OBJECT_SIZE,
-        ellipsoid_radii=vector3(scene.reached_radii),
-        kicked_over_thresholds=vector3(scene.kicked_thresholds),
         start=pose(start),
-        object_region=(vector3(scene.region.lower), vector3(scene.region.upper)),
->>>>>>> main
+        object_region=(_NONE, _NONE),
         variants=scene.variants,
         condition=tuple(condition.tolist()),
     )

@@ -9,7 +9,6 @@ from typing import Any
 import msgspec
 
 from protocol import messages
-<<<<<<< HEAD
 from protocol.messages import (
     Attempt,
     Condition,
@@ -21,11 +20,7 @@ from protocol.messages import (
     Outcome,
     Vector3,
 )
-from protocol.queries import Adapt, Query
-=======
-from protocol.messages import Attempt, EpisodeResult, Mode, ModelState, Motion, ObjectPose, Outcome, Vector3
 from protocol.queries import Adapt, Query, Reset
->>>>>>> main
 
 
 class Action(Enum):

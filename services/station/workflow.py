@@ -140,19 +140,13 @@ def _resetting(state: Workflow, view: View, settings: Settings) -> Step:
             replace(state, retry_s=view.now_s + RETRY_S) if finish else state,
             Ask(queries.FINISH, queries.Finish(state.epoch)) if finish else None,
         )
-<<<<<<< HEAD
-    state = replace(state, placed=state.placed or view.drawn)
-    place = state.placed or Place()
-    changed = view.scene.variants[-1] if view.scene is not None and view.scene.variants else None
-    request = queries.Reset(state.epoch, settings.variant or changed, place.object_position, place.condition)
-=======
     if settings.arrangement is not None:
         request = msgspec.structs.replace(settings.arrangement, epoch=state.epoch)
     else:
-        variant = view.scene.variants[-1] if view.scene is not None and view.scene.variants else None
         state = replace(state, placed=state.placed or view.drawn)
-        request = queries.Reset(state.epoch, variant, state.placed)
->>>>>>> main
+        place = state.placed or Place()
+        changed = view.scene.variants[-1] if view.scene is not None and view.scene.variants else None
+        request = queries.Reset(state.epoch, settings.variant or changed, place.object_position, place.condition)
     reply = _asked(state, view, queries.RESET, request)
     return reply if isinstance(reply, Step) else Step(_to(state, Phase.LOOKING, view))
 

@@ -168,39 +168,26 @@ class Scene:
         self.check(variant)
         return self.layout(variant)
 
-<<<<<<< HEAD
-    def corridor(self, variant: str, place: Array) -> Corridor:
+    def corridor(self, variant: str, place: Array, start: Pose | None = None) -> Corridor:
         """Return the way-points of a motion from the start to the target, clear of the environment.
-=======
-    def corridor(self, variant: str, object_position: Array, start: Pose | None = None) -> Corridor:
-        """Return the way-points of a motion from the start to the object, clear of the environment.
->>>>>>> main
 
         The corridors of the two variants pair way-point by way-point, with the same orientations:
         their difference is the correction that an operator has to give.
 
         Args:
             variant: One of `variants`.
-<<<<<<< HEAD
             place: Of the target, shape (d,) [m].
-=======
-            object_position: Centre of the object, shape (3,) [m].
             start: Pose of the grasping frame that it leads from; the scene's own by default.
->>>>>>> main
 
         Raises:
             UnknownVariant: There is no such variant.
             WrongPlace: It has another number of dimensions.
         """
         self.check(variant)
-<<<<<<< HEAD
         if len(place) != len(self.region.lower):
             raise WrongPlace(self.name, len(place), len(self.region.lower))
-        return self.route(variant, place)
-=======
-        route = self.route(variant, object_position)
+        route = self.route(variant, place)
         return route if start is None else _joined(route, start)
->>>>>>> main
 
     def check(self, variant: str) -> None:
         """Raise UnknownVariant unless the scene has the variant."""
@@ -208,7 +195,6 @@ class Scene:
             raise UnknownVariant(self.name, variant, self.variants)
 
 
-<<<<<<< HEAD
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ReachingScene(Scene):
     """An arm reaches for an object; a place is where the object's centre stands, shape (3,) [m].
@@ -224,7 +210,8 @@ class ReachingScene(Scene):
     head: Array
     reached_radii: Array
     kicked_thresholds: Array
-=======
+
+
 def _joined(route: Corridor, start: Pose) -> Corridor:
     """Lead a route from another start onto itself: soon, since what stands around it was measured on the route."""
     covered = np.linspace(0.0, 1.0, len(route.positions))
@@ -232,7 +219,6 @@ def _joined(route: Corridor, start: Pose) -> Corridor:
     positions = route.positions + left * (start.position - route.positions[0])
     near = np.copysign(1.0, start.orientation @ route.orientations[1])  # q and -q are one orientation
     return Corridor(positions, np.vstack([near * start.orientation, route.orientations[1:]]))
->>>>>>> main
 
 
 def pitched_down(pitch: float) -> Array:

@@ -22,11 +22,8 @@ from protocol.exceptions import ProtocolError
 from protocol.messages import Mode, Phase
 from services.clock import SystemClock
 from services.zenoh_bus import Passing, close_session, open_session, watch
-<<<<<<< HEAD
 from sim.scenes import SCENES
-=======
 from tests.bench.support.results import Result, write_json
->>>>>>> main
 
 RUN_TIMEOUT_S = 300.0
 MEMORY_EVERY_S = 5.0

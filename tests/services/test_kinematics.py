@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from services.robot.kinematics import Kinematics, Unreachable
+from services.robot.kinematics import Kinematics
+from services.robot.mechanism import Unreachable
 from sim.description import RobotDescription, prepare
 from sim.scenes import REACHING, scene
 from sim.scenes.scene import ReachingScene

@@ -19,12 +19,8 @@ from services.config import Configuration, MasterSection, Scripted
 from services.master.haptics import HapticLoop, HapticThread
 from services.master.service import build
 from services.memory_bus import MemoryNetwork
-<<<<<<< HEAD
-from sim.scenes import DISHWASHER, PARTICLE
-=======
 from sim.rotations import rotated, rotation_to
-from sim.scenes import DISHWASHER
->>>>>>> main
+from sim.scenes import DISHWASHER, PARTICLE
 from sim.stylus import Stylus, StylusState
 
 OBJECT = np.array([0.87, 0.07, 0.553])
@@ -57,6 +53,7 @@ class Site:
     scene, variant, condition = "dishwasher", "b2", ()
     admissible = np.ones(3)
     duration = DURATION
+    start = DISHWASHER.start
 
     def __init__(self):
         self.clock = ManualClock()
@@ -104,11 +101,7 @@ class Site:
 
     def publish_slowly(self):
         self.bus.publish(AUTHORITY_STATE, AuthorityState(holder="ada", epoch=3, expires_in=1.0))
-<<<<<<< HEAD
-        motion = motion_to_wire(self.announced, np.tile(UPRIGHT, (POINTS, 1)), self.duration)
-=======
-        motion = motion_to_wire(self.announced, self.orientations, DURATION)
->>>>>>> main
+        motion = motion_to_wire(self.announced, self.orientations, self.duration)
         execution = ExecutionState(
             episode=self.episode,
             mode=Mode.REFINE,
@@ -125,7 +118,7 @@ class Site:
             object_size=(0.05, 0.05, 0.1),
             ellipsoid_radii=vector3(DISHWASHER.reached_radii),
             kicked_over_thresholds=vector3(DISHWASHER.kicked_thresholds),
-            start=Pose(vector3(DISHWASHER.start.position), UPRIGHT),
+            start=Pose(vector3(self.start.position), UPRIGHT),
             object_region=region,
             condition=self.condition,
         )
@@ -143,16 +136,10 @@ class Site:
         self.service.step(self.clock.now_ns())
         state = self.states.fresh(self.clock.now_ns())
         if state is not None and self.phase is Phase.EXECUTE:
-<<<<<<< HEAD
             self.progress = min(1.0, self.progress + PERIOD / self.duration)
             gain = -np.expm1(-PERIOD * (POINTS - 1) / self.duration)
             displacement = self.admissible * state.displacement if state.engaged else np.zeros(3)
-=======
-            self.progress = min(1.0, self.progress + PERIOD / DURATION)
-            gain = -np.expm1(-PERIOD * (POINTS - 1) / DURATION)
-            displacement = np.array(state.displacement) if state.engaged else np.zeros(3)
             rotation = np.array(state.rotation) if state.engaged else np.zeros(3)
->>>>>>> main
             self.offset = self.offset + gain * (displacement - self.offset)
             self.turn = self.turn + gain * (rotation - self.turn)
         return state
@@ -284,18 +271,19 @@ def test_a_cut_link_is_sat_out_with_the_hand_on_the_stylus():
     assert np.linalg.norm(np.array(state.displacement) - before) < 0.02
 
 
-<<<<<<< HEAD
 class ParticleSite(Site):
     """The particle, on a straight way that it has learnt for another condition."""
 
     scene = "particle"
     admissible = np.array(PARTICLE.freedom.axes)
     duration = 20.0
+    start = PARTICLE.start
 
     def __init__(self, variant, condition):
         super().__init__()
         self.variant, self.condition = variant, condition
-        self.prediction = self.announced = even(PARTICLE.corridor("free", np.zeros(2)).positions)
+        self.prediction, self.orientations = even(PARTICLE.corridor("free", np.zeros(2)))
+        self.announced = self.prediction
 
 
 @pytest.mark.sim
@@ -313,10 +301,7 @@ def test_the_hand_leads_the_particle_through_its_via_points(variant, condition):
     assert np.max(np.abs(y - np.interp(x, way[:, 0], way[:, 1]))) < 0.02
 
 
-@pytest.mark.parametrize("fault", ["scene", "prediction"])
-=======
 @pytest.mark.parametrize("fault", ["scene", "prediction", "orientation"])
->>>>>>> main
 def test_what_cannot_be_planned_is_not_touched(fault, caplog):
     site = Site()
     if fault == "scene":

@@ -60,7 +60,6 @@ def test_a_reset_names_the_variants_and_the_region():
         admit_reset(dishwasher, "b1", place * np.nan)
 
 
-<<<<<<< HEAD
 def test_a_reset_is_asked_for_what_the_scene_has():
     dishwasher, particle = scene("dishwasher"), scene("particle")
     np.testing.assert_array_equal(admit_target(dishwasher, Reset(1, object_position=(0.8, 0.0, 0.5))), [0.8, 0.0, 0.5])
@@ -71,7 +70,8 @@ def test_a_reset_is_asked_for_what_the_scene_has():
         admit_target(dishwasher, Reset(1, condition=(0.1, -0.1)))
     with pytest.raises(Refusal, match="has no object"):
         admit_target(particle, Reset(1, object_position=(0.8, 0.0, 0.5)))
-=======
+
+
 def test_a_start_lies_near_the_scenes_own():
     dishwasher = scene("dishwasher")
     place, home = dishwasher.training_positions[0], dishwasher.start
@@ -79,4 +79,3 @@ def test_a_start_lies_near_the_scenes_own():
     for far in (home.position + np.array([0.0, 0.0, 0.31]), home.position * np.nan):
         with pytest.raises(Refusal, match=r"give a place within 0\.3 m of \(0\.537, 0\.083, 0\.444\) m"):
             admit_reset(dishwasher, "b1", place, Pose(far, home.orientation))
->>>>>>> main

@@ -14,12 +14,16 @@ from services.arrays import from_wire, motion_to_wire
 from services.clock import ManualClock
 from services.config import Configuration, RobotSection
 from services.memory_bus import MemoryNetwork
+from services.robot.correction import Correction
 from services.robot.lesson import lesson
 from services.robot.rollout import rollout, simulated_arm
 from services.robot.service import build
+from services.robot.starts import StartImpossible
 from sim.description import prepare
+from sim.pose import Pose
 from sim.scenes import PARTICLE
 from sim.scenes.particle import OBSTACLE_TRAINING
+from sim.scenes.scene import pitched_down
 
 pytestmark = pytest.mark.sim
 
@@ -60,15 +64,17 @@ def test_the_demonstrations_of_the_obstacle_analysis_run_into_it():
 
 def test_the_displacement_of_the_stylus_is_added_to_y_and_to_nothing_else():
     arm = particle()
-    displacement = np.array([0.05, 0.03, -0.04])
-    outcome = rollout(arm, straight(), np.zeros(2), displacement=lambda view: displacement, after=0.0)
+    wanted = Correction(np.array([0.05, 0.03, -0.04]), np.array([0.0, 0.0, 0.4]))
+    outcome = rollout(arm, straight(), np.zeros(2), operator=lambda view: wanted, after=0.0)
     np.testing.assert_allclose(outcome.refined.positions[1:-1, 1], 0.03, atol=1e-9)
     np.testing.assert_allclose(outcome.refined.positions[:, [0, 2]], straight().positions[:, [0, 2]], atol=1e-6)
+    np.testing.assert_array_equal(outcome.refined.orientations, straight().orientations)
     assert outcome.operator_input
 
 
 def test_a_stylus_that_is_displaced_otherwise_is_no_input():
-    outcome = rollout(particle(), straight(), np.zeros(2), displacement=lambda view: np.array([0.1, 0.0, 0.1]))
+    wanted = Correction(np.array([0.1, 0.0, 0.1]), np.array([0.0, 0.3, 0.0]))
+    outcome = rollout(particle(), straight(), np.zeros(2), operator=lambda view: wanted)
     assert not outcome.operator_input
     np.testing.assert_allclose(outcome.refined.positions, straight().positions, atol=1e-6)
 
@@ -88,6 +94,29 @@ def test_any_conditions_can_be_demonstrated_in_any_variant():
     for demonstration in taught:
         height = np.interp(0.07, *demonstration.trajectory.positions.T[:2])
         assert height > 0.03
+
+
+@pytest.mark.parametrize("variant", PARTICLE.variants)
+def test_a_motion_from_another_start_leads_to_the_same_via_points(variant):
+    arm, condition = particle(variant), np.array([0.1, -0.1])
+    start = Pose(np.array([0.0, 0.04, 0.0]), IDENTITY)
+    positions, orientations = PARTICLE.corridor(variant, condition, start)
+    motion = from_samples(np.linspace(0.0, 10.0, len(positions)), positions, orientations, 75)
+    outcome = rollout(arm, motion, condition, start=start)
+    np.testing.assert_allclose(outcome.measured.positions[0], start.position, atol=1e-6)
+    assert outcome.verdict.success
+
+
+def test_no_motion_starts_in_the_obstacle_beside_the_plane_or_turned():
+    arm = particle(OBSTACLE)
+    for position, orientation, reason in (
+        ([0.07, 0.0, 0.0], IDENTITY, "particle would touch block"),
+        ([0.0, 0.0, 0.05], IDENTITY, "does not reach it"),
+        ([0.0, 0.0, 0.0], pitched_down(0.3), "does not reach it"),
+    ):
+        with pytest.raises(StartImpossible, match=reason):
+            arm.reset(np.zeros(2), OBSTACLE, Pose(np.array(position), orientation))
+    assert arm.start is PARTICLE.start
 
 
 class Site:
@@ -154,6 +183,17 @@ def test_what_the_scene_does_not_have_is_refused(site):
         refused = site.ask(queries.RESET, request)
         assert isinstance(refused, Refused)
         assert reason in refused.reason
+
+
+def test_a_reset_takes_a_start_beside_a_condition(site):
+    start = messages.Pose((0.0, -0.05, 0.0), (1.0, 0.0, 0.0, 0.0))
+    assert site.ask(queries.RESET, queries.Reset(site.epoch, FREE, None, (0.1, 0.0), start)) == Accepted()
+    scene = site.scenes.latest().message
+    assert (scene.start, scene.condition) == (start, (0.1, 0.0))
+    turned = messages.Pose((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+    refused = site.ask(queries.RESET, queries.Reset(site.epoch, start=turned))
+    assert isinstance(refused, Refused)
+    assert "no motion can start at" in refused.reason
 
 
 def test_an_operator_refines_it_over_the_bus(site):

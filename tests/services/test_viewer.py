@@ -263,10 +263,7 @@ def test_a_folder_that_cannot_be_written_to_is_named(configuration, tmp_path):
 
     (tmp_path / "runs").write_text("a file")
     with pytest.raises(ViewerError, match="folder"):
-<<<<<<< HEAD
         Recording(msgspec.structs.replace(configuration.viewer, folder=str(tmp_path / "runs")), "testbed", 0, Eye())
-=======
-        Recording(msgspec.structs.replace(configuration.viewer, folder=str(tmp_path / "runs")), "testbed", 0)
 
 
 def test_the_correction_is_shown_in_millimetres_and_degrees(tmp_path):
@@ -283,4 +280,3 @@ def test_the_correction_is_shown_in_millimetres_and_degrees(tmp_path):
     shown = {c.entity_path: c.to_record_batch().to_pydict().get("Scalars:scalars") for c in RrdReader(path).stream()}
     np.testing.assert_allclose(shown[f"{entities.CORRECTION}/offset"], [[50.0, 0.0, -10.0]])
     np.testing.assert_allclose(shown[f"{entities.CORRECTION}/turn"], [[0.0, 30.0, 0.0]])
->>>>>>> main

@@ -8,14 +8,9 @@ from scipy.spatial.transform import Rotation, Slerp
 from services.robot.kinematics import Kinematics
 from services.robot.starts import Starts
 from sim.description import RobotDescription
-<<<<<<< HEAD
+from sim.pose import Pose
 from sim.scenes import REACHING
 from sim.scenes.scene import Corridor, ReachingScene
-=======
-from sim.pose import Pose
-from sim.scenes import SCENES
-from sim.scenes.scene import Corridor, Scene
->>>>>>> main
 from sim.world import CONTROL_PERIOD, World
 
 pytestmark = pytest.mark.sim

@@ -3,15 +3,10 @@ import pytest
 from scipy.interpolate import PchipInterpolator
 
 from sim.correction import plan
-<<<<<<< HEAD
-from sim.hand import DAMPING, REACTION, SPEED, STIFFNESS, Hand, Seen
-from sim.scenes import DISHWASHER, REACHING
-=======
 from sim.hand import ARM, DAMPING, REACTION, STIFFNESS, WRIST, Hand, Seen
 from sim.pose import Pose
 from sim.rotations import rotated, rotation_to
-from sim.scenes import DISHWASHER, SCENES
->>>>>>> main
+from sim.scenes import DISHWASHER, REACHING
 from sim.stylus import Stylus, StylusState
 
 FEEDBACK = 50.0  # [N/m] of equation (14)
@@ -21,13 +16,8 @@ OBJECT = {"dishwasher": np.array([0.87, 0.07, 0.553]), "table": np.array([0.70, 
 
 
 def ways(name):
-<<<<<<< HEAD
     scene = REACHING[name]
-    return [scene.corridor(variant, OBJECT[name]).positions for variant in scene.variants]
-=======
-    scene = SCENES[name]
     return [scene.corridor(variant, OBJECT[name]) for variant in scene.variants]
->>>>>>> main
 
 
 def predicted(way, n=75):

@@ -11,7 +11,7 @@ from sim.description import RobotDescription
 from sim.interpolation import through
 from sim.scenes import PARTICLE
 from sim.scenes.particle import OBSTACLE_TRAINING, X_UNIT, Y_UNIT
-from sim.scenes.scene import Box, Group
+from sim.scenes.scene import NO_ROTATION, Box, Group
 from sim.steering import steer
 
 FREE, OBSTACLE = PARTICLE.variants
@@ -93,12 +93,13 @@ def test_a_person_steers_it_in_y_only_and_not_its_tempo() -> None:
 def test_the_correction_is_the_safe_y_less_the_predicted_y_at_equal_progress(variant: str) -> None:
     condition = np.array([0.08, -0.05])
     predicted = np.column_stack([np.linspace(0.0, 4.0 * X_UNIT, 75), np.full(75, 0.013), np.zeros(75)])
-    correction = plan_at_equal_progress(predicted, PARTICLE.corridor(variant, condition).positions)
+    correction = plan_at_equal_progress(predicted, np.tile(NO_ROTATION, (75, 1)), PARTICLE.corridor(variant, condition))
     np.testing.assert_allclose(correction.displacements[:, [0, 2]], 0.0, atol=1e-9)
+    np.testing.assert_array_equal(correction.rotations, 0.0)
     for share in (2.0 / 4.0, 3.6 / 4.0):
         y = condition[0] if share == 0.5 else condition[1]
         assert correction.displacement(share)[1] == pytest.approx(y - 0.013, abs=2e-3)
-        assert correction.position(share)[1] == pytest.approx(y, abs=2e-3)
+        assert correction.pose(share).position[1] == pytest.approx(y, abs=2e-3)
 
 
 def test_the_rings_are_as_wide_as_the_tolerance_and_stand_where_the_condition_says() -> None:

@@ -1,16 +1,10 @@
 import numpy as np
 import pytest
 
-<<<<<<< HEAD
 from sim.exceptions import UnknownScene, UnknownVariant, WrongPlace
-from sim.scenes import REACHING, SCENES, scene
-from sim.scenes.scene import OBJECT_SIZE, ReachingScene, Scene
-=======
-from sim.exceptions import UnknownScene, UnknownVariant
 from sim.pose import Pose
-from sim.scenes import SCENES, scene
-from sim.scenes.scene import OBJECT_SIZE, Scene, pitched_down
->>>>>>> main
+from sim.scenes import REACHING, SCENES, scene
+from sim.scenes.scene import OBJECT_SIZE, ReachingScene, Scene, pitched_down
 
 SCENE = pytest.mark.parametrize("place", SCENES.values(), ids=SCENES)
 REACHING_SCENE = pytest.mark.parametrize("place", REACHING.values(), ids=REACHING)
@@ -50,12 +44,8 @@ def test_every_corridor_leads_from_the_start_into_the_object(place: ReachingScen
             assert np.all(np.abs(corridor.positions[-1] - position) <= np.array(OBJECT_SIZE) / 2)
 
 
-<<<<<<< HEAD
 @REACHING_SCENE
-def test_the_correction_between_the_variants_is_within_an_operators_reach(place: ReachingScene) -> None:
-=======
-@SCENE
-def test_a_corridor_from_another_start_joins_the_scenes_own(place: Scene) -> None:
+def test_a_corridor_from_another_start_joins_the_scenes_own(place: ReachingScene) -> None:
     start = Pose(place.start.position + np.array([-0.05, 0.08, 0.03]), -pitched_down(0.5))
     for variant in place.variants:
         own, other = (place.corridor(variant, place.training_positions[0], s) for s in (place.start, start))
@@ -69,9 +59,8 @@ def test_a_corridor_from_another_start_joins_the_scenes_own(place: Scene) -> Non
         np.testing.assert_array_equal(other.orientations[0], -start.orientation)
 
 
-@SCENE
-def test_the_correction_between_the_variants_is_within_an_operators_reach(place: Scene) -> None:
->>>>>>> main
+@REACHING_SCENE
+def test_the_correction_between_the_variants_is_within_an_operators_reach(place: ReachingScene) -> None:
     """A refinement that displaces the trained motion by at most 0.20 m gives the changed one."""
     trained, changed = place.variants
     for position in corners(place):
