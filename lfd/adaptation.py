@@ -15,13 +15,13 @@ from lfd.alignment import align
 from lfd.arrays import Array, frozen
 from lfd.basis import GaussianBasis
 from lfd.condensation import condensed
-from lfd.correction import CorrectionOptions, Corrections
+from lfd.correction import CorrectionOptions, Corrections, Effect
 from lfd.demonstration import Demonstration, Situation
 from lfd.encoding import OUTPUTS, Encoding, reference_rotation
 from lfd.exceptions import NothingToTakeBack, TooFewDemonstrations, WrongShape
 from lfd.model import PREDICTION_POINTS, Prediction
 from lfd.motion import POSITION, MotionDistribution
-from lfd.regression import Regression, RegressionOptions
+from lfd.regression import Place, Regression, RegressionOptions
 from lfd.spread import Spread, SpreadPrior, spread_of
 
 _FINE_BASIS = GaussianBasis(count=40, width=0.0256)  # finer than the thesis', to follow a correction closely
@@ -112,8 +112,8 @@ class AdaptiveProMP:
             WrongShape: Its condition has another dimension than those before.
         """
         self._check(demonstration.condition)
-        vector = self.encoding.encode(demonstration)
-        return replace(self, corrections=self.corrections.added(demonstration.condition, vector))
+        place = self._regression.at(demonstration.condition)
+        return replace(self, corrections=self.corrections.added(place, self.encoding.encode(demonstration)))
 
     def undone(self) -> Self:
         """The model without its newest correction.
@@ -128,11 +128,10 @@ class AdaptiveProMP:
     def predict(self, situation: Situation, n: int = PREDICTION_POINTS) -> Prediction:
         """See `MovementModel.predict`; the prediction begins exactly at the start pose."""
         self._check(situation.condition)
-        s = situation.condition
-        k = self._regression.near(s)
-        vector = self._regression.mean(s) + self.corrections.change(s, k)
-        trajectory = self.encoding.decode(vector, situation, n)
-        taught, changed = self._variances(s, k)
+        place = self._regression.at(situation.condition)
+        effect = self.corrections.effect(place)
+        trajectory = self.encoding.decode(place.mean + effect.change, situation, n)
+        taught, changed = self._variances(place, effect)
         covariances = taught * self.spread.positions(n)
         duration_variance = taught * self.spread.covariance[-1, -1]
         if changed > 0.0:
@@ -144,15 +143,15 @@ class AdaptiveProMP:
     def distribution(self, situation: Situation) -> MotionDistribution:
         """See `MovementModel.distribution`."""
         self._check(situation.condition)
-        s = situation.condition
-        k = self._regression.near(s)
-        taught, changed = self._variances(s, k)
+        place = self._regression.at(situation.condition)
+        effect = self.corrections.effect(place)
+        taught, changed = self._variances(place, effect)
         covariance = taught * self.spread.covariance
         if changed > 0.0:
             changes = self.corrections.changes
             covariance = covariance + changed * (changes.T @ changes) / len(changes)
-        mean = self._regression.mean(s) + self.corrections.change(s, k)
-        return MotionDistribution(self.encoding, situation, frozen(mean), frozen(covariance))
+        mean = frozen(place.mean + effect.change)
+        return MotionDistribution(self.encoding, situation, mean, frozen(covariance))
 
     @property
     def _regression(self) -> Regression:
@@ -161,10 +160,10 @@ class AdaptiveProMP:
     def _check(self, s: Array) -> None:
         _check_dimension(s, self._regression.conditions.shape[1])
 
-    def _variances(self, s: Array, k: Array) -> tuple[float, float]:
+    def _variances(self, place: Place, effect: Effect) -> tuple[float, float]:
         """Of what was taught, in units of the spread, and of what has changed, in units of the changes seen so far."""
-        left = self.corrections.open_share(s, k)
-        taught = left * self._regression.uncertainty(s, k) + (1.0 - left) * self.options.repeatability
+        left = effect.open_share
+        taught = left * self._regression.uncertainty(place) + (1.0 - left) * self.options.repeatability
         return taught, left * self.corrections.surprising_share
 
 

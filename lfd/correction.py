@@ -19,7 +19,7 @@ from scipy.linalg import cho_factor, cho_solve
 from scipy.spatial.distance import cdist
 
 from lfd.arrays import Array
-from lfd.regression import Regression
+from lfd.regression import Place, Regression
 
 
 @dataclass(frozen=True)
@@ -46,6 +46,19 @@ class CorrectionOptions:
 
 
 @dataclass(frozen=True, eq=False)
+class Effect:
+    """What corrections do at a place.
+
+    Attributes:
+        change: Of the vector, shape (D,).
+        open_share: The share of the variance that they have left: 1 far from all, nearly 0 at the newest.
+    """
+
+    change: Array
+    open_share: float
+
+
+@dataclass(frozen=True, eq=False)
 class Corrections:
     """The corrections of a regression, oldest first.
 
@@ -54,8 +67,7 @@ class Corrections:
         options: Parameters.
         conditions: s_j, shape (J, c).
         changes: y_j = x_j - m(s_j), where m is the regression's mean, shape (J, D).
-        nearness: k(s_j, S) to the demonstrations' conditions, shape (J, M).
-        solved: (K + r I)^-1 of that, shape (J, M).
+        solved: (K + r I)^-1 k(s_j, S), of the demonstrations' kernel K, shape (J, M).
         openness: Part 1 of C between the corrections, shape (J, J).
     """
 
@@ -63,7 +75,6 @@ class Corrections:
     options: CorrectionOptions
     conditions: Array
     changes: Array
-    nearness: Array
     solved: Array
     openness: Array
 
@@ -72,24 +83,20 @@ class Corrections:
         """No correction yet."""
         M, c = regression.conditions.shape
         D = regression.vectors.shape[1]
-        shapes = ((0, c), (0, D), (0, M), (0, M), (0, 0))
+        shapes = ((0, c), (0, D), (0, M), (0, 0))
         return cls(regression, options, *(np.zeros(shape) for shape in shapes))
 
     def __len__(self) -> int:
         return len(self.conditions)
 
-    def added(self, s: Array, x: Array) -> Self:
-        """With a newer correction: at s (c,) the vector is x (D,)."""
-        k = self.regression.near(s)
-        solved = self.regression.solved(k)
-        row = self._open(s, k)
-        corner = self._open_at(s, k, solved)
+    def added(self, place: Place, x: Array) -> Self:
+        """With a newer correction: at a place the vector is x (D,)."""
+        row, corner = self._open(place), self._open_at(place)
         longer = replace(
             self,
-            conditions=np.vstack([self.conditions, s]),
-            changes=np.vstack([self.changes, x - self.regression.mean(s)]),
-            nearness=np.vstack([self.nearness, k]),
-            solved=np.vstack([self.solved, solved]),
+            conditions=np.vstack([self.conditions, place.s]),
+            changes=np.vstack([self.changes, x - place.mean]),
+            solved=np.vstack([self.solved, place.solved]),
             openness=np.block([[self.openness, row[:, None]], [row[None], np.full((1, 1), corner)]]),
         )
         return longer if len(longer) <= self.options.most else longer.without(int(np.argmax(longer._outdated)))
@@ -101,26 +108,18 @@ class Corrections:
             self,
             conditions=self.conditions[kept],
             changes=self.changes[kept],
-            nearness=self.nearness[kept],
             solved=self.solved[kept],
             openness=self.openness[np.ix_(kept, kept)],
         )
 
-    def change(self, s: Array, k: Array) -> Array:
-        """What the corrections change at s (c,), given k = `regression.near(s)`, shape (D,)."""
+    def effect(self, place: Place) -> Effect:
+        """What the corrections change at a place."""
         if not len(self):
-            return np.zeros(self.changes.shape[1])
-        change: Array = self._covariances(s, k) @ self._gain
-        return change
-
-    def open_share(self, s: Array, k: Array) -> float:
-        """The share of the variance at s that the corrections have left: 1 far from all, nearly 0 at the newest."""
-        if not len(self):
-            return 1.0
-        covariances = self._covariances(s, k)
-        before = self._open_at(s, k, self.regression.solved(k)) + self.surprise
-        explained = float(covariances @ cho_solve(self._factor, covariances))
-        return min(max(1.0 - explained / before, 0.0), 1.0)
+            return Effect(np.zeros(self.changes.shape[1]), 1.0)
+        covariances = self._open(place) + self.surprise * self._wide(place.s[None])[0]
+        before = self._open_at(place) + self.surprise
+        explained = float(covariances @ cho_solve(self._factor, covariances, check_finite=False))
+        return Effect(covariances @ self._gain, min(max(1.0 - explained / before, 0.0), 1.0))
 
     @cached_property
     def surprise(self) -> float:
@@ -136,22 +135,24 @@ class Corrections:
         squares = np.sum((self.changes @ self.regression.measure) ** 2, axis=1)
         return self.surprise / float(np.mean(squares)) if self.surprise > 0.0 else 0.0
 
-    def _covariances(self, s: Array, k: Array) -> Array:
-        return np.asarray(self._open(s, k) + self.surprise * self._wide(s[None])[0], dtype=np.float64)
+    def _open(self, place: Place) -> Array:
+        """Part 1 of C between a place and the corrections, shape (J,)."""
+        near = self.regression.kernel(place.s[None], self.conditions)[0] - self.solved @ place.nearness
+        slopes = (self.conditions - self._middle) @ (self._slope_covariance @ (place.s - self._middle))
+        return np.asarray(self._mean_variance + slopes + self._near_variance * near, dtype=np.float64)
 
-    def _open(self, s: Array, k: Array) -> Array:
-        """Part 1 of C between s and the corrections, shape (J,)."""
-        regression, extent = self.regression, self.regression.extent
-        near = regression.kernel(s[None], self.conditions)[0] - self.solved @ k
-        mean = (self.options.mean_std * extent) ** 2 / len(regression.conditions)
-        slopes = (self.conditions - self._middle) @ self._slope_covariance @ (s - self._middle)
-        return np.asarray(mean + slopes + (self.options.near_std * extent) ** 2 * near, dtype=np.float64)
+    def _open_at(self, place: Place) -> float:
+        away = place.s - self._middle
+        slope = float(away @ self._slope_covariance @ away)
+        return self._mean_variance + slope + self._near_variance * place.unexplained
 
-    def _open_at(self, s: Array, k: Array, solved: Array) -> float:
-        extent, away = self.regression.extent, s - self._middle
-        mean = (self.options.mean_std * extent) ** 2 / len(self.regression.conditions)
-        near = max(1.0 - float(k @ solved), 0.0)
-        return mean + float(away @ self._slope_covariance @ away) + (self.options.near_std * extent) ** 2 * near
+    @cached_property
+    def _mean_variance(self) -> float:
+        return (self.options.mean_std * self.regression.extent) ** 2 / len(self.regression.conditions)
+
+    @cached_property
+    def _near_variance(self) -> float:
+        return (self.options.near_std * self.regression.extent) ** 2
 
     def _wide(self, s: Array) -> Array:
         """Part 2 of C between s (m, c) and the corrections, at one unit of surprise, shape (m, J).

@@ -111,7 +111,8 @@ def _adaptive(header: dict[str, Any], arrays: dict[str, Array]) -> AdaptiveProMP
     model = AdaptiveProMP.of_vectors(encoding, arrays["conditions"], arrays["vectors"], header["extent"], options)
     corrections: Corrections = model.corrections
     for s, change in zip(arrays["corrected_conditions"], arrays["changes"], strict=True):
-        corrections = corrections.added(s, corrections.regression.mean(s) + change)
+        place = corrections.regression.at(s)
+        corrections = corrections.added(place, place.mean + change)
     return replace(model, corrections=corrections)
 
 

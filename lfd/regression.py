@@ -39,6 +39,28 @@ class RegressionOptions:
 
 
 @dataclass(frozen=True, eq=False)
+class Place:
+    """A condition, and what the demonstrations say about it.
+
+    Attributes:
+        s: The condition, shape (c,).
+        nearness: k(s, S), how near the demonstrations' conditions are, 1 to 0, shape (M,).
+        solved: (K + r I)^-1 of that, shape (M,).
+        mean: The vector expected there, shape (D,).
+    """
+
+    s: Array
+    nearness: Array
+    solved: Array
+    mean: Array
+
+    @property
+    def unexplained(self) -> float:
+        """The share of the departures from the trend that the demonstrations leave open there, 1 to 0."""
+        return max(1.0 - float(self.nearness @ self.solved), 0.0)
+
+
+@dataclass(frozen=True, eq=False)
 class Regression:
     """A linear trend over the condition, and by a Gaussian process what it does not explain.
 
@@ -60,19 +82,20 @@ class Regression:
     extent: float
     options: RegressionOptions
 
+    def at(self, s: Array) -> Place:
+        """What the demonstrations say about a condition, shape (c,)."""
+        nearness = self.kernel(s[None], self.conditions)[0]
+        mean = np.asarray(self.trend(s) + nearness @ self._gain, dtype=np.float64)
+        return Place(s, nearness, self.solved(nearness), mean)
+
     def mean(self, s: Array) -> Array:
         """The vector expected at a condition (c,), shape (D,)."""
-        return np.asarray(self.trend(s) + self.near(s) @ self._gain, dtype=np.float64)
+        return self.at(s).mean
 
     def trend(self, s: Array) -> Array:
         """The trend alone at s, shape (..., c) to (..., D)."""
         s_mean, mean = self._centre
         return np.asarray(mean + (s - s_mean) @ self._slope, dtype=np.float64)
-
-    def near(self, s: Array) -> Array:
-        """How near the demonstrations' conditions are to s: k(s, S), 1 to 0, shape (M,)."""
-        nearness: Array = self.kernel(s[None], self.conditions)[0]
-        return nearness
 
     def kernel(self, a: Array, b: Array) -> Array:
         """exp(-d^2 / 2 l^2) of conditions (m, c) and (n, c), shape (m, n)."""
@@ -80,17 +103,16 @@ class Regression:
 
     def solved(self, k: Array) -> Array:
         """(K + r I)^-1 k, shape (M, ...)."""
-        return np.asarray(cho_solve(self._factor, k), dtype=np.float64)
+        return np.asarray(cho_solve(self._factor, k, check_finite=False), dtype=np.float64)
 
     def leverage(self, s: Array) -> float:
         """How far the trend has to reach for s: 1 / M at the middle of the conditions, more with distance."""
         away = s - self._centre[0]
         return float(1.0 / len(self.conditions) + away @ self._slope_variance @ away)
 
-    def uncertainty(self, s: Array, k: Array) -> float:
-        """Variance of a motion at s relative to the departures from the trend, given k = `near(s)` [-]."""
-        unexplained = max(1.0 - float(k @ self.solved(k)), 0.0)
-        return self.options.noise + unexplained * (1.0 + self.leverage(s))
+    def uncertainty(self, place: Place) -> float:
+        """Variance of a motion at a place relative to the departures from the trend [-]."""
+        return self.options.noise + place.unexplained * (1.0 + self.leverage(place.s))
 
     @cached_property
     def length(self) -> float:

@@ -16,15 +16,16 @@ def none(rng):
 
 
 def change(corrections, s):
-    return corrections.change(s, corrections.regression.near(s))
+    return corrections.effect(corrections.regression.at(s)).change
 
 
 def open_share(corrections, s):
-    return corrections.open_share(s, corrections.regression.near(s))
+    return corrections.effect(corrections.regression.at(s)).open_share
 
 
 def correct(corrections, s, y):
-    return corrections.added(s, corrections.regression.mean(s) + y)
+    place = corrections.regression.at(s)
+    return corrections.added(place, place.mean + y)
 
 
 def test_without_a_correction_nothing_changes_and_everything_is_open(none):

@@ -48,8 +48,7 @@ def test_the_scale_of_everything_does_not_matter(rng):
     small = regression(conditions, vectors, extent=0.5)
     large = regression(1e3 * conditions, 1e3 * vectors, extent=500.0)
     np.testing.assert_allclose(large.mean(1e3 * s), 1e3 * small.mean(s), rtol=1e-9)
-    k = small.near(s)
-    assert large.uncertainty(1e3 * s, k) == pytest.approx(small.uncertainty(s, k))
+    assert large.uncertainty(large.at(1e3 * s)) == pytest.approx(small.uncertainty(small.at(s)))
 
 
 def test_left_out_errors_are_those_of_a_regression_that_has_not_seen_the_condition(rng):
@@ -64,23 +63,22 @@ def test_left_out_errors_are_those_of_a_regression_that_has_not_seen_the_conditi
         anew.__dict__["shrinkage"], anew.__dict__["length"] = whole.shrinkage, whole.length
         for i in group:
             np.testing.assert_allclose(errors[i], vectors[i] - anew.mean(conditions[i]), atol=1e-9)
-            near = anew.near(conditions[i])
-            assert variances[i] == pytest.approx(anew.uncertainty(conditions[i], near), rel=1e-6)
+            assert variances[i] == pytest.approx(anew.uncertainty(anew.at(conditions[i])), rel=1e-6)
 
 
 def test_the_variance_of_one_demonstration_by_hand():
     """At its own condition: r + (1 - 1 / (1 + r)) (1 + 1); far from it the trend's reach is added."""
     fitted = regression([[0.2]], [[1.0]])
     r, s = OPTIONS.noise, np.array([0.2])
-    assert fitted.uncertainty(s, fitted.near(s)) == pytest.approx(r + (1.0 - 1.0 / (1.0 + r)) * 2.0)
+    assert fitted.uncertainty(fitted.at(s)) == pytest.approx(r + (1.0 - 1.0 / (1.0 + r)) * 2.0)
     away = 0.5
     far = np.array([0.2 + away])
     precision = OPTIONS.marker_noise**2 + OPTIONS.same**2
-    expected = r + (1.0 - fitted.near(far)[0] ** 2 / (1.0 + r)) * (2.0 + away**2 / precision)
-    assert fitted.uncertainty(far, fitted.near(far)) == pytest.approx(expected)
+    expected = r + (1.0 - fitted.at(far).nearness[0] ** 2 / (1.0 + r)) * (2.0 + away**2 / precision)
+    assert fitted.uncertainty(fitted.at(far)) == pytest.approx(expected)
 
 
 def test_uncertainty_grows_away_from_the_conditions(rng):
     fitted = regression(rng.uniform(-0.1, 0.1, size=(6, 2)), rng.normal(size=(6, 3)))
     away = [np.array([x, 0.0]) for x in (0.1, 0.3, 0.6, 1.0, 3.0)]
-    assert (np.diff([fitted.uncertainty(s, fitted.near(s)) for s in away]) > 0.0).all()
+    assert (np.diff([fitted.uncertainty(fitted.at(s)) for s in away]) > 0.0).all()
