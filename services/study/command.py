@@ -72,14 +72,19 @@ def reproduce(request: Request, analyses: Sequence[Analysis] = ANALYSES) -> int:
     outcomes = {name: outcome for name, outcome in kept.items() if name not in {a.name for a in todo}}
     console = Console(stderr=True, highlight=False)
     report = write_report(request.out, analyses, outcomes, request.seed)
-    with _Bars(console, len(todo)) as bars:
-        for analysis, outcome in carry_out(todo, store, request.seed, request.jobs, bars):
-            bars.ended(analysis, outcome)
-            outcomes[analysis.name] = outcome
-            write_report(request.out, analyses, outcomes, request.seed)
+    try:
+        with _Bars(console, len(todo)) as bars:
+            for analysis, outcome in carry_out(todo, store, request.seed, request.jobs, bars):
+                bars.ended(analysis, outcome)
+                outcomes[analysis.name] = outcome
+                write_report(request.out, analyses, outcomes, request.seed)
+    except KeyboardInterrupt:
+        left = sum(a.name not in outcomes for a in todo)
+        console.print(f"interrupted with {left} to go; the same command goes on; so far: {report}", soft_wrap=True)
+        raise
     found = [outcomes[a.name] for a in chosen]
     failed = sum(isinstance(outcome, Failed) for outcome in found)
-    console.print(f"{len(found)} analyses, {len(found) - len(todo)} of them kept from before, {failed} failed")
+    console.print(f"{len(found)} analyses: {len(found) - len(todo)} kept from before, {failed} failed")
     Console(highlight=False, soft_wrap=True).print(str(report.resolve()), markup=False)
     return EXIT_FAILED if failed else 0
 
