@@ -5,12 +5,13 @@ from numpy.typing import NDArray
 
 from lfd.demonstration import Demonstration
 from lfd.resampling import from_samples
+from lfd.trajectory import Trajectory
 from services.exceptions import CommandFailed
 from services.robot.arm import Arm
 from services.robot.rollout import rollout, simulated_arm
 from sim.description import prepare
 from sim.pose import Pose
-from sim.scenes.scene import Scene
+from sim.scenes.scene import Corridor, Scene
 from sim.steering import steer
 
 Array = NDArray[np.float64]
@@ -52,10 +53,15 @@ def demonstrate(
     """
     start = scene.start if start is None else start
     for _ in range(TRIES):
-        way = steer(scene.corridor(scene.variants[0], position, start), rng)
-        times = np.linspace(0.0, DURATION_S, len(way.positions))
-        trajectory = from_samples(times, way.positions, way.orientations, POINTS)
+        trajectory = steered(scene.corridor(scene.variants[0], position, start), rng)
         outcome = rollout(arm, trajectory, position, variant=scene.variants[0], start=start)
         if outcome.verdict.success:
             return Demonstration.reaching(outcome.measured, position)
     raise CommandFailed(f"no motion to an object at {np.round(position, 3).tolist()} succeeded in {TRIES} tries")
+
+
+def steered(corridor: Corridor, rng: np.random.Generator | None = None) -> Trajectory:
+    """A person's motion through a corridor; with a steady hand where there is no randomness."""
+    way = steer(corridor, rng)
+    times = np.linspace(0.0, DURATION_S, len(way.positions))
+    return from_samples(times, way.positions, way.orientations, POINTS)

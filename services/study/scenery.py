@@ -42,6 +42,8 @@ def furnish(axes: Axes, boxes: Sequence[Box], lower: Vector, upper: Vector) -> N
         upper: greatest corner [m].
     """
     pane = solid(axes)
+    # What is drawn later lies in front: the automatic order cuts translucent faces through what stands on them.
+    pane.computed_zorder = False
     for box in boxes:
         corners = box.centre + (_CORNERS * box.half_sizes) @ matrix_from_quaternion(np.array(box.quaternion)).T
         if box.group is Group.DETAIL or np.any(corners.min(axis=0) > upper) or np.any(corners.max(axis=0) < lower):

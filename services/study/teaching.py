@@ -205,7 +205,7 @@ def first_rounds(answer: Answer, titles: Sequence[str], caption: str) -> list[Fi
 def _first_round(
     question: Question, rehearsed: Rehearsed, *, kind: Kind, titles: Sequence[str], name: str, caption: str
 ) -> Figure:
-    canvas, panes = panels(titles, height=2.7, rows=-(-len(titles) // _COLUMNS), solid=True)
+    canvas, panes = panels(titles, height=2.9 if len(titles) <= _COLUMNS else 3.3, rows=-(-len(titles) // _COLUMNS), solid=True)
     for axes, course in zip(panes, rehearsed.first, strict=True):
         furnish(axes, question.scene.boxes(course.arrangement.variant), *question.shown)
         place_object(axes, course.arrangement.object_position)
