@@ -1,4 +1,4 @@
-"""Tries a model's predictions at many places, simulated on all cores; and lets the scripted operator correct it once."""
+"""Tries a model's predictions at many places, on all cores; and lets the scripted operator correct it once."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from threadpoolctl import threadpool_limits
 from lfd.demonstration import Demonstration, Situation
 from lfd.model import MovementModel
 from lfd.storage import DemonstrationStore, StoredDemonstration
+from lfd.trajectory import Trajectory
 from services.arrays import vector3
 from services.parallel import Progress, each
 from services.rehearsal.rehearsal import Plan, Rehearsal
@@ -22,7 +23,7 @@ from services.robot.lesson import steered
 from services.robot.rollout import rollout, simulated_arm
 from services.robot.starts import StartImpossible
 from services.robot.verdict import Verdict
-from services.study.success_map import UNREACHABLE, Condition, Outcome, Place, Trial, judged
+from services.study.success_map import UNREACHABLE, Condition, Outcome, Place, Trial
 from sim.description import prepare
 from sim.scenes import scene as find_scene
 from sim.scenes.scene import Scene
@@ -31,8 +32,8 @@ REFINEMENTS_ALLOWED = 10
 
 
 @dataclass(frozen=True, eq=False)
-class Task:
-    """What is tried in one process.
+class Tried:
+    """What is to be tried.
 
     Attributes:
         scene: by name.
@@ -47,7 +48,7 @@ class Task:
     places: tuple[Place, ...]
 
 
-def conditions(task: Task, jobs: int, progress: Progress = lambda _: None) -> list[Condition]:
+def conditions(task: Tried, jobs: int, progress: Progress = lambda _: None) -> list[Condition]:
     """Try the models at all places.
 
     A place is unreachable where no motion can start, or where nothing that was tried succeeded and the scene's own
@@ -63,7 +64,7 @@ def conditions(task: Task, jobs: int, progress: Progress = lambda _: None) -> li
         What became of each place, in their order.
     """
     parts = max(1, min(jobs, len(task.places)))
-    tasks = [Task(task.scene, task.variant, task.models, task.places[i::parts]) for i in range(parts)]
+    tasks = [Tried(task.scene, task.variant, task.models, task.places[i::parts]) for i in range(parts)]
     found: list[tuple[Trial, ...]] = [()] * len(task.places)
     for part, trials in each(_carry_out, tasks, parts, progress):
         found[part::parts] = trials
@@ -105,7 +106,7 @@ def corrected_once(
             return store.active()
 
 
-def _carry_out(task: Task, progress: Progress) -> list[tuple[Trial, ...]]:
+def _carry_out(task: Tried, progress: Progress) -> list[tuple[Trial, ...]]:
     scene, found = find_scene(task.scene), []
     with threadpool_limits(1):
         arm = simulated_arm(scene, task.variant, prepare())
@@ -115,22 +116,20 @@ def _carry_out(task: Task, progress: Progress) -> list[tuple[Trial, ...]]:
     return found
 
 
-def _tried(arm: Arm, scene: Scene, task: Task, place: Place) -> tuple[Trial, ...]:
+def _tried(arm: Arm, scene: Scene, task: Tried, place: Place) -> tuple[Trial, ...]:
     start, position = place.start(scene), np.array(place.object_position)
     situation = Situation.reaching(position, start.position, start.orientation)
+
+    def verdict(motion: Trajectory) -> Verdict:
+        return rollout(arm, motion, position, variant=task.variant, start=start, to_collision=True).verdict
+
     try:
-        verdicts = [
-            rollout(arm, model.predict(situation).trajectory, position, variant=task.variant, start=start).verdict
-            for model in task.models
-        ]
+        trials = [_trial(verdict(model.predict(situation).trajectory)) for model in task.models]
     except StartImpossible:
         return (UNREACHABLE,) * len(task.models)
-    if any(verdict.success for verdict in verdicts):
-        possible = True
-    else:
-        way = steered(scene.corridor(task.variant, position, start))
-        possible = rollout(arm, way, position, variant=task.variant, start=start).verdict.success
-    return judged([_trial(verdict) for verdict in verdicts], possible=possible)
+    proven = any(trial.outcome is Outcome.REACHED for trial in trials)
+    possible = proven or verdict(steered(scene.corridor(task.variant, position, start))).success
+    return tuple(trials) if possible else (UNREACHABLE,) * len(trials)
 
 
 def _trial(verdict: Verdict) -> Trial:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from enum import Enum
 
 import msgspec
@@ -148,17 +147,6 @@ def sample(scene: Scene, n: int, spread: float, rng: np.random.Generator) -> tup
     """
     objects = np.array([scene.region.sample(rng) for _ in range(n)])
     return _places(objects, rng.uniform(-spread, spread, (n, 3)))
-
-
-def judged(trials: Sequence[Trial], *, possible: bool) -> tuple[Trial, ...]:
-    """What became of a condition.
-
-    Args:
-        trials: at each stage.
-        possible: some motion succeeds there; a trial that did is proof enough.
-    """
-    proven = any(trial.outcome is Outcome.REACHED for trial in trials)
-    return tuple(trials) if proven or possible else (UNREACHABLE,) * len(trials)
 
 
 def _middles(n: int) -> Array:
