@@ -16,9 +16,9 @@ from lfd.arrays import Array, frozen
 from lfd.basis import GaussianBasis
 from lfd.condensation import condensed
 from lfd.correction import CorrectionOptions, Corrections, Effect
-from lfd.demonstration import Demonstration, Situation
+from lfd.demonstration import Demonstration, Situation, check_demonstrations, check_dimension
 from lfd.encoding import OUTPUTS, Encoding, reference_rotation
-from lfd.exceptions import NothingToTakeBack, TooFewDemonstrations, WrongShape
+from lfd.exceptions import NothingToTakeBack
 from lfd.model import PREDICTION_POINTS, Prediction
 from lfd.motion import POSITION, MotionDistribution
 from lfd.regression import Place, Regression, RegressionOptions
@@ -75,11 +75,8 @@ class AdaptiveProMP:
             TooFewDemonstrations: There is none.
             WrongShape: Two conditions differ in dimension.
         """
-        if not demonstrations:
-            raise TooFewDemonstrations
+        check_demonstrations(demonstrations)
         options = options or AdaptiveOptions()
-        for demonstration in demonstrations:
-            _check_dimension(demonstration.condition, len(demonstrations[0].condition))
         encoding = Encoding(options.basis, options.samples, reference_rotation(demonstrations), anchored=True)
         extent = _extent(demonstrations)
         aligned = align(demonstrations, options.regression.same * extent)
@@ -158,7 +155,7 @@ class AdaptiveProMP:
         return self.corrections.regression
 
     def _check(self, s: Array) -> None:
-        _check_dimension(s, self._regression.conditions.shape[1])
+        check_dimension(s, self._regression.conditions.shape[1])
 
     def _variances(self, place: Place, effect: Effect) -> tuple[float, float]:
         """Of what was taught, in units of the spread, and of what has changed, in units of the changes seen so far."""
@@ -184,8 +181,3 @@ def _measure(encoding: Encoding) -> Array:
     rows = encoding.rows(np.linspace(0.0, 1.0, _MEASURED)) / np.sqrt(_MEASURED)
     positions = np.kron(rows, np.eye(POSITION, OUTPUTS))
     return frozen(np.vstack([positions.T, np.zeros((1, len(positions)))]))
-
-
-def _check_dimension(s: Array, dimension: int) -> None:
-    if len(s) != dimension:
-        raise WrongShape("condition", f"({dimension},)", s.shape)

@@ -1,9 +1,11 @@
 """What a motion is predicted from, and a motion that was right there."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Self
 
 from lfd.arrays import Array, checked, checked_quaternions
+from lfd.exceptions import TooFewDemonstrations, WrongShape
 from lfd.trajectory import Trajectory
 
 
@@ -96,6 +98,25 @@ def checked_condition(values: Array) -> Array:
         NotFinite: A number is NaN or infinite.
     """
     return checked("condition", values, (None,)) if len(values) else checked("condition", values, (1,))
+
+
+def check_demonstrations(demonstrations: Sequence[Demonstration]) -> None:
+    """Let pass what a model can be fitted to.
+
+    Raises:
+        TooFewDemonstrations: There is none.
+        WrongShape: Two conditions differ in dimension.
+    """
+    if not demonstrations:
+        raise TooFewDemonstrations
+    for demonstration in demonstrations:
+        check_dimension(demonstration.condition, len(demonstrations[0].condition))
+
+
+def check_dimension(condition: Array, dimension: int) -> None:
+    """Raise WrongShape unless a condition has that dimension."""
+    if len(condition) != dimension:
+        raise WrongShape("condition", f"({dimension},)", condition.shape)
 
 
 def relative_to_origin(trajectory: Trajectory, origin: Array) -> Trajectory:

@@ -8,7 +8,7 @@ import numpy as np
 
 from lfd.arrays import Array, checked_quaternions, frozen
 from lfd.basis import GaussianBasis, least_squares
-from lfd.demonstration import Demonstration, Situation, relative_to_origin
+from lfd.demonstration import Demonstration, Situation
 from lfd.resampling import resample
 from lfd.rotations import conjugate, exp_map, log_map, mean_rotation, multiply, sign_continuous
 from lfd.trajectory import Trajectory
@@ -49,8 +49,8 @@ class Encoding:
     def encode(self, demonstration: Demonstration) -> Array:
         """The vector of a demonstration, shape (6 N + 1,): N x 6 weights row by row, then ln(duration / s)."""
         trajectory = resample(demonstration.trajectory, self.samples)
-        relative = relative_to_origin(trajectory, demonstration.origin)
-        outputs = np.hstack([relative.positions, self._rotation_vectors(relative.orientations)])
+        relative = trajectory.positions - demonstration.origin  # equation (23)
+        outputs = np.hstack([relative, self._rotation_vectors(trajectory.orientations)])
         if self.anchored:
             outputs = outputs - np.outer(1.0 - trajectory.phases, outputs[0])
         w = _solver(self.basis, trajectory.phases.tobytes(), self.anchored) @ outputs

@@ -16,12 +16,12 @@ class JointGaussian:
     Attributes:
         mean: Shape (d,).
         scatter: Psi, the sum of the outer products of the deviations from the mean, shape (d, d).
-        count: M, the number of samples seen.
+        count: M, the number of samples seen; with forgetting, the sum of their weights.
     """
 
     mean: Array
     scatter: Array
-    count: int
+    count: float
 
     def __post_init__(self) -> None:
         mean = checked("mean", self.mean, (None,))
@@ -44,20 +44,33 @@ class JointGaussian:
     @property
     def covariance(self) -> Array:
         """Sigma = Psi / (M - 1), shape (d, d); zero for a single sample, which says nothing about spread."""
-        return frozen(self.scatter / max(self.count - 1, 1))
+        return frozen(self.scatter / max(self.count - 1.0, 1.0))
 
 
-def welford(joint: JointGaussian, x: Array) -> JointGaussian:
-    """Equations (19) and (20): the Gaussian that has also seen x, shape (d,), equal to a batch fit of all.
+def welford(joint: JointGaussian, x: Array, kept: float = 1.0) -> JointGaussian:
+    """Equations (19) and (20): the Gaussian that has also seen x, equal to a batch fit of all.
 
-    M counts the new sample. The text writes the product of (20) as an inner one; it is the outer product.
+    M counts the new sample. The text writes the product of (20) as an inner one; it is the outer product. Forgetting,
+    which the thesis only proposes (section V-A), lets every older sample count `kept` times what it counted before,
+    for the mean and the covariance alike.
+
+    Args:
+        joint: Of the samples so far.
+        x: The new sample, shape (d,).
+        kept: Forgetting factor, above 0 to 1; 1 forgets nothing.
+
+    Raises:
+        OutOfRange: The forgetting factor is not in (0, 1].
     """
-    M = joint.count + 1
+    if not 0.0 < kept <= 1.0:
+        raise OutOfRange("forgetting factor", kept, "above 0, at most 1")
+    before = kept * joint.count
+    M = before + 1.0
     deviation = x - joint.mean
     return replace(
         joint,
         mean=joint.mean + deviation / M,
-        scatter=joint.scatter + (M - 1) / M * np.outer(deviation, deviation),
+        scatter=kept * joint.scatter + before / M * np.outer(deviation, deviation),
         count=M,
     )
 

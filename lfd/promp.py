@@ -9,9 +9,8 @@ import numpy as np
 from lfd.alignment import Selection, align
 from lfd.arrays import Array
 from lfd.basis import GaussianBasis
-from lfd.demonstration import Demonstration, Situation
+from lfd.demonstration import Demonstration, Situation, check_demonstrations, check_dimension
 from lfd.encoding import OUTPUTS, Encoding, reference_rotation
-from lfd.exceptions import TooFewDemonstrations, WrongShape
 from lfd.gaussian import JointGaussian, condition, welford
 from lfd.model import PREDICTION_POINTS, Prediction
 from lfd.motion import MotionDistribution
@@ -32,6 +31,7 @@ class PrompOptions:
             implementation used 0.1.
         observation_std: sigma of equation (13) [m].
         selection: Of the demonstrations of a condition. The thesis' is `Selection.SIMILAR_PAIR`.
+        kept: What an older motion still counts after an update; 1 is Welford's method, as in the thesis.
     """
 
     basis: GaussianBasis = _BASIS
@@ -39,6 +39,7 @@ class PrompOptions:
     conditioning_noise: float = 0.03
     observation_std: float = 0.01
     selection: Selection = Selection.ALL
+    kept: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,9 +66,9 @@ class ConditionedProMP:
 
         Raises:
             TooFewDemonstrations: There is none.
+            WrongShape: Two conditions differ in dimension.
         """
-        if not demonstrations:
-            raise TooFewDemonstrations
+        check_demonstrations(demonstrations)
         options = options or PrompOptions()
         encoding = Encoding(options.basis, options.samples, reference_rotation(demonstrations), anchored=False)
         aligned = align(demonstrations, selection=options.selection)
@@ -75,8 +76,13 @@ class ConditionedProMP:
         return cls(encoding, JointGaussian.fit(samples), options)
 
     def updated(self, demonstration: Demonstration) -> Self:
-        """The model after one step of Welford's method: the new motion counts as much as each earlier one."""
-        return replace(self, joint=welford(self.joint, _sample(self.encoding, demonstration)))
+        """The model after one step of Welford's method: the new motion counts as much as each earlier one.
+
+        Raises:
+            WrongShape: Its condition has another dimension than those before.
+        """
+        self._check(demonstration.condition)
+        return replace(self, joint=welford(self.joint, _sample(self.encoding, demonstration), self.options.kept))
 
     def predict(self, situation: Situation, n: int = PREDICTION_POINTS) -> Prediction:
         """Equations (12) and (13), see `MovementModel.predict`; the start orientation is not used."""
@@ -85,14 +91,15 @@ class ConditionedProMP:
 
     def distribution(self, situation: Situation) -> MotionDistribution:
         """Equations (8) to (11), see `MovementModel.distribution`."""
+        self._check(situation.condition)
         s = CONDITION_SCALE * situation.condition
-        dimension = len(self.joint.mean) - (OUTPUTS * self.options.basis.count + 1)
-        if len(s) != dimension:
-            raise WrongShape("condition", f"({dimension},)", s.shape)
         given = condition(self.joint, s, self.options.conditioning_noise)
         return MotionDistribution(
             self.encoding, situation, given.mean, given.covariance, noise_std=self.options.observation_std
         )
+
+    def _check(self, s: Array) -> None:
+        check_dimension(s, len(self.joint.mean) - (OUTPUTS * self.options.basis.count + 1))
 
 
 def _sample(encoding: Encoding, demonstration: Demonstration) -> Array:

@@ -240,13 +240,14 @@ class SceneState(Message, frozen=True, kw_only=True):
         variant: which of the scene's arrangements stands there now.
         variants: all of them, the one that the model was trained in first.
         boxes: the environment, to draw.
-        object_size: full edge lengths [m].
+        object_size: full edge lengths [m]; zero where there is no object.
         ellipsoid_radii: of the reached ellipsoid about the grasping frame [m].
         kicked_over_thresholds: largest displacement on each axis [m].
         start: pose of the grasping frame from which the next motion starts.
         object_region: least and greatest corner of where objects may stand [m].
         condition: the external state that the motion depends on; empty where it is the object relative to the gripper
             at the start.
+        condition_region: least and greatest of the conditions that are drawn, where there are any.
     """
 
     name: Name
@@ -259,19 +260,20 @@ class SceneState(Message, frozen=True, kw_only=True):
     object_region: tuple[Vector3, Vector3]
     variants: Annotated[tuple[Name, ...], msgspec.Meta(max_length=16)] = ()
     condition: Condition = ()
+    condition_region: tuple[Condition, Condition] = ((), ())
 
 
 class Verdict(Message, frozen=True, kw_only=True):
     """The success criteria (thesis, Appendix E), judged now; a collision stays until the next episode.
 
     Attributes:
-        reached: the object's centre lies in the gripper's ellipsoid.
+        reached: the object's centre lies in the gripper's ellipsoid, or all via-points were passed through.
         kicked_over: the object moved further than its threshold on some axis.
         collision: the robot touched the environment.
         collision_position: where first, base frame [m].
         collision_force: normal force of the first contact [N].
         collision_between: the robot's link and the thing that it touched first.
-        ellipsoid_value: of eq. E.1; at most 1 inside.
+        ellipsoid_value: of eq. E.1, or the greatest (error / tolerance)^2 at a via-point; at most 1 where reached.
         object_displacement: since the episode started [m].
     """
 
@@ -473,7 +475,11 @@ class Outcome(msgspec.Struct, frozen=True):
 
 
 class Attempt(msgspec.Struct, frozen=True):
-    """One episode of a teaching run."""
+    """One episode of a teaching run.
+
+    The motion was relative to the object's position, and right or wrong for the condition; that is empty where it is
+    the object relative to the start.
+    """
 
     scene: Name
     object_position: Vector3
@@ -483,6 +489,7 @@ class Attempt(msgspec.Struct, frozen=True):
     duration_s: Real
     variant: Name
     mode: Mode
+    condition: Condition = ()
 
 
 class TeachingState(Message, frozen=True, kw_only=True):
@@ -498,7 +505,7 @@ class TeachingState(Message, frozen=True, kw_only=True):
         updates_allowed: at most.
         attempts: every episode in order.
         finished: nothing more will happen.
-        loop_closed: a prediction failed by collision, was refined, learnt, and a later one succeeded by itself.
+        loop_closed: a prediction failed, was refined, learnt, and a later one succeeded by itself.
         reason: why not, empty where it did.
         actions: what the operator may do now, by name.
     """

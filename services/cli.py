@@ -18,7 +18,7 @@ from protocol.messages import Vector3
 from protocol.table import query_table, topic_table
 from protocol.topics import checked_name
 from services.child import EXIT_BAD_INPUT
-from services.config import Configuration, Scripted, load
+from services.config import Configuration, RobotSection, Scripted, load
 from services.exceptions import CommandFailed, RoomMissing, ServiceError
 from services.processes import PROCESS_NAMES, PROCESSES, process
 from sim.exceptions import SimError
@@ -62,7 +62,19 @@ examples:
 
 
 class _Parser(argparse.ArgumentParser):
-    """Says what is wrong in one line instead of printing the usage."""
+    """Says what is wrong in one line instead of printing the usage.
+
+    Attributes:
+        about_later: makes the last line of the help, when it is asked for.
+    """
+
+    about_later: Callable[[], str] | None = None
+
+    def format_help(self) -> str:
+        """As of any parser, with the last line."""
+        if self.about_later is not None:
+            self.epilog = self.about_later()
+        return super().format_help()
 
     def error(self, message: str) -> NoReturn:
         self.exit(EXIT_BAD_INPUT, f"{self.prog}: {message}; see '{self.prog} --help'\n")
@@ -124,9 +136,18 @@ def _at_least_one(text: str) -> int:
     return int(text)
 
 
-def _add_scene(command: argparse.ArgumentParser) -> None:
-    command.add_argument("--scene", metavar="S", help="dishwasher (default) or table")
-    command.add_argument("--seed", type=_seed, metavar="N", help="of the object's position and the scripted hand")
+def _add_scene(command: _Parser) -> None:
+    command.about_later = _about_scenes
+    command.add_argument("--scene", metavar="S", help=f"the simulated scene (default: {RobotSection().scene})")
+    command.add_argument("--variant", metavar="V", help="its arrangement that is taught (default: the last one)")
+    command.add_argument("--seed", type=_seed, metavar="N", help="of the target's place and the scripted hand")
+
+
+def _about_scenes() -> str:
+    # Imported here: only who asks for help waits until the scenes are loaded.
+    from sim.scenes import SCENES  # noqa: PLC0415
+
+    return "scenes: " + "; ".join(f"{name} ({', '.join(scene.variants)})" for name, scene in SCENES.items())
 
 
 def _add_up(commands: argparse._SubParsersAction[_Parser], common: _Parser) -> None:
@@ -257,6 +278,7 @@ def configuration(arguments: argparse.Namespace) -> Configuration:
     Raises:
         ConfigurationError: the file cannot be used.
         ProtocolError: the robot's name cannot stand in a key.
+        SimError: the scene has no such variant.
     """
     result = load(arguments.config) if arguments.config else Configuration()
     changes: dict[str, object] = {
@@ -270,9 +292,16 @@ def configuration(arguments: argparse.Namespace) -> Configuration:
         changes["robot"] = msgspec.structs.replace(result.robot, scene=arguments.scene)
     if getattr(arguments, "headless", False):
         changes["master"] = msgspec.structs.replace(result.master, device=Scripted())
+    station = result.station
     if arguments.command == "up":
-        changes["station"] = msgspec.structs.replace(result.station, scripted=arguments.headless, once=arguments.once)
-    result = msgspec.structs.replace(result, **changes)
+        station = msgspec.structs.replace(station, scripted=arguments.headless, once=arguments.once)
+    if getattr(arguments, "variant", None):
+        station = msgspec.structs.replace(station, variant=arguments.variant)
+    result = msgspec.structs.replace(result, station=station, **changes)
+    if result.station.variant:
+        from sim.scenes import scene  # noqa: PLC0415
+
+        scene(result.robot.scene).check(result.station.variant)
     checked_name(result.name)
     return result
 

@@ -22,7 +22,7 @@ class RobotSection(_Section, frozen=True):
     """The robot process.
 
     Attributes:
-        scene: which simulated scene it stands in: "dishwasher" or "table".
+        scene: which simulated scene it stands in: a name in `sim.scenes`.
         variant: the scene's arrangement to start in; empty for the one that the model was trained in.
         hold_after_s: age of the master's newest sample at which a refinement holds [s].
         lease_s: how long the authority lasts without renewal [s].
@@ -117,6 +117,7 @@ class StationSection(_Section, frozen=True):
         updates_allowed: updates of one run.
         autonomous_s: duration of an autonomous execution [s].
         refine_s: duration of an execution under correction [s].
+        variant: arrangement of the scene that is taught; empty for the one that was changed since the first lesson.
         adapt: which way-point a correction moves: "next" (eq. 15-17), or "current" (eq. B.7) for comparison.
         scripted: the workflow's buttons are pressed by a script; there is no page.
         once: finish when the loop has closed, instead of going on with another object position.
@@ -128,6 +129,7 @@ class StationSection(_Section, frozen=True):
     updates_allowed: Annotated[int, msgspec.Meta(ge=1)] = 8
     autonomous_s: Positive = 10.0
     refine_s: Positive = 20.0
+    variant: str = ""
     adapt: Adapt = Adapt.NEXT
     scripted: bool = False
     once: bool = False

@@ -16,12 +16,12 @@ from lfd.demonstration import Demonstration
 from lfd.storage import DemonstrationStore, Kind
 from services import robot
 from sim.description import default_cache
-from sim.scenes.scene import Scene
+from sim.scenes import AnyScene
 
 log = logging.getLogger(__name__)
 
 
-def first_demonstrations(scene: Scene, cache: Path | None = None) -> list[Demonstration]:
+def first_demonstrations(scene: AnyScene, cache: Path | None = None) -> list[Demonstration]:
     """The demonstrations that a scene's model starts from, one a training position, in the scene's first variant.
 
     Args:
@@ -29,7 +29,7 @@ def first_demonstrations(scene: Scene, cache: Path | None = None) -> list[Demons
         cache: folder to keep them in; the user's cache folder by default.
 
     Raises:
-        CommandFailed: no motion to some object succeeded.
+        CommandFailed: no motion to some place succeeded.
         StorageError: the cache cannot be written.
     """
     folder = cache or default_cache()

@@ -28,13 +28,14 @@ class AttemptReport(msgspec.Struct, frozen=True):
     operator_input: bool
     verdict: VerdictReport
     duration_s: float
+    condition: tuple[float, ...]
 
 
 class Report(msgspec.Struct, frozen=True):
     """One run of `retouch up`.
 
     Attributes:
-        loop_closed: a prediction collided, was refined, learnt, and a later one succeeded by itself.
+        loop_closed: a prediction failed, was refined, learnt, and a later one succeeded by itself.
         reason: why not; empty where it did.
         processes: name to process id, as they ran last.
         restarts: of each process.
@@ -64,6 +65,7 @@ def attempt_reports(teaching: TeachingState | None) -> list[AttemptReport]:
             operator_input=a.operator_input,
             verdict=VerdictReport(a.verdict.reached, a.verdict.kicked_over, a.verdict.collision),
             duration_s=a.duration_s,
+            condition=a.condition,
         )
         for a in (teaching.attempts if teaching is not None else ())
     ]
@@ -79,7 +81,7 @@ def write(report: Report, path: Path) -> None:
 def attempt_line(number: int, attempt: Attempt) -> str:
     """An episode in one line."""
     who = "refinement" if attempt.mode is Mode.REFINE else "prediction"
-    x, y, z = attempt.object_position
+    target, values = ("condition", attempt.condition) if attempt.condition else ("object at", attempt.object_position)
     faults = [
         word
         for word, happened in (
@@ -93,5 +95,5 @@ def attempt_line(number: int, attempt: Attempt) -> str:
     place = f"{attempt.scene} {attempt.variant}".strip()
     return (
         f"{number}. {who} of model version {attempt.model_version} in {place},"
-        f" object at ({x:.3f}, {y:.3f}, {z:.3f}) m: {what}, {attempt.duration_s:.1f} s"
+        f" {target} ({', '.join(f'{value:.3f}' for value in values)}) m: {what}, {attempt.duration_s:.1f} s"
     )

@@ -15,29 +15,26 @@ from sim.description import (
     WRIST_CAMERA_FRAME,
     RobotDescription,
 )
-from sim.scenes.scene import (
-    LID_SIZE,
-    OBJECT_MASS,
-    OBJECT_SIZE,
-    TAG_BITS,
-    TAG_SIZE,
-    Box,
-    Group,
-    Scene,
+from sim.particle import particle
+from sim.scenes import AnyScene
+from sim.scenes.particle import ParticleScene
+from sim.scenes.scene import LID_SIZE, OBJECT_MASS, OBJECT_SIZE, TAG_BITS, TAG_SIZE, ReachingScene
+from sim.staging import (
+    AFFINITY,
+    DRAWN,
+    FIELD_OF_VIEW,
+    HEAD_CAMERA,
+    ROBOT,
+    THING,
+    UNSEEN,
+    WRIST_CAMERA,
+    add_boxes,
+    add_stage,
 )
 
 OBJECT = "object"
-HEAD_CAMERA, WRIST_CAMERA = "head", "wrist"
-FIELD_OF_VIEW = {HEAD_CAMERA: 36.0, WRIST_CAMERA: 60.0}  # [deg] vertical
 
 TIMESTEP = 0.002  # [s]
-
-# Contact classes: a pair collides if either one's type is in the other's affinity.
-ROBOT, ENVIRONMENT, THING, FLOOR = 1, 2, 4, 8
-_AFFINITY = {ROBOT: ENVIRONMENT | THING, ENVIRONMENT: ROBOT | THING, THING: ROBOT | ENVIRONMENT | FLOOR, FLOOR: THING}
-
-# Geometry groups: what is drawn, what only collides, what belongs to the variant not selected.
-DRAWN, UNSEEN, ABSENT = 0, 3, 5
 
 # Per joint: stiffness, damping and armature of the servo. In the order torso, arm 1 to 7.
 STIFFNESS = np.array([60_000.0, 1500.0, 1500.0, 1200.0, 1200.0, 400.0, 300.0, 200.0])  # [N/m], then [N m/rad]
@@ -48,42 +45,32 @@ _HEAD_SERVO = (100.0, 4.0, 0.05)
 _CELL_PIXELS = 16  # half a cell of the marker's texture
 
 
-def assemble(scene: Scene, description: RobotDescription) -> mujoco.MjModel:
+def assemble(scene: AnyScene, description: RobotDescription) -> mujoco.MjModel:
     """Compile the model of a scene.
 
     Args:
         scene: What stands around the robot.
-        description: The robot.
+        description: Of the arm; a particle needs none.
 
     Returns:
         The model; call `select` before use.
     """
+    match scene:
+        case ReachingScene():
+            return _arm_and_object(scene, description).compile()
+        case ParticleScene():
+            return particle(scene).compile()
+
+
+def _arm_and_object(scene: ReachingScene, description: RobotDescription) -> mujoco.MjSpec:
     spec = mujoco.MjSpec.from_file(str(description.urdf))
     _set_physics(spec)
     _fit_robot(spec)
     _add_servos(spec)
-    _add_stage(spec)
-    for variant in scene.variants:
-        for box in scene.boxes(variant):
-            _add_box(spec, variant, box)
+    add_stage(spec)
+    add_boxes(spec, scene)
     _add_object(spec)
-    return spec.compile()
-
-
-def select(model: mujoco.MjModel, scene: Scene, variant: str) -> None:
-    """Make the boxes of one variant solid and visible, and those of the other neither.
-
-    Raises:
-        UnknownVariant: The scene has no such variant.
-    """
-    scene.check(variant)
-    for other in scene.variants:
-        for box in scene.boxes(other):
-            geom = model.geom(_box_name(other, box))
-            present = other == variant
-            solid = ENVIRONMENT if present and box.group is not Group.DETAIL else 0
-            geom.contype, geom.conaffinity = solid, _AFFINITY[ENVIRONMENT] if solid else 0
-            geom.group = DRAWN if present else ABSENT
+    return spec
 
 
 def _set_physics(spec: mujoco.MjSpec) -> None:
@@ -100,7 +87,7 @@ def _fit_robot(spec: mujoco.MjSpec) -> None:
         body.gravcomp = 1.0
     for geom in spec.geoms:
         collides = bool(geom.contype)
-        geom.contype, geom.conaffinity = (ROBOT, _AFFINITY[ROBOT]) if collides else (0, 0)
+        geom.contype, geom.conaffinity = (ROBOT, AFFINITY[ROBOT]) if collides else (0, 0)
         geom.group = UNSEEN if collides else DRAWN
     for name, armature in zip(CONTROLLED_JOINTS, _ARMATURE, strict=True):
         spec.joint(name).armature = armature
@@ -123,73 +110,6 @@ def _add_servo(spec: mujoco.MjSpec, joint: str, stiffness: float, damping: float
     servo.set_to_position(kp=stiffness, kv=damping)
 
 
-def _add_stage(spec: mujoco.MjSpec) -> None:
-    """Floor, sky and light."""
-    spec.visual.quality.offsamples = 0
-    spec.visual.headlight.ambient = [0.38, 0.38, 0.40]
-    spec.visual.headlight.diffuse = [0.28, 0.28, 0.28]
-    spec.visual.headlight.specular = [0.05, 0.05, 0.05]
-    spec.visual.map.znear = 0.005
-    spec.add_texture(
-        name="sky",
-        type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
-        builtin=mujoco.mjtBuiltin.mjBUILTIN_GRADIENT,
-        rgb1=[0.93, 0.95, 0.97],
-        rgb2=[0.70, 0.76, 0.82],
-        width=128,
-        height=768,
-    )
-    spec.add_texture(
-        name="tiles",
-        type=mujoco.mjtTexture.mjTEXTURE_2D,
-        builtin=mujoco.mjtBuiltin.mjBUILTIN_CHECKER,
-        rgb1=[0.66, 0.67, 0.68],
-        rgb2=[0.61, 0.62, 0.63],
-        width=256,
-        height=256,
-    )
-    tiles = spec.add_material(name="tiles", texrepeat=[8, 8])
-    tiles.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "tiles"
-    spec.worldbody.add_geom(
-        name="floor",
-        type=mujoco.mjtGeom.mjGEOM_PLANE,
-        size=[4.0, 4.0, 0.1],
-        material="tiles",
-        contype=FLOOR,
-        conaffinity=_AFFINITY[FLOOR],
-    )
-    for position, direction, strength in (
-        ([-0.5, 2.0, 3.0], [0.5, -0.6, -1.0], 0.45),
-        ([-0.5, -2.0, 2.5], [0.6, 0.7, -0.8], 0.20),
-    ):
-        spec.worldbody.add_light(
-            type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
-            pos=position,
-            dir=direction,
-            diffuse=[strength] * 3,
-            specular=[0.1] * 3,
-            castshadow=False,
-        )
-
-
-def _box_name(variant: str, box: Box) -> str:
-    return f"{variant}/{box.name}"
-
-
-def _add_box(spec: mujoco.MjSpec, variant: str, box: Box) -> None:
-    solid = box.group is not Group.DETAIL
-    spec.worldbody.add_geom(
-        name=_box_name(variant, box),
-        type=mujoco.mjtGeom.mjGEOM_BOX,
-        pos=box.centre,
-        quat=box.quaternion,
-        size=box.half_sizes,
-        rgba=box.rgba,
-        contype=ENVIRONMENT if solid else 0,
-        conaffinity=_AFFINITY[ENVIRONMENT] if solid else 0,
-    )
-
-
 def _add_object(spec: mujoco.MjSpec) -> None:
     """A free-standing block with a lid that carries the marker; its frame is at the centre of both."""
     _add_tag_texture(spec)
@@ -202,7 +122,7 @@ def _add_object(spec: mujoco.MjSpec) -> None:
     solid = {
         "type": mujoco.mjtGeom.mjGEOM_BOX,
         "contype": THING,
-        "conaffinity": _AFFINITY[THING],
+        "conaffinity": AFFINITY[THING],
         "friction": [0.8, 0.005, 0.0001],
     }
     thing.add_geom(

@@ -10,11 +10,12 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.assembly import HEAD_CAMERA, WRIST_CAMERA, assemble, select
+from sim.assembly import assemble
 from sim.description import RobotDescription
 from sim.drawing import Canvas, Image
 from sim.pose import Pose
-from sim.scenes.scene import Scene
+from sim.scenes import AnyScene
+from sim.staging import HEAD_CAMERA, WRIST_CAMERA, select
 
 Array = NDArray[np.float64]
 
@@ -27,7 +28,7 @@ class Cameras:
 
     Args:
         scene: What stands around the robot.
-        description: The robot.
+        description: Of the arm; a particle needs none.
         width: Of the pictures [px].
         height: Of the pictures [px].
 
@@ -35,7 +36,7 @@ class Cameras:
         DrawingLibraryMissing: Neither EGL nor OSMesa can be used.
     """
 
-    def __init__(self, scene: Scene, description: RobotDescription, width: int = 320, height: int = 240) -> None:
+    def __init__(self, scene: AnyScene, description: RobotDescription, width: int = 320, height: int = 240) -> None:
         self.scene = scene
         self.width, self.height = width, height
         self._model = assemble(scene, description)

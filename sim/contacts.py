@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.assembly import ENVIRONMENT, ROBOT
+from sim.staging import ENVIRONMENT, ROBOT
 
 Array = NDArray[np.float64]
 

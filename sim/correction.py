@@ -80,6 +80,21 @@ def plan(
     )
 
 
+def plan_at_equal_progress(
+    positions: Array, orientations: Array, safe: Corridor, exaggeration: float = 1.0
+) -> Correction:
+    """Plan the correction of a motion whose tempo is not a person's to change: each moment has its place on the way.
+
+    Args:
+        positions: Of the predicted grasping frame at equal steps of progress, shape (n, 3) [m].
+        orientations: The same, shape (n, 4); they are left as they are.
+        safe: Way-points at equal steps of progress.
+        exaggeration: Of the displacement; 1 is natural.
+    """
+    wanted = through(safe.positions, np.linspace(0.0, len(safe.positions) - 1.0, len(positions)))
+    return Correction(positions, orientations, exaggeration * (wanted - positions), np.zeros_like(positions))
+
+
 def _numbers(way: Array, covered: Array) -> Array:
     """Which fractional way-point is reached when a share of the way's length is covered."""
     fine = np.linspace(0.0, len(way) - 1.0, _FINENESS * (len(way) - 1) + 1)

@@ -3,6 +3,7 @@
 SimError
 ├── UnknownScene            no scene of that name
 ├── UnknownVariant          the scene has no variant of that name
+├── WrongPlace              a place has not as many numbers as the scene's targets have
 ├── DescriptionMissing      the robot's meshes are not installed
 ├── DescriptionInvalid      a mesh or link of the robot cannot be used
 └── DrawingLibraryMissing   neither EGL nor OSMesa is there
@@ -32,6 +33,16 @@ class UnknownVariant(SimError):
         self.name = name
         self.known = tuple(known)
         super().__init__(f"scene {scene!r} has no variant {name!r}: use one of {', '.join(self.known)}")
+
+
+class WrongPlace(SimError):
+    """A place has not as many numbers as the scene's targets have."""
+
+    def __init__(self, scene: str, given: int, needed: int) -> None:
+        self.scene = scene
+        self.given = given
+        self.needed = needed
+        super().__init__(f"a place in scene {scene!r} has {needed} numbers, not {given}")
 
 
 class DescriptionMissing(SimError):

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.interpolation import through
-from sim.scenes.scene import Corridor
+from sim.scenes.scene import Corridor, Freedom
 
 Array = NDArray[np.float64]
 
@@ -27,23 +27,27 @@ class Steered(NamedTuple):
     orientations: Array
 
 
-def steer(corridor: Corridor, rng: np.random.Generator | None, n: int = 200) -> Steered:
+def steer(corridor: Corridor, rng: np.random.Generator | None, n: int = 200, freedom: Freedom | None = None) -> Steered:
     """Steer from a corridor's first way-point to its last.
 
-    The speed along the way is that of a minimum-jerk movement (Flash and Hogan 1985); the deviation from it is slow,
-    and vanishes at both ends, where a person takes care. Way-points turn by a few degrees only, so that their
-    quaternions are interpolated like positions.
+    The speed along the way is that of a minimum-jerk movement (Flash and Hogan 1985), where it is the person's; the
+    deviation from the way is slow, and vanishes at both ends, where a person takes care. Way-points turn by a few
+    degrees only, so that their quaternions are interpolated like positions.
 
     Args:
         corridor: To steer through.
         rng: Of the person's unsteadiness; None for a steady hand.
         n: Number of samples.
+        freedom: Of the person; all of it by default.
     """
-    numbers = _numbers(corridor.positions, minimum_jerk(np.linspace(0.0, 1.0, n)))
+    freedom = freedom or Freedom()
+    time = np.linspace(0.0, 1.0, n)
+    way = corridor.positions
+    numbers = _numbers(way, minimum_jerk(time)) if freedom.tempo else (len(way) - 1) * time
     orientations = through(corridor.orientations, numbers)
     orientations /= np.linalg.norm(orientations, axis=1, keepdims=True)
-    positions = through(corridor.positions, numbers)
-    return Steered(positions if rng is None else positions + _deviation(n, rng), orientations)
+    positions = through(way, numbers)
+    return Steered(positions if rng is None else positions + freedom.axes * _deviation(n, rng), orientations)
 
 
 def minimum_jerk(time: Array) -> Array:

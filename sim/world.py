@@ -1,4 +1,4 @@
-"""The simulated robot in its scene: reset, step, observe."""
+"""The simulated arm in its scene: reset, step, observe."""
 
 from dataclasses import dataclass
 
@@ -6,10 +6,11 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.assembly import DAMPING, OBJECT, STIFFNESS, TIMESTEP, assemble, select
+from sim.assembly import DAMPING, OBJECT, STIFFNESS, TIMESTEP, assemble
 from sim.contacts import Contact, clearance, collisions
 from sim.description import CONTROLLED_JOINTS, HEAD_JOINTS, RobotDescription
-from sim.scenes.scene import NO_ROTATION, Scene
+from sim.scenes.scene import NO_ROTATION, ReachingScene
+from sim.staging import select
 
 Array = NDArray[np.float64]
 
@@ -43,7 +44,7 @@ class Observation:
 
 
 class World:
-    """One robot in one scene.
+    """One arm in one scene.
 
     Args:
         scene: What stands around the robot.
@@ -54,7 +55,7 @@ class World:
         UnknownVariant: The scene has no such variant.
     """
 
-    def __init__(self, scene: Scene, variant: str, description: RobotDescription) -> None:
+    def __init__(self, scene: ReachingScene, variant: str, description: RobotDescription) -> None:
         scene.check(variant)
         self.scene = scene
         self.variant = variant

@@ -19,12 +19,12 @@ from services.bus import Bus
 from services.clock import Clock
 from services.config import CameraSection, Configuration
 from services.runner import Service
-from sim.assembly import HEAD_CAMERA, WRIST_CAMERA
 from sim.cameras import Cameras
 from sim.description import prepare
 from sim.drawing import Image
 from sim.exceptions import UnknownScene, UnknownVariant
 from sim.scenes import scene
+from sim.staging import HEAD_CAMERA, WRIST_CAMERA
 
 log = logging.getLogger(__name__)
 

@@ -19,7 +19,7 @@ from services.exceptions import ServiceError
 from services.master.device import Moment, Sample
 from services.master.haptics import HapticLoop, HapticThread
 from sim import scenes
-from sim.correction import Correction, plan
+from sim.correction import Correction, plan, plan_at_equal_progress
 from sim.exceptions import SimError
 from sim.hand import Hand, Seen
 from sim.pose import Pose
@@ -117,12 +117,15 @@ class ScriptedMaster:
         scene_state = self._scene.latest()
         if scene_state is None:
             return None
+        arrangement = scene_state.message
         prediction = Trajectory(*motion_from_wire(execution.prediction))
-        scene = scenes.scene(scene_state.message.name)
-        place = self._object_position(prediction.positions)
-        start = Pose(np.array(scene_state.message.start.position), np.array(scene_state.message.start.orientation))
+        scene = scenes.scene(arrangement.name)
+        place = np.array(arrangement.condition or self._object_position(prediction.positions))
+        start = Pose(np.array(arrangement.start.position), np.array(arrangement.start.orientation))
+        safe = scene.corridor(arrangement.variant, place, start)
+        if not scene.freedom.tempo:
+            return plan_at_equal_progress(prediction.positions, prediction.orientations, safe, self._exaggeration)
         ways = [scene.corridor(variant, place, start) for variant in scene.variants]
-        safe = scene.corridor(scene_state.message.variant, place, start)
         return plan(prediction.positions, prediction.orientations, safe, ways, self._exaggeration)
 
     def _object_position(self, prediction: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -6,9 +6,12 @@ from numpy.typing import NDArray
 from lfd.exceptions import LfdError
 from lfd.rotations import conjugate, log_map, multiply
 from lfd.trajectory import Trajectory
+from protocol.queries import Reset
 from services.robot.refusal import Refusal
 from sim.pose import Pose
-from sim.scenes.scene import Scene
+from sim.scenes import AnyScene
+from sim.scenes.particle import ParticleScene
+from sim.scenes.scene import ReachingScene, Scene
 
 Array = NDArray[np.float64]
 
@@ -17,7 +20,6 @@ SHORTEST_S, LONGEST_S = 0.5, 120.0
 FASTEST = 1.0  # [m/s] along the prediction
 FASTEST_TURN = 3.0  # [rad/s]
 START_DISTANCE = 0.5  # [m] between the measured pose and the prediction's start
-REGION_MARGIN = 0.05  # [m]
 START_REACH = 0.3  # [m] of a start from the scene's own, along each axis
 
 
@@ -66,26 +68,46 @@ def admit_prediction(positions: Array, orientations: Array, duration: float, mea
     return prediction
 
 
-def admit_reset(scene: Scene, variant: str, object_position: Array, start: Pose | None = None) -> None:
+def admit_target(scene: AnyScene, request: Reset) -> Array | None:
+    """The place of the target that a reset asks for; None where it asks for none.
+
+    Args:
+        scene: that the robot stands in.
+        request: the reset.
+
+    Raises:
+        Refusal: it asks for what this scene does not have.
+    """
+    match scene:
+        case ReachingScene():
+            if request.condition is not None:
+                raise Refusal(f"scene {scene.name} has no condition of its own: give an object position")
+            asked: tuple[float, ...] | None = request.object_position
+        case ParticleScene():
+            if request.object_position is not None:
+                raise Refusal(f"scene {scene.name} has no object: give a condition")
+            asked = request.condition
+    return None if asked is None else np.array(asked)
+
+
+def admit_reset(scene: Scene, variant: str, place: Array, start: Pose | None = None) -> None:
     """Let a reset pass that the scene allows.
 
     Args:
         scene: that the robot stands in.
         variant: asked for.
-        object_position: asked for, shape (3,) [m].
+        place: of the target, asked for, shape (d,) [m].
         start: asked for; None for where it was put last.
 
     Raises:
-        Refusal: there is no such variant, the object cannot stand there, or the start is far from the scene's.
+        Refusal: there is no such variant, the target cannot stand there, or the start is far from the scene's.
     """
     if variant not in scene.variants:
         raise Refusal(f"scene {scene.name} has no variant {variant!r}: use one of {', '.join(scene.variants)}")
-    lower = np.asarray(scene.region.lower) - REGION_MARGIN
-    upper = np.asarray(scene.region.upper) + REGION_MARGIN
-    if not (np.all(object_position >= lower) and np.all(object_position <= upper)):
+    if not scene.region.contains(place, scene.margin):
+        lower, upper = np.subtract(scene.region.lower, scene.margin), np.add(scene.region.upper, scene.margin)
         raise Refusal(
-            f"the object cannot stand at {_point(object_position)} m: give a place from {_point(lower)} to"
-            f" {_point(upper)} m"
+            f"the target cannot stand at {_point(place)} m: give a place from {_point(lower)} to {_point(upper)} m"
         )
     home = scene.start.position
     if start is not None and not np.all(np.abs(start.position - home) <= START_REACH):

@@ -16,9 +16,9 @@ from services.robot.backend import CONTROL_PERIOD, Backend, Blocked, Observation
 from services.robot.correction import UNCORRECTED, Correction
 from services.robot.episode import Episode, EpisodeOutcome
 from services.robot.execution import angle_between
-from services.robot.kinematics import InverseFailed, Kinematics
+from services.robot.mechanism import InverseFailed, Mechanism
 from services.robot.starts import StartImpossible, Starts
-from services.robot.verdict import Criteria, Judge, Verdict
+from services.robot.verdict import Criteria, Verdict
 from sim.pose import Pose
 
 Array = NDArray[np.float64]
@@ -63,7 +63,7 @@ class Arm:
 
     Args:
         backend: what moves.
-        kinematics: of its torso and arm.
+        kinematics: of it.
         criteria: by what episodes are judged.
         starts: where episodes can start; at first they do at its home.
         velocity_scale: share of the joints' speed limits that may be used.
@@ -73,7 +73,7 @@ class Arm:
     def __init__(
         self,
         backend: Backend,
-        kinematics: Kinematics,
+        kinematics: Mechanism,
         criteria: Criteria,
         starts: Starts,
         *,
@@ -105,15 +105,20 @@ class Arm:
         return self._backend.variant
 
     @property
+    def condition(self) -> Array:
+        """The external state that motions depend on here, shape (c,); empty where it is the object's."""
+        return self.observation.condition
+
+    @property
     def episode(self) -> Episode | None:
         """The one that runs."""
         return self._episode
 
-    def reset(self, object_position: Array, variant: str, start: Pose | None = None) -> None:
-        """Back to the start, the object and the scene put in place; the episode that runs is dropped.
+    def reset(self, place: Array, variant: str, start: Pose | None = None) -> None:
+        """Back to the start, the target and the scene put in place; the episode that runs is dropped.
 
         Args:
-            object_position: centre of the object, shape (3,) [m].
+            place: of the target, see `Backend.reset`, shape (d,) [m].
             variant: arrangement of the scene.
             start: pose of the grasping frame; as it was by default.
 
@@ -122,7 +127,7 @@ class Arm:
         """
         start = self.start if start is None else start
         try:
-            self._backend.reset(object_position, variant, self._starts.joints(start))
+            self._backend.reset(place, variant, self._starts.joints(start))
         except Blocked as error:
             raise StartImpossible(start.position, str(error)) from error
         self.start = start
@@ -198,7 +203,7 @@ class Arm:
 
     def _follow(self, episode: Episode, wanted: Correction) -> tuple[Array, tuple[str, ...]]:
         """Command the next reference; the joints that it started from, and what was clamped."""
-        within, too_far = safety.clamp_correction(wanted)
+        within, too_far = safety.clamp_correction(self._kinematics.admitted(wanted))
         if episode.holding:
             self._q, self._reference = self.observation.q, self.measured
         reference = episode.advance(within, self.measured)
@@ -236,7 +241,7 @@ class Arm:
         self._q = self.observation.q
         self._fault = ""
         self._self_distance = self._kinematics.self_distance(self._q)
-        self._judge = Judge(self._criteria, self.observation.object_pose.position)
+        self._judge = self._criteria.begin(self.observation)
         self._observe()
         self._reference = self.measured
 

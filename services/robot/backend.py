@@ -1,6 +1,6 @@
 """The seam between control and what moves: the simulation, or hardware in its place."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
@@ -41,6 +41,7 @@ class Observation:
         object_pose: of the object's centre in the base frame.
         touch: the strongest of this moment, None where there is none.
         world: all generalised positions of a simulated world, to draw it; empty on hardware.
+        condition: the external state that motions depend on here, shape (c,); empty where it is the object's.
     """
 
     time: float
@@ -49,6 +50,7 @@ class Observation:
     object_pose: Pose
     touch: Touch | None
     world: Array
+    condition: Array = field(default_factory=lambda: np.zeros(0))
 
 
 class Blocked(ServiceError):
@@ -73,11 +75,11 @@ class Backend(Protocol):
         """Which arrangement of the scene stands around the robot."""
         ...
 
-    def reset(self, object_position: Array, variant: str, q: Array) -> None:
-        """Prepare an episode: the arm at rest at q, the object and its surroundings in place.
+    def reset(self, place: Array, variant: str, q: Array) -> None:
+        """Prepare an episode: the arm at rest at q, the target and its surroundings in place.
 
         Args:
-            object_position: centre of the object, shape (3,) [m].
+            place: of the target, as the scene counts it: an object's centre, or the y of via-points, shape (d,) [m].
             variant: arrangement of the scene.
             q: joint positions, shape (m,).
 

@@ -14,7 +14,7 @@ from protocol.queries import AcquireAuthority, Adapt, Execute, Finish, ReleaseAu
 from services.arrays import motion_from_wire
 from services.bus import Received
 from services.exceptions import ServiceError
-from services.robot.admission import admit_prediction, admit_reset
+from services.robot.admission import admit_prediction, admit_reset, admit_target
 from services.robot.arm import Arm, Tick
 from services.robot.authority import Lease
 from services.robot.correction import UNCORRECTED, Correction
@@ -24,7 +24,7 @@ from services.robot.refusal import Refusal
 from services.robot.safety import EmergencyStop, hold_reason
 from services.robot.starts import StartImpossible
 from sim.pose import Pose
-from sim.scenes.scene import Scene
+from sim.scenes import AnyScene
 
 Array = NDArray[np.float64]
 
@@ -63,7 +63,7 @@ class Control:
         master_gain: of the master's displacement on the reference; its rotation counts as it is.
     """
 
-    def __init__(self, arm: Arm, scene: Scene, lease: Lease, hold_after_s: float, master_gain: float) -> None:
+    def __init__(self, arm: Arm, scene: AnyScene, lease: Lease, hold_after_s: float, master_gain: float) -> None:
         self.arm = arm
         self.scene = scene
         self.lease = lease
@@ -72,7 +72,7 @@ class Control:
         self.finished: Finished | None = None
         self._hold_after_s = hold_after_s
         self._master_gain = master_gain
-        self._object_position: Array = scene.training_positions[0]
+        self._place: Array = scene.training_positions[0]
 
     def acquire(self, request: AcquireAuthority, now_ns: int) -> int:
         """Give the authority to a holder; the epoch. An episode of another holder's does not go on under it."""
@@ -108,17 +108,18 @@ class Control:
         self.arm.finish(f"finished by {self.lease.holder} at {share:.0%}")
 
     def reset(self, request: Reset) -> None:
-        """Put arm, object and scene back."""
+        """Put arm, target and scene back."""
         self._check(request.epoch)
         variant = self.arm.variant if request.variant is None else request.variant
-        place = self._object_position if request.object_position is None else np.array(request.object_position)
+        asked = admit_target(self.scene, request)
+        place = self._place if asked is None else asked
         start = None if request.start is None else _pose(request.start)
         admit_reset(self.scene, variant, place, start)
         try:
             self.arm.reset(place, variant, start)
         except StartImpossible as error:
             raise Refusal(f"{error}: give another start") from error
-        self._object_position = place
+        self._place = place
 
     def press(self, by: str, reason: str) -> None:
         """Latch the emergency stop; the arm stands still at once."""

@@ -14,7 +14,8 @@ from pink.limits import ConfigurationLimit, VelocityLimit
 from pink.tasks import FrameTask, PostureTask
 from qpsolvers.exceptions import QPError
 
-from services.exceptions import ServiceError
+from services.robot.correction import Correction
+from services.robot.mechanism import InverseFailed, Unreachable
 from sim.description import CONTROLLED_JOINTS, GRASPING_FRAME
 from sim.pose import Pose
 
@@ -41,23 +42,6 @@ _LIMBS = (
     "gripper_right_finger_link_0",
 )
 _TRUNK = ("base_link_0", "torso_fixed_column_link_0", "torso_lift_link_0", "head_2_link_0")
-
-
-class Unreachable(ServiceError):
-    """No joint configuration was found that puts the grasping frame there."""
-
-    def __init__(self, position: Array) -> None:
-        self.position = position
-        place = ", ".join(f"{value:.3f}" for value in position)
-        super().__init__(f"the arm cannot reach ({place}) m in that orientation: choose a pose closer to the robot")
-
-
-class InverseFailed(ServiceError):
-    """The solver found no step from this configuration."""
-
-    def __init__(self, reason: str) -> None:
-        self.reason = reason
-        super().__init__(f"inverse kinematics found no step ({reason}): move the robot away from its joint limits")
 
 
 class Kinematics:
@@ -100,6 +84,10 @@ class Kinematics:
         """
         pin.forwardKinematics(self._model, self._data, q)
         return _pose(pin.updateFramePlacement(self._model, self._data, self._frame))
+
+    def admitted(self, wanted: Correction) -> Correction:
+        """All of it."""
+        return wanted
 
     def solve_step(self, q: Array, position: Array, orientation: Array, dt: float) -> tuple[Array, Array]:
         """Move one tick towards a pose: one iteration of differential inverse kinematics.

@@ -1,4 +1,4 @@
-"""The scripted operator teaches a scene offline: steers the arm to objects, with the stylus coupled to it (OffStyl)."""
+"""The scripted operator teaches a scene offline: steers the arm to targets, with the stylus coupled to it (OffStyl)."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,9 @@ from services.robot.arm import Arm
 from services.robot.rollout import rollout, simulated_arm
 from sim.description import prepare
 from sim.pose import Pose
-from sim.scenes.scene import Corridor, Scene
+from sim.scenes import AnyScene
+from sim.scenes.particle import ParticleScene
+from sim.scenes.scene import Corridor, Freedom, ReachingScene
 from sim.steering import steer
 
 Array = NDArray[np.float64]
@@ -24,44 +26,70 @@ POINTS = 75
 TRIES = 5
 
 
-def lesson(scene: Scene) -> list[Demonstration]:
-    """A demonstration for each of a scene's training positions, in its first variant.
+def lesson(scene: AnyScene, places: Array | None = None, variant: str | None = None) -> list[Demonstration]:
+    """A demonstration for each of some places of a scene's target.
+
+    Args:
+        scene: to teach in.
+        places: of the target, shape (n, d) [m]; the scene's training positions by default.
+        variant: of the scene; the one that its model is trained in by default.
 
     Raises:
-        CommandFailed: no motion to some object succeeded.
+        CommandFailed: no motion to some place succeeded.
+        UnknownVariant: the scene has no such variant.
     """
+    variant = variant or scene.variants[0]
     rng = np.random.default_rng(SEED)
-    arm = simulated_arm(scene, scene.variants[0], prepare())
-    return [demonstrate(arm, scene, position, rng) for position in scene.training_positions]
+    arm = simulated_arm(scene, variant, prepare())
+    return [
+        demonstrate(arm, scene, place, rng, variant=variant)
+        for place in (scene.training_positions if places is None else places)
+    ]
 
 
 def demonstrate(
-    arm: Arm, scene: Scene, position: Array, rng: np.random.Generator, start: Pose | None = None
+    arm: Arm,
+    scene: AnyScene,
+    place: Array,
+    rng: np.random.Generator,
+    *,
+    variant: str | None = None,
+    start: Pose | None = None,
 ) -> Demonstration:
-    """Steer the arm to an object, again where that fails; the motion as measured.
+    """Steer the arm to the target, again where that fails; the motion as measured.
 
     Args:
         arm: in the scene.
-        scene: whose first variant's corridor is steered through.
-        position: of the object, shape (3,) [m].
+        scene: whose corridor is steered through.
+        place: of the target, shape (d,) [m].
         rng: of the person's unsteadiness.
+        variant: of the scene; its first by default.
         start: of the motion; the scene's by default.
 
     Raises:
         CommandFailed: no try succeeded.
         StartImpossible: no motion can start there.
     """
+    variant = variant or scene.variants[0]
     start = scene.start if start is None else start
     for _ in range(TRIES):
-        trajectory = steered(scene.corridor(scene.variants[0], position, start), rng)
-        outcome = rollout(arm, trajectory, position, variant=scene.variants[0], start=start)
+        trajectory = steered(scene.corridor(variant, place, start), rng, scene.freedom)
+        outcome = rollout(arm, trajectory, place, variant=variant, start=start)
         if outcome.verdict.success:
-            return Demonstration.reaching(outcome.measured, position)
-    raise CommandFailed(f"no motion to an object at {np.round(position, 3).tolist()} succeeded in {TRIES} tries")
+            return _demonstration(scene, place, outcome.measured)
+    raise CommandFailed(f"no motion to a target at {np.round(place, 3).tolist()} succeeded in {TRIES} tries")
 
 
-def steered(corridor: Corridor, rng: np.random.Generator | None = None) -> Trajectory:
+def steered(corridor: Corridor, rng: np.random.Generator | None, freedom: Freedom) -> Trajectory:
     """A person's motion through a corridor; with a steady hand where there is no randomness."""
-    way = steer(corridor, rng)
+    way = steer(corridor, rng, freedom=freedom)
     times = np.linspace(0.0, DURATION_S, len(way.positions))
     return from_samples(times, way.positions, way.orientations, POINTS)
+
+
+def _demonstration(scene: AnyScene, place: Array, motion: Trajectory) -> Demonstration:
+    match scene:
+        case ReachingScene():
+            return Demonstration.reaching(motion, place)
+        case ParticleScene():
+            return Demonstration(motion, origin=np.zeros(3), condition=place)

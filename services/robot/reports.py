@@ -43,7 +43,7 @@ class Reports:
         self._schedule = Schedule()
         self._epoch = -1
         self._stop_latched: bool | None = None
-        self._arranged: tuple[str, Pose] | None = None
+        self._arranged: tuple[str, Pose, bytes] | None = None
         self._finished: Finished | None = None
 
     def publish(self, now_ns: int, tick: Tick, applied_sequence: int, applied_latency: float) -> None:
@@ -67,10 +67,12 @@ class Reports:
         if due(topics.SAFETY_STATE, now_ns) or self._stop_latched != control.stop.latched:
             self._stop_latched = control.stop.latched
             self._bus.publish(topics.SAFETY_STATE, self._safety_state(tick))
-        arranged = (control.arm.variant, control.arm.start)
+        arm = control.arm
+        arranged = (arm.variant, arm.start, arm.condition.tobytes())
         if due(topics.SCENE_STATE, now_ns) or self._arranged != arranged:
             self._arranged = arranged
-            self._bus.publish(topics.SCENE_STATE, wire.scene_state(control.scene, *arranged))
+            state = wire.scene_state(control.scene, arm.variant, arm.start, arm.condition)
+            self._bus.publish(topics.SCENE_STATE, state)
         if due(topics.EXECUTION, now_ns):
             self._publish_execution()
         self._publish_result(now_ns)

@@ -8,17 +8,22 @@ from numpy.typing import NDArray
 
 from lfd.trajectory import Trajectory
 from services.robot.arm import Arm, Tick
-from services.robot.backend import CONTROL_PERIOD
+from services.robot.backend import CONTROL_PERIOD, Backend
 from services.robot.correction import UNCORRECTED, Correction
 from services.robot.episode import EpisodeOutcome
 from services.robot.execution import look_ahead
 from services.robot.kinematics import Kinematics
+from services.robot.mechanism import Mechanism
+from services.robot.particle import ParticleBackend, ParticleKinematics
 from services.robot.simulation import Simulation
 from services.robot.starts import Starts
-from services.robot.verdict import Criteria
+from services.robot.verdict import Criteria, ReachingCriteria
+from services.robot.via_points import ViaPointCriteria
 from sim.description import RobotDescription
 from sim.pose import Pose
-from sim.scenes.scene import Scene
+from sim.scenes import AnyScene
+from sim.scenes.particle import ParticleScene
+from sim.scenes.scene import ReachingScene
 from sim.world import World
 
 Array = NDArray[np.float64]
@@ -47,12 +52,26 @@ Operator = Callable[[RolloutView], Correction]
 """From what is seen to the correction that is asked for."""
 
 
+def kinematics_of(scene: AnyScene, description: RobotDescription) -> Mechanism:
+    """The kinematics of the robot that stands in a scene; those of an arm take half a second to make.
+
+    Args:
+        scene: of the robot.
+        description: of the arm; a particle needs none.
+    """
+    match scene:
+        case ReachingScene():
+            return Kinematics(description.urdf, scene.posture)
+        case ParticleScene():
+            return ParticleKinematics(scene.freedom.axes)
+
+
 def simulated_arm(
-    scene: Scene,
+    scene: AnyScene,
     variant: str,
     description: RobotDescription,
     *,
-    kinematics: Kinematics | None = None,
+    kinematics: Mechanism | None = None,
     velocity_scale: float = 0.5,
     self_distance_stop: float = 0.005,
 ) -> Arm:
@@ -61,8 +80,8 @@ def simulated_arm(
     Args:
         scene: what it stands in.
         variant: of the scene.
-        description: of the robot.
-        kinematics: of the robot; made from the description by default.
+        description: of the arm; a particle needs none.
+        kinematics: of the robot; made by default.
         velocity_scale: share of the joints' speed limits that may be used.
         self_distance_stop: distance between the robot's parts at which it stops [m].
 
@@ -70,13 +89,12 @@ def simulated_arm(
         UnknownVariant: the scene has no such variant.
         StartImpossible: the arm cannot reach the scene's start.
     """
-    kinematics = kinematics or Kinematics(description.urdf, scene.posture)
+    kinematics = kinematics or kinematics_of(scene, description)
     starts = Starts(kinematics, scene.start, scene.posture, self_distance_stop)
-    world = World(scene, variant, description)
-    world.reset(scene.training_positions[0], variant, starts.joints(scene.start))
-    criteria = Criteria(scene.reached_radii, scene.kicked_thresholds)
+    backend, criteria = _stage(scene, variant, description)
+    backend.reset(scene.training_positions[0], variant, starts.joints(scene.start))
     return Arm(
-        Simulation(world),
+        backend,
         kinematics,
         criteria,
         starts,
@@ -85,10 +103,20 @@ def simulated_arm(
     )
 
 
+def _stage(scene: AnyScene, variant: str, description: RobotDescription) -> tuple[Backend, Criteria]:
+    """What moves in a scene, and by what it is judged there."""
+    match scene:
+        case ReachingScene():
+            criteria = ReachingCriteria(scene.reached_radii, scene.kicked_thresholds)
+            return Simulation(World(scene, variant, description)), criteria
+        case ParticleScene():
+            return ParticleBackend(scene, variant), ViaPointCriteria(scene.via_x, scene.tolerance)
+
+
 def rollout(
     arm: Arm,
     prediction: Trajectory,
-    object_position: Array,
+    place: Array,
     *,
     variant: str | None = None,
     start: Pose | None = None,
@@ -101,7 +129,7 @@ def rollout(
     Args:
         arm: on a simulated backend, as `simulated_arm` makes it.
         prediction: in the base frame.
-        object_position: centre of the object, shape (3,) [m].
+        place: of the target: centre of the object, shape (3,) [m], or y of the via-points, shape (2,) [m].
         variant: of the scene; as it is by default.
         start: of the grasping frame; as it was by default.
         operator: who corrects it; nobody by default.
@@ -111,7 +139,7 @@ def rollout(
     Raises:
         StartImpossible: no motion can start there.
     """
-    arm.reset(object_position, arm.variant if variant is None else variant, start)
+    arm.reset(place, arm.variant if variant is None else variant, start)
     arm.begin(prediction, look_ahead(prediction) if after is None else after)
     tick = arm.tick(UNCORRECTED)
     time = CONTROL_PERIOD

@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 from collections import deque
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,11 +20,11 @@ from services.robot.arm import Tick
 from services.robot.authority import Lease
 from services.robot.backend import CONTROL_PERIOD
 from services.robot.control import Control
-from services.robot.kinematics import Kinematics
+from services.robot.mechanism import Mechanism
 from services.robot.pace import Pace
 from services.robot.refusal import Refusal
 from services.robot.reports import Reports
-from services.robot.rollout import simulated_arm
+from services.robot.rollout import kinematics_of, simulated_arm
 from sim.description import prepare
 from sim.scenes import scene as scene_named
 
@@ -46,7 +45,7 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> RobotService:
     section = configuration.robot
     description = prepare()
     scene = scene_named(section.scene)
-    kinematics = TimedKinematics(clock, description.urdf, scene.posture)
+    kinematics = TimedKinematics(clock, kinematics_of(scene, description))
     arm = simulated_arm(
         scene,
         section.variant or scene.variants[0],
@@ -60,25 +59,27 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> RobotService:
     return RobotService(bus, clock, Control(arm, scene, lease, section.hold_after_s, section.master_gain), kinematics)
 
 
-class TimedKinematics(Kinematics):
-    """Kinematics that remembers how long each step of the inverse took.
+class TimedKinematics:
+    """Kinematics that remembers how long each step of the inverse took. See `Mechanism`.
 
     Args:
         clock: to measure with.
-        urdf: the robot's description.
-        posture: configuration that the redundant joint is drawn to.
+        kinematics: that is timed.
     """
 
-    def __init__(self, clock: Clock, urdf: Path, posture: Array) -> None:
-        super().__init__(urdf, posture)
+    def __init__(self, clock: Clock, kinematics: Mechanism) -> None:
+        self.lower, self.upper = kinematics.lower, kinematics.upper
+        self.velocity_limit, self.admitted = kinematics.velocity_limit, kinematics.admitted
+        self.forward, self.solve, self.self_distance = kinematics.forward, kinematics.solve, kinematics.self_distance
         self._clock = clock
+        self._solve_step = kinematics.solve_step
         self.steps_ns: deque[int] = deque(maxlen=FIGURES_KEPT)
 
     def solve_step(self, q: Array, position: Array, orientation: Array, dt: float) -> tuple[Array, Array]:
-        """As `Kinematics.solve_step`."""
+        """As of the kinematics that is timed."""
         started = self._clock.now_ns()
         try:
-            return super().solve_step(q, position, orientation, dt)
+            return self._solve_step(q, position, orientation, dt)
         finally:
             self.steps_ns.append(self._clock.now_ns() - started)
 

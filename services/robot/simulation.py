@@ -31,14 +31,14 @@ class Simulation:
         """Of the scene."""
         return self._world.variant
 
-    def reset(self, object_position: Array, variant: str, q: Array) -> None:
+    def reset(self, place: Array, variant: str, q: Array) -> None:
         """Put everything back, time included; as it was where the arm would touch something."""
         world = self._world
         before, state = world.variant, world.state
-        world.reset(object_position, variant, q)
+        world.reset(place, variant, q)
         touch = self.observe().touch
         if touch is not None:
-            world.reset(object_position, before, q)
+            world.reset(place, before, q)
             world.set_state(state)
             raise Blocked(*touch.between)
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from services.exceptions import ServiceError
-from services.robot.kinematics import Kinematics, Unreachable
+from services.robot.mechanism import Mechanism, Unreachable
 from sim.pose import Pose
 
 Array = NDArray[np.float64]
@@ -31,13 +31,13 @@ class Starts:
     """Finds joint positions for start poses, near the posture that the scene was laid out for.
 
     Args:
-        kinematics: of torso and arm.
+        kinematics: of the robot.
         home: the scene's own start.
-        posture: joint positions near it, shape (8,) [m, then rad].
+        posture: joint positions near it, shape (m,).
         self_distance: that the robot keeps from itself at least [m].
     """
 
-    def __init__(self, kinematics: Kinematics, home: Pose, posture: Array, self_distance: float) -> None:
+    def __init__(self, kinematics: Mechanism, home: Pose, posture: Array, self_distance: float) -> None:
         self.home = home
         self._kinematics = kinematics
         self._posture = posture
@@ -45,10 +45,10 @@ class Starts:
         self._joints = lru_cache(maxsize=KEPT)(self._search)
 
     def joints(self, pose: Pose) -> Array:
-        """Joint positions at a start, shape (8,), read-only.
+        """Joint positions at a start, shape (m,), read-only.
 
         Raises:
-            StartImpossible: the arm does not reach it, or comes too close to itself there.
+            StartImpossible: the robot does not reach it, or comes too close to itself there.
         """
         return self._joints(tuple(pose.position.tolist()), tuple(pose.orientation.tolist()))
 
@@ -57,7 +57,7 @@ class Starts:
         try:
             q = self._kinematics.solve(place, np.array(orientation), [self._posture], rng)
         except Unreachable as error:
-            raise StartImpossible(place, "the arm does not reach it in that orientation") from error
+            raise StartImpossible(place, "the robot does not reach it in that orientation") from error
         distance = self._kinematics.self_distance(q)
         if distance < self._self_distance:
             reason = "the robot would touch itself" if distance <= 0.0 else "the robot would come too close to itself"

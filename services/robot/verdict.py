@@ -1,28 +1,16 @@
-"""The success criteria of Appendix E: object reached, not kicked over, no collision."""
+"""The success criteria, and those of Appendix E: object reached, not kicked over, no collision."""
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lfd.rotations import conjugate, rotate
-from services.robot.backend import Touch
+from services.robot.backend import Observation, Touch
 from sim.pose import Pose
 
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True, eq=False)
-class Criteria:
-    """By what an episode is judged.
-
-    Attributes:
-        radii: of the ellipsoid fixed to the grasping frame, along its axes, shape (3,) [m].
-        thresholds: displacement along each base axis beyond which the object counts as kicked over, shape (3,) [m].
-    """
-
-    radii: Array
-    thresholds: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,10 +18,10 @@ class Verdict:
     """The criteria and what they rest on.
 
     Attributes:
-        reached: the object's centre lies in the ellipsoid or on its boundary.
+        reached: the target is; the object's centre lies in the ellipsoid or on its boundary.
         kicked_over: the object moved further than its threshold on some axis.
         collision: the first touch of the environment in this episode, None where there was none.
-        ellipsoid_value: left side of the ellipsoid's equation (Fig. E.2); at most 1 inside.
+        ellipsoid_value: how far off the target is: left side of the ellipsoid's equation (Fig. E.2); at most 1 inside.
         displacement: of the object since the episode began, shape (3,) [m].
     """
 
@@ -49,18 +37,8 @@ class Verdict:
         return self.reached and not self.kicked_over and self.collision is None
 
 
-class Judge:
-    """Judges an episode period by period; a collision stays until the next one begins.
-
-    Args:
-        criteria: by what.
-        object_position: where the object stands before, shape (3,) [m].
-    """
-
-    def __init__(self, criteria: Criteria, object_position: Array) -> None:
-        self._criteria = criteria
-        self._initial = object_position
-        self._collision: Touch | None = None
+class Judge(Protocol):
+    """Judges an episode period by period; a collision stays until the next one begins."""
 
     def judge(self, grasping: Pose, object_position: Array, touch: Touch | None) -> Verdict:
         """The verdict now.
@@ -70,6 +48,49 @@ class Judge:
             object_position: centre of the object, shape (3,) [m].
             touch: of robot and environment in this period.
         """
+        ...
+
+
+class Criteria(Protocol):
+    """By what episodes are judged."""
+
+    def begin(self, seen: Observation) -> Judge:
+        """The judge of an episode that begins with what is seen."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class ReachingCriteria:
+    """By what an episode is judged that is to reach an object.
+
+    Attributes:
+        radii: of the ellipsoid fixed to the grasping frame, along its axes, shape (3,) [m].
+        thresholds: displacement along each base axis beyond which the object counts as kicked over, shape (3,) [m].
+    """
+
+    radii: Array
+    thresholds: Array
+
+    def begin(self, seen: Observation) -> "ReachingJudge":
+        """See `Criteria.begin`."""
+        return ReachingJudge(self, seen.object_pose.position)
+
+
+class ReachingJudge:
+    """See `Judge`.
+
+    Args:
+        criteria: by what.
+        object_position: where the object stands before, shape (3,) [m].
+    """
+
+    def __init__(self, criteria: ReachingCriteria, object_position: Array) -> None:
+        self._criteria = criteria
+        self._initial = object_position
+        self._collision: Touch | None = None
+
+    def judge(self, grasping: Pose, object_position: Array, touch: Touch | None) -> Verdict:
+        """See `Judge.judge`."""
         self._collision = self._collision or touch
         value = ellipsoid_value(grasping, object_position, self._criteria.radii)
         displacement = object_position - self._initial

@@ -1,5 +1,6 @@
 """The robot's own values as messages."""
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -9,9 +10,13 @@ from services.arrays import motion_to_wire, quaternion, vector3
 from services.robot.control import Finished
 from services.robot.verdict import Verdict
 from sim.pose import Pose
-from sim.scenes.scene import OBJECT_SIZE, Scene
+from sim.scenes import AnyScene
+from sim.scenes.particle import ParticleScene
+from sim.scenes.scene import OBJECT_SIZE, Box, ReachingScene
 
 Array = NDArray[np.float64]
+
+_NONE: messages.Vector3 = (0.0, 0.0, 0.0)
 
 
 def pose(value: Pose) -> messages.Pose:
@@ -59,19 +64,45 @@ def episode_result(finished: Finished) -> messages.EpisodeResult:
     )
 
 
-def scene_state(scene: Scene, variant: str, start: Pose) -> messages.SceneState:
-    """The scene in one of its variants, with a start of the next motion."""
-    boxes = tuple(
-        messages.Box(box.name, box.centre, box.half_sizes, box.quaternion, box.rgba) for box in scene.boxes(variant)
-    )
-    return messages.SceneState(
+def scene_state(scene: AnyScene, variant: str, start: Pose, condition: Array) -> messages.SceneState:
+    """The scene as it stands.
+
+    Args:
+        scene: which.
+        variant: of it.
+        start: of the next motion.
+        condition: the external state that motions depend on in it, shape (c,); empty where it is the object's.
+    """
+    bare = messages.SceneState(
         name=scene.name,
         variant=variant,
-        boxes=boxes,
-        object_size=OBJECT_SIZE,
-        ellipsoid_radii=vector3(scene.reached_radii),
-        kicked_over_thresholds=vector3(scene.kicked_thresholds),
+        boxes=_boxes(scene.boxes(variant)),
+        object_size=_NONE,
+        ellipsoid_radii=_NONE,
+        kicked_over_thresholds=_NONE,
         start=pose(start),
-        object_region=(vector3(scene.region.lower), vector3(scene.region.upper)),
+        object_region=(_NONE, _NONE),
         variants=scene.variants,
+        condition=tuple(condition.tolist()),
     )
+    match scene:
+        case ReachingScene():
+            return msgspec.structs.replace(
+                bare,
+                object_size=OBJECT_SIZE,
+                ellipsoid_radii=vector3(scene.reached_radii),
+                kicked_over_thresholds=vector3(scene.kicked_thresholds),
+                object_region=(vector3(scene.region.lower), vector3(scene.region.upper)),
+            )
+        case ParticleScene():
+            first, second = scene.rings(condition)
+            return msgspec.structs.replace(
+                bare,
+                boxes=(*bare.boxes, *_boxes((*first, *second))),
+                ellipsoid_radii=(scene.tolerance,) * 3,
+                condition_region=(scene.region.lower, scene.region.upper),
+            )
+
+
+def _boxes(boxes: tuple[Box, ...]) -> tuple[messages.Box, ...]:
+    return tuple(messages.Box(box.name, box.centre, box.half_sizes, box.quaternion, box.rgba) for box in boxes)

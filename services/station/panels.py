@@ -111,7 +111,7 @@ class _Counter:
 class VerdictPanel:
     """The success criteria, each with a check or a cross and its evidence."""
 
-    _TITLES = ("Object reached", "Not kicked over", "No collision")
+    _TITLES = ("Target reached", "Not kicked over", "No collision")
 
     def __init__(self) -> None:
         with block("panel verdict") as self._box:

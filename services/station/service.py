@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from protocol import messages, topics
-from protocol.messages import Figure, Vector3
+from protocol.messages import Figure
+from services.arrays import vector3
 from services.bus import Bus, Pending, Received, Subscription
 from services.clock import Clock
 from services.config import Configuration, StationSection
-from services.station.state import Action, Phase, Settings, View, Workflow
+from services.station.state import Action, Phase, Place, Settings, View, Workflow
 from services.station.view import PageView, Picture
 from services.station.words import teaching_state
 from services.station.workflow import advance
@@ -60,6 +61,7 @@ def settings(section: StationSection) -> Settings:
         refinements_allowed=section.refinements_allowed,
         updates_allowed=section.updates_allowed,
         adapt=section.adapt,
+        variant=section.variant,
         scripted=section.scripted,
         once=section.once,
     )
@@ -91,7 +93,7 @@ class StationService:
         clock: of the view.
         workflow_settings: of the run.
         page: the operator's; None where the workflow is scripted.
-        seed: of the object positions.
+        seed: of the places.
     """
 
     rate_hz = topics.OPERATOR_INPUT.rate_hz
@@ -107,7 +109,7 @@ class StationService:
         self._workflow = Workflow(request=secrets.randbelow(2**40))
         self._pending: Pending[Any] | None = None
         self._pending_phase = Phase.WAITING
-        self._drawn: Vector3 | None = None
+        self._drawn: Place | None = None
         self._stops_to_send = 0
         self._ticks = 0
 
@@ -143,7 +145,8 @@ class StationService:
 
     def _view(self, now_ns: int, pressed: list[str]) -> View:
         ears = self._ears
-        scene = _message(ears.scene.latest())
+        arrangement = ears.scene.latest()
+        scene = _message(arrangement)
         sighting = ears.seen.latest()
         known = {action.value: action for action in Action}
         return View(
@@ -152,6 +155,7 @@ class StationService:
             authority=ears.authority.fresh(now_ns),
             safety=ears.safety.fresh(now_ns),
             scene=scene,
+            scene_s=arrangement.received_ns / 1e9 if arrangement is not None else 0.0,
             model=ears.model.fresh(now_ns),
             seen=ears.seen.fresh(now_ns),
             seen_s=sighting.received_ns / 1e9 if sighting is not None else 0.0,
@@ -168,11 +172,11 @@ class StationService:
         self._pending = None
         return outcome if self._pending_phase is self._workflow.phase else None
 
-    def _draw(self, scene: messages.SceneState | None) -> Vector3 | None:
+    def _draw(self, scene: messages.SceneState | None) -> Place | None:
         if scene is not None and self._drawn is None:
-            low, high = scene.object_region
-            x, y, z = (float(self._random.uniform(a, b)) for a, b in zip(low, high, strict=True))
-            self._drawn = (x, y, z)
+            low, high = scene.condition_region if scene.condition else scene.object_region
+            drawn = tuple(float(self._random.uniform(a, b)) for a, b in zip(low, high, strict=True))
+            self._drawn = Place(condition=drawn) if scene.condition else Place(object_position=vector3(drawn))
         return self._drawn
 
     def _emergency_stop(self, pressed: bool) -> None:

@@ -9,7 +9,17 @@ from typing import Any
 import msgspec
 
 from protocol import messages
-from protocol.messages import Attempt, EpisodeResult, Mode, ModelState, Motion, ObjectPose, Outcome, Vector3
+from protocol.messages import (
+    Attempt,
+    Condition,
+    EpisodeResult,
+    Mode,
+    ModelState,
+    Motion,
+    ObjectPose,
+    Outcome,
+    Vector3,
+)
 from protocol.queries import Adapt, Query, Reset
 
 
@@ -44,6 +54,19 @@ class Phase(Enum):
 
 
 @dataclass(frozen=True)
+class Place:
+    """Where a reset puts the target of the motion.
+
+    Attributes:
+        object_position: of an object, base frame [m]; None where there is none.
+        condition: of a scene that has one of its own; None where the object's position decides.
+    """
+
+    object_position: Vector3 | None = None
+    condition: Condition | None = None
+
+
+@dataclass(frozen=True)
 class Settings:
     """What does not change in a run.
 
@@ -52,8 +75,9 @@ class Settings:
         autonomous_s: duration of an autonomous execution [s].
         refine_s: duration of an execution under correction [s].
         refinements_allowed: attempts at one update.
-        updates_allowed: updates at one object position.
+        updates_allowed: updates at one place.
         adapt: which way-point a correction moves.
+        variant: arrangement of the scene that the run is about; empty for the one that was changed.
         scripted: the recommended action is taken at once.
         once: the recommended action after the loop has closed is to end.
         arrangement: what every reset asks for, its epoch aside; drawn at random where there is none.
@@ -65,6 +89,7 @@ class Settings:
     refinements_allowed: int = 10
     updates_allowed: int = 8
     adapt: Adapt = Adapt.NEXT
+    variant: str = ""
     scripted: bool = False
     once: bool = False
     arrangement: Reset | None = None
@@ -88,13 +113,14 @@ class View:
         authority: who may command.
         safety: whether it may move at all.
         scene: in which it stands.
+        scene_s: when that came [s].
         model: the model's state.
         seen: the object, as perceived.
         seen_s: when that came [s].
         result: of the newest episode.
         outcome: of the query asked last, in the step in which it came.
         actions: what the operator pressed since the last step.
-        drawn: where an object may stand next, for when one is needed [m].
+        drawn: where the target may stand next, for when a place is needed.
     """
 
     now_s: float
@@ -102,13 +128,14 @@ class View:
     authority: messages.AuthorityState | None = None
     safety: messages.SafetyState | None = None
     scene: messages.SceneState | None = None
+    scene_s: float = 0.0
     model: ModelState | None = None
     seen: ObjectPose | None = None
     seen_s: float = 0.0
     result: EpisodeResult | None = None
     outcome: Any = None
     actions: frozenset[Action] = frozenset()
-    drawn: Vector3 | None = None
+    drawn: Place | None = None
 
 
 @dataclass(frozen=True)
@@ -124,13 +151,14 @@ class Workflow:
         epoch: of the authority.
         request: number of the newest episode asked for.
         mode: of the next episode.
-        placed: where the object was put [m].
-        looked: where the object was seen [m].
+        placed: where the target was put.
+        looked: where the object was seen [m]; the base frame's origin where there is none.
+        condition: that the robot stood in then; empty where it is the object's.
         prediction: the newest.
         taught: what the newest successful refinement commanded.
-        last: verdict of the newest episode at this object position.
+        last: verdict of the newest episode at this place.
         refinements: attempts since the last update.
-        updates: at this object position.
+        updates: at this place.
         attempts: every episode of the run.
         loop_closed: see `loop_has_closed`.
         reason: why the run ended without.
@@ -146,8 +174,9 @@ class Workflow:
     epoch: int = 0
     request: int = 0
     mode: Mode = Mode.AUTONOMOUS
-    placed: Vector3 | None = None
+    placed: Place | None = None
     looked: Vector3 | None = None
+    condition: Condition = ()
     prediction: messages.Prediction | None = None
     taught: Motion | None = None
     last: Outcome | None = None

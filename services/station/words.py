@@ -9,7 +9,7 @@ _TEXTS = {
     Phase.WAITING: "Starting.",
     Phase.ACQUIRING: "Asking for the authority to command the robot.",
     Phase.RESETTING: "The robot returns to its start.",
-    Phase.LOOKING: "Looking for the object with the head camera.",
+    Phase.LOOKING: "Looking for the target.",
     Phase.PREDICTING: "The model predicts a motion.",
     Phase.STARTING: "The robot is told the motion.",
     Phase.LEARNING: "The model learns from the correction.",
@@ -66,13 +66,13 @@ def _executing(mode: Mode, robot: RobotState | None) -> str:
 def outcome_text(outcome: Outcome) -> str:
     """A verdict as a sentence."""
     if outcome.success:
-        return "The object was reached."
+        return "The target was reached."
     faults = [
         fault
         for fault, happened in (
             ("the robot collided", outcome.collision),
             ("the object was kicked over", outcome.kicked_over),
-            ("the object was not reached", not outcome.reached),
+            ("the target was not reached", not outcome.reached),
         )
         if happened
     ]

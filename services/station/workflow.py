@@ -15,11 +15,11 @@ import msgspec
 import numpy as np
 
 from protocol import queries
-from protocol.messages import Attempt, EpisodeResult, Mode, Motion, Outcome
+from protocol.messages import Attempt, EpisodeResult, Mode, Motion, Outcome, Vector3
 from protocol.messages import Phase as RobotPhase
 from protocol.queries import Query
 from services.bus import Failed
-from services.station.state import Action, Ask, Phase, Settings, Step, View, Workflow
+from services.station.state import Action, Ask, Phase, Place, Settings, Step, View, Workflow
 
 RETRY_S = 0.5
 LOOK_S = 0.8
@@ -29,8 +29,11 @@ PICTURES_NEEDED = 5
 EPISODE_GRACE_S = 45.0
 """How much longer than its motion a scripted episode may take (ramp, holds) before it counts as lost."""
 
-SAME_CONDITION_M = 0.02
+SAME_PLACE_M = 0.02
 """Two sightings of an object that nobody moved differ by a few millimetres."""
+
+ORIGIN: Vector3 = (0.0, 0.0, 0.0)
+"""What motions are relative to where there is no object."""
 
 IDLE_S = 3.0
 """A robot that is idle for so long while an episode should run has forgotten it: it was restarted."""
@@ -56,7 +59,7 @@ def advance(state: Workflow, view: View, settings: Settings) -> Step:
 
 
 def loop_has_closed(attempts: tuple[Attempt, ...]) -> bool:
-    """A prediction collided, a refinement succeeded, and under a newer model a prediction succeeded by itself."""
+    """A prediction failed, a refinement succeeded, and under a newer model a prediction succeeded by itself."""
     return any(
         _closes(first, refined, later)
         for i, first in enumerate(attempts)
@@ -68,7 +71,7 @@ def loop_has_closed(attempts: tuple[Attempt, ...]) -> bool:
 def _closes(first: Attempt, refined: Attempt, later: Attempt) -> bool:
     return (
         first.mode is Mode.AUTONOMOUS
-        and first.verdict.collision
+        and not first.verdict.success
         and refined.mode is Mode.REFINE
         and refined.operator_input
         and refined.verdict.success
@@ -76,7 +79,9 @@ def _closes(first: Attempt, refined: Attempt, later: Attempt) -> bool:
         and not later.operator_input
         and later.verdict.success
         and later.model_version > refined.model_version
-        and bool(np.allclose(later.object_position, first.object_position, rtol=0.0, atol=SAME_CONDITION_M))
+        and later.variant == first.variant
+        and later.condition == first.condition
+        and bool(np.allclose(later.object_position, first.object_position, rtol=0.0, atol=SAME_PLACE_M))
     )
 
 
@@ -138,26 +143,33 @@ def _resetting(state: Workflow, view: View, settings: Settings) -> Step:
     if settings.arrangement is not None:
         request = msgspec.structs.replace(settings.arrangement, epoch=state.epoch)
     else:
-        variant = view.scene.variants[-1] if view.scene is not None and view.scene.variants else None
         state = replace(state, placed=state.placed or view.drawn)
-        request = queries.Reset(state.epoch, variant, state.placed)
+        place = state.placed or Place()
+        changed = view.scene.variants[-1] if view.scene is not None and view.scene.variants else None
+        request = queries.Reset(state.epoch, settings.variant or changed, place.object_position, place.condition)
     reply = _asked(state, view, queries.RESET, request)
     return reply if isinstance(reply, Step) else Step(_to(state, Phase.LOOKING, view))
 
 
 def _looking(state: Workflow, view: View, settings: Settings) -> Step:
     del settings
+    if view.scene is not None and view.scene.condition:
+        # Nothing to look for: the robot says where it stands, once it has been reset.
+        if view.scene_s <= state.since_s:
+            return Step(state)
+        return Step(_to(state, Phase.PREDICTING, view, looked=ORIGIN, condition=view.scene.condition))
     seen = view.seen
     if seen is None or seen.pictures < PICTURES_NEEDED or view.seen_s - state.since_s < LOOK_S:
         return Step(state)
-    return Step(_to(state, Phase.PREDICTING, view, looked=seen.pose.position))
+    return Step(_to(state, Phase.PREDICTING, view, looked=seen.pose.position, condition=()))
 
 
 def _predicting(state: Workflow, view: View, settings: Settings) -> Step:
     del settings
     if state.looked is None or view.robot is None:
         return Step(_to(state, Phase.LOOKING, view))
-    reply = _asked(state, view, queries.PREDICT, queries.Predict(state.looked, view.robot.measured))
+    request = queries.Predict(state.looked, view.robot.measured, state.condition)
+    reply = _asked(state, view, queries.PREDICT, request)
     if isinstance(reply, Step):
         return reply
     return Step(_to(state, Phase.STARTING, view, prediction=reply.prediction))
@@ -197,13 +209,14 @@ def _judged(state: Workflow, view: View, result: EpisodeResult) -> Step:
     verdict = Outcome(result.verdict.reached, result.verdict.kicked_over, result.verdict.collision)
     attempt = Attempt(
         scene=view.scene.name if view.scene is not None else "",
-        object_position=state.looked or (0.0, 0.0, 0.0),
+        object_position=state.looked or ORIGIN,
         model_version=state.prediction.model_version if state.prediction is not None else 0,
         operator_input=result.operator_input,
         verdict=verdict,
         duration_s=result.duration,
         variant=view.scene.variant if view.scene is not None else "",
         mode=result.mode,
+        condition=state.condition,
     )
     refining = result.mode is Mode.REFINE
     attempts = (*state.attempts, attempt)
@@ -223,7 +236,7 @@ def _learning(state: Workflow, view: View, settings: Settings) -> Step:
         return Step(_to(state, Phase.DECIDING, view))
     motion = learnable(state.taught, settings.autonomous_s)
     scene = view.scene.name if view.scene is not None else ""
-    request = queries.AddDemonstration(queries.Kind.UPDATE, motion, state.looked, scene)
+    request = queries.AddDemonstration(queries.Kind.UPDATE, motion, state.looked, scene, state.condition)
     reply = _asked(state, view, queries.ADD_DEMONSTRATION, request)
     if isinstance(reply, Step):
         return reply

@@ -26,8 +26,9 @@ from services.study.map_work import Tried, conditions, corrected_once
 from services.study.models import BY_NAME
 from services.study.store import write_whole
 from services.study.success_map import Place, SuccessMap
+from sim.scenes import REACHING, AnyScene
 from sim.scenes import scene as find_scene
-from sim.scenes.scene import Scene
+from sim.scenes.scene import ReachingScene, Scene
 
 _POSITION = 3  # dimension of the condition that a map is made of
 _SCENE = "dishwasher"
@@ -87,7 +88,7 @@ def draw_map(request: Request) -> SuccessMap:
     """
     _check(request)
     stored = _stored(request)
-    scene = find_scene(request.scene or (stored[-1].scene if stored else _SCENE))
+    scene = _with_an_object(find_scene(request.scene or (stored[-1].scene if stored else _SCENE)))
     variant = request.variant or scene.variants[-1]
     scene.check(variant)
     console = Console(stderr=True, highlight=False)
@@ -120,6 +121,12 @@ def _check(request: Request) -> None:
             raise CannotKeep(path.parent, "there is no such folder", flag)
 
 
+def _with_an_object(scene: AnyScene) -> ReachingScene:
+    if not isinstance(scene, ReachingScene):
+        raise NothingToMap(f"scene {scene.name} has no object to reach: map one of {', '.join(REACHING)}")
+    return scene
+
+
 def _stored(request: Request) -> list[StoredDemonstration]:
     """What the database holds; nothing where none was given."""
     if request.database is None:
@@ -135,7 +142,7 @@ def _stored(request: Request) -> list[StoredDemonstration]:
     return stored
 
 
-def _first(request: Request, scene: Scene, variant: str, console: Console) -> list[StoredDemonstration]:
+def _first(request: Request, scene: ReachingScene, variant: str, console: Console) -> list[StoredDemonstration]:
     """The scene's first demonstrations, and a correction where one is asked for."""
     demonstrations = first_demonstrations(scene)
     if not request.teach:

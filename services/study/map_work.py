@@ -128,7 +128,7 @@ def _tried(arm: Arm, scene: Scene, task: Tried, place: Place) -> tuple[Trial, ..
     except StartImpossible:
         return (UNREACHABLE,) * len(task.models)
     proven = any(trial.outcome is Outcome.REACHED for trial in trials)
-    possible = proven or verdict(steered(scene.corridor(task.variant, position, start))).success
+    possible = proven or verdict(steered(scene.corridor(task.variant, position, start), None, scene.freedom)).success
     return tuple(trials) if possible else (UNREACHABLE,) * len(trials)
 
 

@@ -9,7 +9,7 @@ from lfd.demonstration import Demonstration
 from lfd.trajectory import Trajectory
 from services.robot.verdict import ellipsoid_value
 from sim.pose import Pose
-from sim.scenes.scene import Scene
+from sim.scenes.scene import ReachingScene
 from sim.steering import steer
 
 Array = NDArray[np.float64]
@@ -19,7 +19,7 @@ POINTS = 200
 
 
 def demonstrate(
-    scene: Scene,
+    scene: ReachingScene,
     object_position: Array,
     rng: np.random.Generator | None,
     *,
@@ -41,19 +41,19 @@ def demonstrate(
     return Demonstration.reaching(Trajectory(way.positions, way.orientations, DURATION), object_position)
 
 
-def steady_motions(scene: Scene, object_positions: Array) -> list[Demonstration]:
+def steady_motions(scene: ReachingScene, object_positions: Array) -> list[Demonstration]:
     """What a person with a steady hand would do for objects at those positions, shape (k, 3) [m]."""
     return [demonstrate(scene, position, None) for position in object_positions]
 
 
-def object_grid(scene: Scene, n: int) -> Array:
+def object_grid(scene: ReachingScene, n: int) -> Array:
     """Object positions all over a scene's region, n along each side, shape (n n, 3) [m]."""
     (x0, y0, z), (x1, y1, _) = scene.region.lower, scene.region.upper
     x, y = np.meshgrid(np.linspace(x0, x1, n), np.linspace(y0, y1, n), indexing="ij")
     return np.column_stack([x.ravel(), y.ravel(), np.full(x.size, z)])
 
 
-def reaches(trajectory: Trajectory, object_position: Array, scene: Scene) -> bool:
+def reaches(trajectory: Trajectory, object_position: Array, scene: ReachingScene) -> bool:
     """Whether an object, shape (3,) [m], is in the ellipsoid of Fig. E.2 at a trajectory's end."""
     end = Pose(trajectory.positions[-1], trajectory.orientations[-1])
     return ellipsoid_value(end, object_position, scene.reached_radii) <= 1.0

@@ -23,7 +23,8 @@ from services.study.scenery import draw_way, furnish, place_object
 from services.study.style import DEMONSTRATION_LINE, REFINEMENT, Line, drawn, panels
 from sim.description import prepare
 from sim.pose import Pose
-from sim.scenes.scene import Scene, Vector
+from sim.scenes import AnyScene
+from sim.scenes.scene import Vector
 
 Array = NDArray[np.float64]
 
@@ -46,7 +47,7 @@ class Question:
         shown: least and greatest corner of the part of space to draw [m].
     """
 
-    scene: Scene
+    scene: AnyScene
     demonstrated: tuple[Arrangement, ...]
     refined: tuple[Arrangement, ...]
     executed: tuple[Arrangement, ...]
@@ -68,13 +69,15 @@ class Answer:
     of_kinds: tuple[Rehearsed, ...]
 
 
-def arrangement(scene: Scene, variant: str, object_position: Sequence[float], offset: Sequence[float]) -> Arrangement:
+def arrangement(
+    scene: AnyScene, variant: str, object_position: Sequence[float], offset: Sequence[float]
+) -> Arrangement:
     """An arrangement whose start is moved by an offset from the scene's own [m]."""
     start = messages.Pose(vector3(scene.start.position + np.array(offset)), quaternion(scene.start.orientation))
     return Arrangement(variant, vector3(object_position), start)
 
 
-def taught(scene: Scene, arrangements: Sequence[Arrangement], rng: np.random.Generator) -> tuple[Demonstration, ...]:
+def taught(scene: AnyScene, arrangements: Sequence[Arrangement], rng: np.random.Generator) -> tuple[Demonstration, ...]:
     """A demonstration under each arrangement, given in the simulator by the scripted operator.
 
     Raises:
@@ -83,7 +86,7 @@ def taught(scene: Scene, arrangements: Sequence[Arrangement], rng: np.random.Gen
     """
     arm = simulated_arm(scene, scene.variants[0], prepare())
     return tuple(
-        demonstrate(arm, scene, np.array(one.object_position), rng, _pose(one.start) if one.start else None)
+        demonstrate(arm, scene, np.array(one.object_position), rng, start=_pose(one.start) if one.start else None)
         for one in arrangements
     )
 

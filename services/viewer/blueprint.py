@@ -6,16 +6,21 @@ import rerun as rr
 import rerun.blueprint as rrb
 
 from services.viewer import entities, palette
+from sim.scenes.scene import Eye
 
 _WINDOW_S = 20.0
 
 
-def blueprint() -> rrb.Blueprint:
-    """The layout of every recording; the panels around it are hidden, the time line is collapsed."""
+def blueprint(eye: Eye) -> rrb.Blueprint:
+    """The layout of every recording; the panels around it are hidden, the time line is collapsed.
+
+    Args:
+        eye: from where the scene is seen at first.
+    """
     return rrb.Blueprint(
         rrb.Vertical(
             rrb.Horizontal(
-                _scene(),
+                _scene(eye),
                 rrb.Vertical(_camera("head"), _camera("wrist")),
                 column_shares=[3.4, 1],
             ),
@@ -46,7 +51,7 @@ def blueprint() -> rrb.Blueprint:
     )
 
 
-def _scene() -> rrb.Spatial3DView:
+def _scene(eye: Eye) -> rrb.Spatial3DView:
     return rrb.Spatial3DView(
         origin=entities.WORLD,
         contents=["$origin/**", f"{entities.ROBOT}/**", f"- {entities.COLLISION_SHAPES}/**"],
@@ -57,7 +62,7 @@ def _scene() -> rrb.Spatial3DView:
             target_frame=f"tf#{entities.WORLD}", show_axes=False, show_bounding_box=False
         ),
         eye_controls=rrb.EyeControls3D(
-            kind=rrb.Eye3DKind.Orbital, position=(0.05, -0.95, 1.15), look_target=(0.62, 0.06, 0.62), eye_up=(0, 0, 1)
+            kind=rrb.Eye3DKind.Orbital, position=eye.position, look_target=eye.target, eye_up=(0, 0, 1)
         ),
     )
 

@@ -14,6 +14,7 @@ from services.exceptions import PortInUse
 from services.viewer import entities
 from services.viewer.blueprint import blueprint
 from services.viewer.exceptions import ViewerError
+from sim.scenes.scene import Eye
 
 # Enough for a page that is opened late to be live within two seconds; a large buffer would be played back first.
 _LATE_JOINERS_MEMORY = "32MiB"
@@ -29,13 +30,14 @@ class Recording:
         section: where it is served, and the folder for the files.
         robot: the robot's name, with which the file's begins.
         start_ns: where the time line begins [ns].
+        eye: from where the scene is seen at first.
 
     Raises:
         PortInUse: nothing can listen at the stream's port.
         ViewerError: the folder cannot be written to.
     """
 
-    def __init__(self, section: ViewerSection, robot: str, start_ns: int) -> None:
+    def __init__(self, section: ViewerSection, robot: str, start_ns: int, eye: Eye) -> None:
         self.identity = secrets.token_hex(8)
         self.path = _new_file(Path(section.folder), robot)
         self._start_ns = start_ns
@@ -54,7 +56,7 @@ class Recording:
                 cors_allow_origin=web_origins(section),
             ),
             rr.FileSink(self.path),
-            default_blueprint=blueprint(),
+            default_blueprint=blueprint(eye),
         )
         self.stream.set_log_time_enabled(False)
         self.stream.set_log_tick_enabled(False)

@@ -43,6 +43,11 @@ def log_grasp(recording: rr.RecordingStream, pose: Pose) -> None:
     recording.log(entities.GRASP, rr.Transform3D(translation=pose.position, quaternion=_xyzw(pose.orientation)))
 
 
+def log_point(recording: rr.RecordingStream, radius: float) -> None:
+    """Draw a robot that has no shape as a ball of this radius [m]; it moves with the grasping frame."""
+    recording.log(entities.POINT, rr.Points3D([(0.0, 0.0, 0.0)], radii=[radius], colors=[palette.TRUTH]), static=True)
+
+
 def log_reached(recording: rr.RecordingStream, radii: Vector3, *, reached: bool) -> None:
     """Draw the ellipsoid about the grasping frame in which the object's centre has to lie (thesis, eq. E.1).
 

@@ -36,6 +36,9 @@ from services.viewer.web import WebServer
 from services.viewer.web_files import web_files
 from sim.description import prepare
 from sim.exceptions import SimError
+from sim.scenes import SCENES
+from sim.scenes.particle import ParticleScene
+from sim.scenes.scene import Eye
 
 log = logging.getLogger(__name__)
 
@@ -56,12 +59,14 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> Service:
         ViewerError: the recording cannot be written, or the web viewer's files are not there.
     """
     web = WebServer(configuration, web_files())
+    # A scene that is not known here has an arm like ours, as far as anybody can tell.
+    known = SCENES.get(configuration.robot.scene)
     try:
-        run = Run(configuration.viewer, configuration.name, clock.now_ns())
+        run = Run(configuration.viewer, configuration.name, clock.now_ns(), known.eye if known else Eye())
     except BaseException:
         web.close()
         raise
-    return ViewerService(bus, run, web)
+    return ViewerService(bus, run, web, point=known.radius if isinstance(known, ParticleScene) else None)
 
 
 class ViewerService:
@@ -71,9 +76,10 @@ class ViewerService:
         bus: to them.
         run: where it is drawn.
         web: the live view's page.
+        point: radius of a robot that is a point [m]; None for an arm.
     """
 
-    def __init__(self, bus: Bus, run: Run, web: WebServer) -> None:
+    def __init__(self, bus: Bus, run: Run, web: WebServer, point: float | None = None) -> None:
         self._bus = bus
         self._run = run
         self._stream = run.stream
@@ -95,7 +101,9 @@ class ViewerService:
         self._unusable = 0
         run.at(0)
         series.log_legends(self._stream)
-        self._model = _robot_model(self._stream)
+        self._model = _robot_model(self._stream) if point is None else None
+        if point is not None:
+            scene.log_point(self._stream, point)
 
     @property
     def rate_hz(self) -> float:
@@ -166,7 +174,7 @@ class ViewerService:
         if self._scene.known is None:
             return
         size = self._scene.known.object_size
-        if world is not None and self._changes.due("truth", _rounded(world.object_pose), now_ns):
+        if world is not None and any(size) and self._changes.due("truth", _rounded(world.object_pose), now_ns):
             scene.log_object_truth(self._stream, world.object_pose, size)
         if seen is not None:
             scene.log_object_seen(self._stream, seen.pose, size)
@@ -201,7 +209,9 @@ class ViewerService:
             scene.log_kick_limits(self._stream, centre, limits, kicked_over=verdict.kicked_over)
 
     def _object_pose(self) -> Pose | None:
-        """Where the object is: the truth where there is one."""
+        """Where the object is: the truth where there is one; None where there is no object."""
+        if self._scene.known is None or not any(self._scene.known.object_size):
+            return None
         if self._world.known is not None:
             return self._world.known.object_pose
         return None if self._object.known is None else self._object.known.pose

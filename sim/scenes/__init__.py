@@ -2,13 +2,20 @@
 
 from sim.exceptions import UnknownScene
 from sim.scenes.dishwasher import DISHWASHER
-from sim.scenes.scene import Scene
+from sim.scenes.particle import PARTICLE, ParticleScene
+from sim.scenes.scene import ReachingScene
 from sim.scenes.table import TABLE
 
-SCENES: dict[str, Scene] = {scene.name: scene for scene in (DISHWASHER, TABLE)}
+AnyScene = ReachingScene | ParticleScene
+"""What scenes differ in is told apart by their kind."""
+
+REACHING: dict[str, ReachingScene] = {scene.name: scene for scene in (DISHWASHER, TABLE)}
+"""Those in which an arm reaches for an object."""
+
+SCENES: dict[str, AnyScene] = {**REACHING, PARTICLE.name: PARTICLE}
 
 
-def scene(name: str) -> Scene:
+def scene(name: str) -> AnyScene:
     """Return the scene of that name.
 
     Raises:

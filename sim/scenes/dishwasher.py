@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from sim.pose import Pose
-from sim.scenes.scene import Array, Box, Corridor, Group, Region, Scene, pitched_down
+from sim.scenes.scene import Array, Box, Corridor, Group, ReachingScene, Region, pitched_down
 
 _B1, _B2 = "b1", "b2"
 _BASKET_FRONT = {_B1: 0.73, _B2: 0.55}  # [m] x of the front panel
@@ -120,7 +120,7 @@ def _route(variant: str, object_position: Array) -> Corridor:
     return Corridor(positions, np.array([pitched_down(math.radians(pitch)) for pitch in _PITCHES]))
 
 
-DISHWASHER = Scene(
+DISHWASHER = ReachingScene(
     name="dishwasher",
     variants=(_B1, _B2),
     start=_START,

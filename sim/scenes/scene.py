@@ -1,18 +1,18 @@
-"""What a scene is: where the arm starts, what stands around it, and where the object can be.
+"""What a scene is: where motions start, what stands around the robot, and where their target can be.
 
-All positions are in the robot's base frame: x forward, y left, z up, the floor at z = 0.
+All positions are in the robot's base frame: x forward, y left, z up.
 """
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.exceptions import UnknownVariant
+from sim.exceptions import UnknownVariant, WrongPlace
 from sim.pose import Pose
 
 Array = NDArray[np.float64]
@@ -76,58 +76,85 @@ class Corridor(NamedTuple):
     orientations: Array
 
 
-@dataclass(frozen=True)
-class Region:
-    """Box of positions, both ends included.
+class Freedom(NamedTuple):
+    """What a person decides of a robot's motion.
 
     Attributes:
-        lower: [m].
-        upper: [m].
+        axes: Base axes along which they can move it off its way, 1 or 0 each.
+        tempo: They decide when it is where; else a corridor's way-points are passed at equal steps of time.
     """
 
-    lower: Vector
-    upper: Vector
+    axes: Vector = (1.0, 1.0, 1.0)
+    tempo: bool = True
+
+
+@dataclass(frozen=True)
+class Region:
+    """Box of places, both ends included.
+
+    Attributes:
+        lower: As many numbers as a place has [m].
+        upper: The same.
+    """
+
+    lower: tuple[float, ...]
+    upper: tuple[float, ...]
 
     def sample(self, rng: np.random.Generator) -> Array:
-        """Draw a position evenly, shape (3,) [m]."""
+        """Draw a place evenly, shape (d,) [m]."""
         return rng.uniform(self.lower, self.upper)
 
-    def contains(self, position: Array) -> bool:
-        """Say whether the position, shape (3,) [m], lies inside."""
-        return bool(np.all(position >= self.lower) and np.all(position <= self.upper))
+    def contains(self, place: Array, margin: float = 0.0) -> bool:
+        """Say whether the place lies inside, or at most a margin outside on each axis.
+
+        Args:
+            place: Shape (d,) [m]; one of another dimension lies outside.
+            margin: [m].
+        """
+        fits = place.shape == (len(self.lower),)
+        return fits and bool(
+            np.all(place >= np.subtract(self.lower, margin)) and np.all(place <= np.add(self.upper, margin))
+        )
 
 
-@dataclass(frozen=True, eq=False)
+class Eye(NamedTuple):
+    """Where a bystander looks from, and at what [m]; by default, at an arm and at what is before it."""
+
+    position: Vector = (0.05, -0.95, 1.15)
+    target: Vector = (0.62, 0.06, 0.62)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Scene:
-    """A place where a reaching motion is learnt, with one change that breaks it.
+    """A place where a motion is learnt, with one change that breaks it: what all kinds of scenes have.
+
+    A place says where the target is that a motion depends on; each kind of scene says of what.
 
     Attributes:
         name: Of the scene.
         variants: The first is the one that demonstrations were given in, the second the changed one.
         start: Pose of the grasping frame before each motion.
-        posture: Joint positions at the start, in the order of `CONTROLLED_JOINTS`, shape (8,) [m, rad].
-        head: Pan and tilt that look at the scene, shape (2,) [rad].
-        region: Where the centre of the object may stand.
-        training_positions: Of the object, in the initial demonstrations, shape (n, 3) [m].
-        reached_radii: Of the ellipsoid around the grasping frame, along its axes, that the object's
-            centre must lie in (thesis, Fig. E.2), shape (3,) [m].
-        kicked_thresholds: Displacement along each axis of the base frame beyond which the object
-            counts as kicked over (thesis, Appendix E), shape (3,) [m].
+        posture: Joint positions at the start, in the order of the robot's joints, shape (m,).
+        region: Of the places that are drawn.
+        margin: How far beyond the region a place is allowed, on each axis [m].
+        training_positions: Places of the initial demonstrations, shape (n, d) [m].
         layout: Boxes of a variant; call `boxes` instead.
-        route: Way-points of a variant and an object position; call `corridor` instead.
+        route: Way-points of a variant and a place; call `corridor` instead.
+        freedom: Of a person who moves the robot.
+        eye: From where one sees all of it.
     """
 
     name: str
     variants: tuple[str, str]
     start: Pose
     posture: Array
-    head: Array
     region: Region
+    margin: float = 0.05
     training_positions: Array
-    reached_radii: Array
-    kicked_thresholds: Array
     layout: Callable[[str], tuple[Box, ...]]
     route: Callable[[str, Array], Corridor]
+    freedom: Freedom = field(default_factory=Freedom)
+    eye: Eye = field(default_factory=Eye)
 
     def boxes(self, variant: str) -> tuple[Box, ...]:
         """Return what stands around the robot.
@@ -141,28 +168,48 @@ class Scene:
         self.check(variant)
         return self.layout(variant)
 
-    def corridor(self, variant: str, object_position: Array, start: Pose | None = None) -> Corridor:
-        """Return the way-points of a motion from the start to the object, clear of the environment.
+    def corridor(self, variant: str, place: Array, start: Pose | None = None) -> Corridor:
+        """Return the way-points of a motion from the start to the target, clear of the environment.
 
         The corridors of the two variants pair way-point by way-point, with the same orientations:
         their difference is the correction that an operator has to give.
 
         Args:
             variant: One of `variants`.
-            object_position: Centre of the object, shape (3,) [m].
+            place: Of the target, shape (d,) [m].
             start: Pose of the grasping frame that it leads from; the scene's own by default.
 
         Raises:
             UnknownVariant: There is no such variant.
+            WrongPlace: It has another number of dimensions.
         """
         self.check(variant)
-        route = self.route(variant, object_position)
+        if len(place) != len(self.region.lower):
+            raise WrongPlace(self.name, len(place), len(self.region.lower))
+        route = self.route(variant, place)
         return route if start is None else _joined(route, start)
 
     def check(self, variant: str) -> None:
         """Raise UnknownVariant unless the scene has the variant."""
         if variant not in self.variants:
             raise UnknownVariant(self.name, variant, self.variants)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ReachingScene(Scene):
+    """An arm reaches for an object; a place is where the object's centre stands, shape (3,) [m].
+
+    Attributes:
+        head: Pan and tilt that look at the scene, shape (2,) [rad].
+        reached_radii: Of the ellipsoid around the grasping frame, along its axes, that the object's
+            centre must lie in (thesis, Fig. E.2), shape (3,) [m].
+        kicked_thresholds: Displacement along each axis of the base frame beyond which the object
+            counts as kicked over (thesis, Appendix E), shape (3,) [m].
+    """
+
+    head: Array
+    reached_radii: Array
+    kicked_thresholds: Array
 
 
 def _joined(route: Corridor, start: Pose) -> Corridor:

@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from sim.pose import Pose
-from sim.scenes.scene import Array, Box, Corridor, Region, Scene, pitched_down
+from sim.scenes.scene import Array, Box, Corridor, ReachingScene, Region, pitched_down
 
 _CLEAR, _BOX = "clear", "box"
 _TOP_Z = 0.66  # [m]
@@ -68,7 +68,7 @@ def _route(variant: str, object_position: Array) -> Corridor:
     return Corridor(positions, np.array([pitched_down(math.radians(pitch)) for pitch in _PITCHES]))
 
 
-TABLE = Scene(
+TABLE = ReachingScene(
     name="table",
     variants=(_CLEAR, _BOX),
     start=_START,

@@ -22,6 +22,7 @@ from protocol.exceptions import ProtocolError
 from protocol.messages import Mode, Phase
 from services.clock import SystemClock
 from services.zenoh_bus import Passing, close_session, open_session, watch
+from sim.scenes import SCENES
 from tests.bench.support.results import Result, write_json
 
 RUN_TIMEOUT_S = 300.0
@@ -170,7 +171,7 @@ def _figure(beat, name):
 def main():
     parser = argparse.ArgumentParser(prog="deploy/bench loop", description=__doc__)
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures as JSON")
-    parser.add_argument("--scene", default="dishwasher", help="dishwasher (default) or table")
+    parser.add_argument("--scene", default="dishwasher", help=f"{', '.join(SCENES)} (default: dishwasher)")
     arguments = parser.parse_args()
     print("bench: one run of the whole loop, about 80 s", file=sys.stderr)
     results = figures(*run(arguments.scene))

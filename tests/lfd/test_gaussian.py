@@ -21,6 +21,26 @@ def test_welford_equals_the_batch_fit(seed, first, more):
     np.testing.assert_allclose(joint.covariance, batch.covariance, atol=1e-12)
 
 
+@given(seeds, st.floats(0.2, 0.99))
+def test_forgetting_weighs_every_sample_by_its_age(seed, kept):
+    """Against weighted means of all samples, the newest of weight one."""
+    samples = np.random.default_rng(seed).normal(size=(7, 4))
+    joint = JointGaussian.fit(samples[:1])
+    for x in samples[1:]:
+        joint = welford(joint, x, kept)
+    weights = kept ** np.arange(6.0, -1.0, -1.0)
+    mean = weights @ samples / weights.sum()
+    np.testing.assert_allclose(joint.mean, mean, atol=1e-12)
+    np.testing.assert_allclose(joint.scatter, (samples - mean).T * weights @ (samples - mean), atol=1e-12)
+    assert joint.count == pytest.approx(weights.sum())
+
+
+def test_a_forgetting_factor_outside_its_range_is_refused():
+    for kept in (0.0, 1.1, np.nan):
+        with pytest.raises(OutOfRange):
+            welford(JointGaussian.fit(np.ones((2, 5))), np.ones(5), kept)
+
+
 def test_batch_covariance_is_the_unbiased_one(rng):
     samples = rng.normal(size=(9, 4))
     np.testing.assert_allclose(JointGaussian.fit(samples).covariance, np.cov(samples.T), atol=1e-14)
@@ -53,8 +73,8 @@ def test_one_sample_predicts_itself_at_any_condition():
 def test_linear_dependence_on_the_condition_is_recovered(rng):
     s = rng.normal(size=(30, 2))
     B = rng.normal(size=(2, 3))
-    conditional = condition(JointGaussian.fit(np.hstack([s @ B + 1.0, s])), np.array([0.5, 2.0]), 1e-10)
-    np.testing.assert_allclose(conditional.mean, np.array([0.5, 2.0]) @ B + 1.0, atol=1e-6)
+    conditional = condition(JointGaussian.fit(np.hstack([s @ B + 1.0, s])), np.array([0.5, 2.0]), 1e-13)
+    np.testing.assert_allclose(conditional.mean, np.array([0.5, 2.0]) @ B + 1.0, atol=1e-10)
 
 
 def test_no_sample_and_no_noise_are_refused():

@@ -39,6 +39,11 @@ def system():
     service.close()
 
 
+def particle_state(particle):
+    pose = Pose((0.36, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
+    return WorldState(time=0.0, qpos=to_wire([*particle, 0.05, -0.05]), object_pose=pose)
+
+
 def scene_state(name="dishwasher", variant="b1"):
     zero = (0.0, 0.0, 0.0)
     here = Pose(zero, (1.0, 0.0, 0.0, 0.0))
@@ -117,3 +122,20 @@ def test_the_scene_follows_what_the_robot_announces(system, world):
     assert pictures[0] != pictures[1]
     assert pictures[2] == pictures[1]
     assert pictures[3] != pictures[1]
+
+
+def test_the_particles_plane_is_drawn_and_perception_finds_no_object_in_it(system):
+    network, clock, camera = system
+    perception = build_perception(network.bus(), clock, Configuration())
+    robot = network.bus()
+    heads, wrists, found = (robot.subscribe(topic) for topic in (HEAD_IMAGE, WRIST_IMAGE, OBJECT_POSE))
+    pictures = []
+    for variant, x in (("free", 0.0), ("free", 0.2), ("obstacle", 0.0)):
+        clock.advance(0.1)
+        robot.publish(SCENE_STATE, scene_state("particle", variant))
+        robot.publish(WORLD_STATE, particle_state((x, 0.0, 0.0)))
+        camera.step(clock.now_ns())
+        perception.step(clock.now_ns())
+        pictures += [heads.latest().message.data, wrists.latest().message.data]
+    assert len(set(pictures)) == len(pictures)
+    assert found.latest() is None

@@ -5,6 +5,8 @@ import pytest
 from services.cli import configuration, parser
 from services.config import Configuration, Keyboard, Scripted, load, save
 from services.exceptions import ConfigurationError
+from sim.exceptions import UnknownVariant
+from sim.scenes import SCENES
 
 
 @pytest.fixture
@@ -79,3 +81,17 @@ def test_who_listens_everywhere_connects_to_itself():
 def test_the_documented_example_is_valid(write):
     example = "name = 'kitchen'\n[model]\nkind = 'promp'\n[master.device]\nkind = 'keyboard'\ngrowth = 0.08\n"
     assert load(write(example)).master.device == Keyboard(growth=0.08)
+
+
+def test_the_variant_that_is_taught_is_one_of_the_scenes():
+    assert parsed("up").station.variant == ""
+    assert parsed("up", "--scene", "particle", "--variant", "free").station.variant == "free"
+    with pytest.raises(UnknownVariant, match="b1, b2"):
+        parsed("up", "--variant", "free")
+
+
+def test_the_help_names_every_scene(capsys):
+    with pytest.raises(SystemExit):
+        parser().parse_args(["up", "--help"])
+    said = capsys.readouterr().out
+    assert all(name in said for name in SCENES)

@@ -1,13 +1,14 @@
 import numpy as np
 import pytest
 
-from services.robot.kinematics import Kinematics, Unreachable
+from services.robot.kinematics import Kinematics
+from services.robot.mechanism import Unreachable
 from sim.description import RobotDescription, prepare
-from sim.scenes import SCENES, scene
-from sim.scenes.scene import Scene
+from sim.scenes import REACHING, scene
+from sim.scenes.scene import ReachingScene
 
 pytestmark = pytest.mark.sim
-SCENE = pytest.mark.parametrize("place", SCENES.values(), ids=SCENES)
+SCENE = pytest.mark.parametrize("place", REACHING.values(), ids=REACHING)
 DT = 0.01  # [s]
 
 
@@ -22,7 +23,7 @@ def kinematics(description: RobotDescription) -> Kinematics:
 
 
 @SCENE
-def test_the_scenes_posture_is_its_start(place: Scene, kinematics: Kinematics) -> None:
+def test_the_scenes_posture_is_its_start(place: ReachingScene, kinematics: Kinematics) -> None:
     pose = kinematics.forward(place.posture)
     np.testing.assert_allclose(pose.position, place.start.position, atol=2e-4)
     assert abs(pose.orientation @ place.start.orientation) == pytest.approx(1.0, abs=1e-6)
@@ -65,7 +66,7 @@ def test_steps_keep_all_limits_however_far_the_target(kinematics: Kinematics) ->
 
 
 @SCENE
-def test_the_start_is_far_from_self_collision(place: Scene, kinematics: Kinematics) -> None:
+def test_the_start_is_far_from_self_collision(place: ReachingScene, kinematics: Kinematics) -> None:
     assert kinematics.self_distance(place.posture) > 0.1
 
 

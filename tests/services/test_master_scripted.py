@@ -20,7 +20,7 @@ from services.master.haptics import HapticLoop, HapticThread
 from services.master.service import build
 from services.memory_bus import MemoryNetwork
 from sim.rotations import rotated, rotation_to
-from sim.scenes import DISHWASHER
+from sim.scenes import DISHWASHER, PARTICLE
 from sim.stylus import Stylus, StylusState
 
 OBJECT = np.array([0.87, 0.07, 0.553])
@@ -50,6 +50,11 @@ def even(way):
 class Site:
     """A robot that follows equation (16), with everything that the operator's screen shows."""
 
+    scene, variant, condition = "dishwasher", "b2", ()
+    admissible = np.ones(3)
+    duration = DURATION
+    start = DISHWASHER.start
+
     def __init__(self):
         self.clock = ManualClock()
         self.network = MemoryNetwork(self.clock)
@@ -59,7 +64,7 @@ class Site:
         self.announced = self.prediction
         self.progress, self.offset, self.turn = 0.0, np.zeros(3), np.zeros(3)
         self.ticks = 0
-        self.phase, self.episode, self.scene = Phase.EXECUTE, 1, "dishwasher"
+        self.phase, self.episode = Phase.EXECUTE, 1
         self.start_master()
 
     def start_master(self):
@@ -96,7 +101,7 @@ class Site:
 
     def publish_slowly(self):
         self.bus.publish(AUTHORITY_STATE, AuthorityState(holder="ada", epoch=3, expires_in=1.0))
-        motion = motion_to_wire(self.announced, self.orientations, DURATION)
+        motion = motion_to_wire(self.announced, self.orientations, self.duration)
         execution = ExecutionState(
             episode=self.episode,
             mode=Mode.REFINE,
@@ -108,16 +113,18 @@ class Site:
         region = (vector3(DISHWASHER.region.lower), vector3(DISHWASHER.region.upper))
         scene = SceneState(
             name=self.scene,
-            variant="b2",
+            variant=self.variant,
             boxes=(),
             object_size=(0.05, 0.05, 0.1),
             ellipsoid_radii=vector3(DISHWASHER.reached_radii),
             kicked_over_thresholds=vector3(DISHWASHER.kicked_thresholds),
-            start=Pose(vector3(DISHWASHER.start.position), UPRIGHT),
+            start=Pose(vector3(self.start.position), UPRIGHT),
             object_region=region,
+            condition=self.condition,
         )
         self.bus.publish(SCENE_STATE, scene)
-        self.bus.publish(OBJECT_POSE, ObjectPose(pose=Pose(vector3(OBJECT), UPRIGHT), tag=7))
+        if not self.condition:
+            self.bus.publish(OBJECT_POSE, ObjectPose(pose=Pose(vector3(OBJECT), UPRIGHT), tag=7))
 
     def tick(self):
         """One period of everything; the robot holds without fresh samples, and drops what is not engaged."""
@@ -129,9 +136,9 @@ class Site:
         self.service.step(self.clock.now_ns())
         state = self.states.fresh(self.clock.now_ns())
         if state is not None and self.phase is Phase.EXECUTE:
-            self.progress = min(1.0, self.progress + PERIOD / DURATION)
-            gain = -np.expm1(-PERIOD * (POINTS - 1) / DURATION)
-            displacement = np.array(state.displacement) if state.engaged else np.zeros(3)
+            self.progress = min(1.0, self.progress + PERIOD / self.duration)
+            gain = -np.expm1(-PERIOD * (POINTS - 1) / self.duration)
+            displacement = self.admissible * state.displacement if state.engaged else np.zeros(3)
             rotation = np.array(state.rotation) if state.engaged else np.zeros(3)
             self.offset = self.offset + gain * (displacement - self.offset)
             self.turn = self.turn + gain * (rotation - self.turn)
@@ -262,6 +269,36 @@ def test_a_cut_link_is_sat_out_with_the_hand_on_the_stylus():
     state = site.tick()
     assert state.engaged
     assert np.linalg.norm(np.array(state.displacement) - before) < 0.02
+
+
+class ParticleSite(Site):
+    """The particle, on a straight way that it has learnt for another condition."""
+
+    scene = "particle"
+    admissible = np.array(PARTICLE.freedom.axes)
+    duration = 20.0
+    start = PARTICLE.start
+
+    def __init__(self, variant, condition):
+        super().__init__()
+        self.variant, self.condition = variant, condition
+        self.prediction, self.orientations = even(PARTICLE.corridor("free", np.zeros(2)))
+        self.announced = self.prediction
+
+
+@pytest.mark.sim
+@pytest.mark.parametrize("variant", PARTICLE.variants)
+@pytest.mark.parametrize("condition", [(0.1, -0.1), (-0.1, 0.06), (0.03, 0.1), (-0.2, 0.2)])
+def test_the_hand_leads_the_particle_through_its_via_points(variant, condition):
+    site = ParticleSite(variant, condition)
+    way = PARTICLE.corridor(variant, np.array(condition)).positions
+    passed = []
+    while site.progress < 1.0:
+        site.tick()
+        passed.append(site.robot)
+    x, y, _ = np.transpose(passed)
+    np.testing.assert_allclose(np.interp(PARTICLE.via_x, x, y), condition, atol=PARTICLE.tolerance)
+    assert np.max(np.abs(y - np.interp(x, way[:, 0], way[:, 1]))) < 0.02
 
 
 @pytest.mark.parametrize("fault", ["scene", "prediction", "orientation"])

@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from services.robot.admission import admit_prediction, admit_reset
+from protocol.queries import Reset
+from services.robot.admission import admit_prediction, admit_reset, admit_target
 from services.robot.refusal import Refusal
 from sim.pose import Pose
 from sim.scenes import scene
@@ -57,6 +58,18 @@ def test_a_reset_names_the_variants_and_the_region():
         admit_reset(dishwasher, "b1", place + np.array([0.3, 0.0, 0.0]))
     with pytest.raises(Refusal, match="cannot stand at"):
         admit_reset(dishwasher, "b1", place * np.nan)
+
+
+def test_a_reset_is_asked_for_what_the_scene_has():
+    dishwasher, particle = scene("dishwasher"), scene("particle")
+    np.testing.assert_array_equal(admit_target(dishwasher, Reset(1, object_position=(0.8, 0.0, 0.5))), [0.8, 0.0, 0.5])
+    np.testing.assert_array_equal(admit_target(particle, Reset(1, condition=(0.1, -0.1))), [0.1, -0.1])
+    assert admit_target(dishwasher, Reset(1)) is None
+    assert admit_target(particle, Reset(1)) is None
+    with pytest.raises(Refusal, match="no condition of its own"):
+        admit_target(dishwasher, Reset(1, condition=(0.1, -0.1)))
+    with pytest.raises(Refusal, match="has no object"):
+        admit_target(particle, Reset(1, object_position=(0.8, 0.0, 0.5)))
 
 
 def test_a_start_lies_near_the_scenes_own():

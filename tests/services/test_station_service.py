@@ -1,5 +1,8 @@
 """The station's shell on the memory bus: what it tells the others of the operator and of the run."""
 
+from dataclasses import replace
+
+import msgspec
 import pytest
 
 from protocol import queries, topics
@@ -11,6 +14,8 @@ from services.station.state import Settings
 
 POSE = Pose((0.5, 0.0, 0.5), (1.0, 0.0, 0.0, 0.0))
 REGION = ((0.8, -0.1, 0.5), (0.9, 0.1, 0.5))
+SETTINGS = Settings("station-1", scripted=True)
+BY_HAND = Settings("station-1")
 
 
 class Tab:
@@ -41,13 +46,13 @@ class Tab:
 class Site:
     """A station, and a robot and a model that are there."""
 
-    def __init__(self, page=None, *, scripted=True):
+    def __init__(self, page=None, *, settings=SETTINGS):
         self.clock = ManualClock()
         network = MemoryNetwork(self.clock)
         self.other = network.bus()
         self.acquire = self.other.serve(queries.ACQUIRE)
         self.reset = self.other.serve(queries.RESET)
-        self.service = StationService(network.bus(), self.clock, Settings("station-1", scripted=scripted), page, seed=3)
+        self.service = StationService(network.bus(), self.clock, settings, page, seed=3)
 
     def run(self, seconds):
         for _ in range(round(seconds * self.service.rate_hz)):
@@ -58,7 +63,7 @@ class Site:
             )
             self.service.step(self.clock.now_ns())
 
-    def show_scene(self):
+    def show_scene(self, **changes):
         scene = SceneState(
             name="s",
             variant="b1",
@@ -70,10 +75,10 @@ class Site:
             object_region=REGION,
             variants=("b1", "b2"),
         )
-        self.other.publish(topics.SCENE_STATE, scene)
+        self.other.publish(topics.SCENE_STATE, msgspec.structs.replace(scene, **changes))
 
-    def grant(self):
-        self.show_scene()
+    def grant(self, **scene):
+        self.show_scene(**scene)
         self.run(0.1)
         (call,) = self.acquire.take()
         call.reply(queries.AuthorityGranted(41, 1.0))
@@ -82,7 +87,7 @@ class Site:
 
 def test_the_emergency_stop_is_sent_at_once_and_repeated_for_a_second():
     page = Tab()
-    site = Site(page, scripted=False)
+    site = Site(page, settings=BY_HAND)
     stops = site.other.subscribe(topics.EMERGENCY_STOP)
     page.pressed = ["stop"]
     site.run(1.0 / site.service.rate_hz)
@@ -92,7 +97,7 @@ def test_the_emergency_stop_is_sent_at_once_and_repeated_for_a_second():
 
 
 def test_the_full_input_state_is_published_in_every_step():
-    site = Site(Tab(), scripted=False)
+    site = Site(Tab(), settings=BY_HAND)
     held = site.other.subscribe(topics.OPERATOR_INPUT)
     before = site.clock.now_ns()
     site.run(1.0)
@@ -103,7 +108,7 @@ def test_the_full_input_state_is_published_in_every_step():
 
 def test_the_page_is_shown_how_old_the_robots_state_is():
     page = Tab()
-    site = Site(page, scripted=False)
+    site = Site(page, settings=BY_HAND)
     site.run(0.1)
     assert page.shown.robot_age_s == pytest.approx(0.0)
 
@@ -126,6 +131,17 @@ def test_the_object_is_put_into_its_region_and_the_scene_into_the_changed_varian
         low <= value <= high
         for low, value, high in zip(REGION[0], call.request.object_position, REGION[1], strict=True)
     )
+
+
+def test_a_condition_is_drawn_from_its_own_region_and_the_configured_variant_is_taught():
+    site = Site(settings=replace(SETTINGS, variant="b1"))
+    site.grant(condition=(0.0, 0.0), condition_region=((-0.1, 0.2), (0.1, 0.3)))
+    site.run(0.2)
+    (call,) = site.reset.take()
+    assert (call.request.variant, call.request.object_position) == ("b1", None)
+    first, second = call.request.condition
+    assert -0.1 <= first <= 0.1
+    assert 0.2 <= second <= 0.3
 
 
 def test_the_teaching_state_says_who_is_missing():

@@ -24,7 +24,7 @@ from services.study.functions import TAUGHT, rms
 from services.study.models import DEFAULT, THESIS
 from services.study.operator import Operator
 from services.study.scripted import demonstrate, object_grid, reaches
-from sim.scenes import SCENES
+from sim.scenes import REACHING
 from sim.scenes.table import TABLE
 
 seeds = st.integers(0, 10_000)
@@ -90,7 +90,7 @@ def test_table_d1_comes_out():
     np.testing.assert_array_equal(accumulated(EXAMPLE_X, EXAMPLE_Y), TABLE_D1)
 
 
-@pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
+@pytest.mark.parametrize("scene", REACHING.values(), ids=REACHING)
 def test_a_scripted_motion_goes_from_its_start_to_the_object(scene):
     rng = np.random.default_rng(1)
     for position in object_grid(scene, 2):

@@ -5,6 +5,7 @@ import http.client
 import socket
 import subprocess
 
+import msgspec
 import numpy as np
 import pytest
 
@@ -19,6 +20,7 @@ from protocol.messages import (
     RobotState,
     SceneState,
     Verdict,
+    WorldState,
 )
 from protocol.topics import (
     HEAD_IMAGE,
@@ -29,10 +31,11 @@ from protocol.topics import (
     ROBOT_STATE,
     SCENE_STATE,
     VERDICT,
+    WORLD_STATE,
 )
 from services.arrays import motion_to_wire, to_wire
 from services.clock import ManualClock
-from services.config import Configuration, ViewerSection
+from services.config import Configuration, RobotSection, ViewerSection
 from services.memory_bus import MemoryNetwork
 
 pytestmark = pytest.mark.sim
@@ -63,18 +66,31 @@ def files(tmp_path):
 
 
 @pytest.fixture
-def system(configuration, files, monkeypatch):
+def build(configuration, files, monkeypatch):
+    """A function that starts a viewer for a scene; returns network, clock and viewer."""
     from services.viewer import service
 
     monkeypatch.setattr(service, "web_files", lambda: files)
-    clock = ManualClock()
-    network = MemoryNetwork(clock)
-    viewer = service.build(network.bus(), clock, configuration)
-    yield network, clock, viewer
-    viewer.close()
+    started = []
+
+    def build_(scene):
+        clock = ManualClock()
+        network = MemoryNetwork(clock)
+        configured = msgspec.structs.replace(configuration, robot=RobotSection(scene=scene))
+        started.append(service.build(network.bus(), clock, configured))
+        return network, clock, started[-1]
+
+    yield build_
+    for viewer in started:
+        viewer.close()
 
 
-def publish_everything(bus, tick):
+@pytest.fixture
+def system(build):
+    return build("dishwasher")
+
+
+def publish_everything(bus, tick, object_size=(0.05, 0.05, 0.1)):
     motion = motion_to_wire(np.linspace((0.4, 0, 0.4), (0.6, 0, 0.5), 20), np.tile([1.0, 0, 0, 0], (20, 1)), 5.0)
     box = Box("table", (0.8, 0.0, 0.3), (0.3, 0.3, 0.02), (1.0, 0.0, 0.0, 0.0), (0.5, 0.4, 0.3, 1.0))
     bus.publish(
@@ -83,7 +99,7 @@ def publish_everything(bus, tick):
             name="table",
             variant="clear",
             boxes=(box,),
-            object_size=(0.05, 0.05, 0.1),
+            object_size=object_size,
             ellipsoid_radii=(0.05, 0.06, 0.05),
             kicked_over_thresholds=(0.1, 0.1, 0.1),
             start=HERE,
@@ -103,6 +119,7 @@ def publish_everything(bus, tick):
     )
     bus.publish(ROBOT_STATE, robot)
     bus.publish(MASTER_STATE, MasterState(force=(0.0, 0.0, 1.0 * tick)))
+    bus.publish(WORLD_STATE, WorldState(time=0.0, qpos=to_wire(np.zeros(5)), object_pose=HERE))
     bus.publish(OBJECT_POSE, ObjectPose(pose=HERE, tag=7, error=0.001))
     bus.publish(
         VERDICT, Verdict(reached=False, kicked_over=False, collision=tick > 2, collision_position=(0.5, 0, 0.5))
@@ -142,6 +159,7 @@ def test_the_recording_is_sound_and_holds_what_was_published(system):
     drawn = (
         entities.ENVIRONMENT,
         entities.OBJECT_SEEN,
+        entities.OBJECT_TRUTH,
         entities.PREDICTION,
         entities.UNCERTAINTY,
         entities.REACHED,
@@ -157,6 +175,25 @@ def test_the_recording_is_sound_and_holds_what_was_published(system):
     )
     assert set(drawn) <= paths
     assert recording.path.rsplit("/", 1)[1].startswith("testbed-")
+
+
+def test_a_particle_is_a_point_and_there_is_neither_arm_nor_object(build):
+    from rerun.chunk import RrdReader
+
+    from services.viewer import entities
+
+    network, clock, viewer = build("particle")
+    bus = network.bus()
+    announced = bus.subscribe(RECORDING)
+    for tick in range(3):
+        publish_everything(bus, tick, object_size=(0.0, 0.0, 0.0))
+        viewer.step(clock.now_ns())
+        clock.advance(1 / 30)
+    viewer.close()
+    paths = {chunk.entity_path for chunk in RrdReader(announced.latest().message.path).stream()}
+    assert {entities.POINT, entities.GRASP, entities.ENVIRONMENT, entities.PREDICTION, entities.REACHED} <= paths
+    assert not paths & {entities.OBJECT_TRUTH, entities.KICK_LIMITS}
+    assert not any(path.startswith(f"{entities.ROBOT}/") for path in paths)
 
 
 def test_the_joints_move_as_the_sdk_says():
@@ -222,10 +259,11 @@ def test_a_folder_that_cannot_be_written_to_is_named(configuration, tmp_path):
 
     from services.viewer.exceptions import ViewerError
     from services.viewer.recording import Recording
+    from sim.scenes.scene import Eye
 
     (tmp_path / "runs").write_text("a file")
     with pytest.raises(ViewerError, match="folder"):
-        Recording(msgspec.structs.replace(configuration.viewer, folder=str(tmp_path / "runs")), "testbed", 0)
+        Recording(msgspec.structs.replace(configuration.viewer, folder=str(tmp_path / "runs")), "testbed", 0, Eye())
 
 
 def test_the_correction_is_shown_in_millimetres_and_degrees(tmp_path):

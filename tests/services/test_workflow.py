@@ -2,13 +2,14 @@
 
 from dataclasses import replace
 
+import msgspec
 import pytest
 
 from protocol import messages, queries
 from protocol.messages import Attempt, EpisodeResult, Mode, Outcome, Verdict
 from services.arrays import motion_to_wire, to_wire
 from services.bus import Failed
-from services.station.state import Action, Phase, Settings, View, Workflow
+from services.station.state import Action, Phase, Place, Settings, View, Workflow
 from services.station.workflow import EPISODE_GRACE_S, advance, loop_has_closed
 
 POSE = messages.Pose((0.5, 0.0, 0.5), (1.0, 0.0, 0.0, 0.0))
@@ -51,14 +52,14 @@ class Site:
             ),
             model=messages.ModelState(kind="adaptive", version=2, demonstrations=2, updates=0, scene="dishwasher"),
             seen=messages.ObjectPose(pose=messages.Pose((0.85, 0.05, 0.5), (1.0, 0.0, 0.0, 0.0)), tag=1, pictures=9),
-            drawn=(0.85, 0.05, 0.5),
+            drawn=Place((0.85, 0.05, 0.5)),
         )
 
     def step(self, **seen):
         """Advance by a second; a question is answered in the next step."""
         self.now_s += 1.0
         before = self.state.phase
-        now = {"now_s": self.now_s, "seen_s": self.now_s}
+        now = {"now_s": self.now_s, "seen_s": self.now_s, "scene_s": self.now_s}
         step = advance(self.state, replace(self.view, **(now | seen)), self.settings)
         self.state = step.state
         self.view = replace(self.view, outcome=None, result=None)
@@ -274,6 +275,51 @@ def test_where_the_object_was_before_the_reset_does_not_count():
     site.run_to(Phase.PREDICTING)
 
 
+CONDITION = (0.05, -0.1)
+
+
+class ConditionSite(Site):
+    """As `Site`, in a scene that has a condition of its own and no object to look at."""
+
+    def __init__(self, settings, verdicts=()):
+        super().__init__(settings, verdicts)
+        scene = msgspec.structs.replace(
+            self.view.scene, name="particle", variant="obstacle", variants=("free", "obstacle"), condition=CONDITION
+        )
+        self.view = replace(self.view, scene=scene, seen=None, drawn=Place(condition=CONDITION))
+
+    def requests(self, query):
+        return [ask.request for ask in self.asked if ask.query is query]
+
+
+def test_a_condition_of_the_scenes_own_is_set_predicted_from_and_learnt():
+    site = ConditionSite(SCRIPTED, [MISSED, REACHED, REACHED])
+    site.run_to(Phase.FINISHED)
+    assert site.state.loop_closed
+    resets = {(r.variant, r.object_position, r.condition) for r in site.requests(queries.RESET)}
+    assert resets == {("obstacle", None, CONDITION)}
+    for query in (queries.PREDICT, queries.ADD_DEMONSTRATION):
+        assert {(r.object_position, r.condition) for r in site.requests(query)} == {((0.0, 0.0, 0.0), CONDITION)}
+    assert {a.condition for a in site.state.attempts} == {CONDITION}
+
+
+def test_what_the_robot_said_of_its_condition_before_the_reset_does_not_count():
+    site = ConditionSite(SCRIPTED)
+    site.run_to(Phase.LOOKING)
+    before = site.now_s
+    for _ in range(5):
+        site.step(scene_s=before)
+    assert site.state.phase is Phase.LOOKING
+    site.step()
+    assert site.state.phase is Phase.PREDICTING
+
+
+def test_the_run_is_about_the_variant_that_is_configured():
+    site = ConditionSite(replace(SCRIPTED, variant="free"), [MISSED, REACHED, REACHED])
+    site.run_to(Phase.FINISHED)
+    assert {r.variant for r in site.requests(queries.RESET)} == {"free"}
+
+
 def lose_authority(site):
     site.epoch += 50
     site.view = replace(site.view, authority=messages.AuthorityState(holder="", epoch=site.epoch, expires_in=0.0))
@@ -357,8 +403,8 @@ def test_after_a_stop_nothing_moves_until_the_operator_says_so():
     assert site.names()[asked:] == ["safety/release_stop", "authority/acquire"]
 
 
-def attempt(mode, outcome, version, x=0.85):
-    return Attempt("s", (x, 0.0, 0.5), version, mode is Mode.REFINE, outcome, 1.0, "b2", mode)
+def attempt(mode, outcome, version, *, x=0.85, variant="b2", condition=()):
+    return Attempt("s", (x, 0.0, 0.5), version, mode is Mode.REFINE, outcome, 1.0, variant, mode, condition)
 
 
 CLOSED = (
@@ -372,18 +418,35 @@ def test_the_loop_has_closed_when_all_three_happened_in_order():
     assert loop_has_closed(CLOSED)
 
 
+@pytest.mark.parametrize("failure", [MISSED, COLLIDED, Outcome(reached=True, kicked_over=True, collision=False)])
+def test_whatever_the_first_prediction_failed_by_counts(failure):
+    assert loop_has_closed((attempt(Mode.AUTONOMOUS, failure, 2), *CLOSED[1:]))
+
+
 @pytest.mark.parametrize(
     "attempts",
     [
         CLOSED[1:],
         CLOSED[:2],
         (CLOSED[0], CLOSED[2], CLOSED[1]),
-        (attempt(Mode.AUTONOMOUS, MISSED, 2), *CLOSED[1:]),
+        (attempt(Mode.AUTONOMOUS, REACHED, 2), *CLOSED[1:]),
         (*CLOSED[:2], attempt(Mode.AUTONOMOUS, REACHED, 2)),
         (*CLOSED[:2], attempt(Mode.AUTONOMOUS, REACHED, 3, x=0.9)),
+        (*CLOSED[:2], attempt(Mode.AUTONOMOUS, REACHED, 3, condition=(0.1, 0.0))),
+        (*CLOSED[:2], attempt(Mode.AUTONOMOUS, REACHED, 3, variant="b1")),
         (*CLOSED[:2], attempt(Mode.REFINE, REACHED, 3)),
     ],
-    ids=["no failure", "no success", "wrong order", "no collision", "no update", "elsewhere", "with a hand"],
+    ids=[
+        "no attempt before",
+        "no success",
+        "wrong order",
+        "no failure",
+        "no update",
+        "elsewhere",
+        "another condition",
+        "another variant",
+        "with a hand",
+    ],
 )
 def test_the_loop_has_not_closed_when_a_part_is_missing(attempts):
     assert not loop_has_closed(attempts)

@@ -5,12 +5,12 @@ from scipy.spatial.transform import Rotation
 
 from sim.cameras import CAMERAS, Cameras
 from sim.description import RobotDescription
-from sim.scenes import SCENES, scene
-from sim.scenes.scene import TAG_BITS, TAG_DICTIONARY, TAG_ID, TAG_IN_OBJECT, TAG_SIZE, Scene
+from sim.scenes import REACHING, scene
+from sim.scenes.scene import TAG_BITS, TAG_DICTIONARY, TAG_ID, TAG_IN_OBJECT, TAG_SIZE, ReachingScene
 from sim.world import World
 
 pytestmark = pytest.mark.sim
-SCENE = pytest.mark.parametrize("place", SCENES.values(), ids=SCENES)
+SCENE = pytest.mark.parametrize("place", REACHING.values(), ids=REACHING)
 HALF = TAG_SIZE / 2
 TAG_CORNERS = np.array([[-HALF, HALF, 0.0], [HALF, HALF, 0.0], [HALF, -HALF, 0.0], [-HALF, -HALF, 0.0]])
 
@@ -34,7 +34,7 @@ def test_the_tag_is_the_one_of_the_dictionary() -> None:
 
 @SCENE
 def test_the_head_sees_the_tag_from_the_start_wherever_the_object_stands(
-    place: Scene, description: RobotDescription
+    place: ReachingScene, description: RobotDescription
 ) -> None:
     """Each corner is found within two pixels of where the object's pose puts it."""
     world = World(place, place.variants[0], description)

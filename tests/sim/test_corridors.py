@@ -9,12 +9,12 @@ from services.robot.kinematics import Kinematics
 from services.robot.starts import Starts
 from sim.description import RobotDescription
 from sim.pose import Pose
-from sim.scenes import SCENES
-from sim.scenes.scene import Corridor, Scene
+from sim.scenes import REACHING
+from sim.scenes.scene import Corridor, ReachingScene
 from sim.world import CONTROL_PERIOD, World
 
 pytestmark = pytest.mark.sim
-SCENE = pytest.mark.parametrize("place", SCENES.values(), ids=SCENES)
+SCENE = pytest.mark.parametrize("place", REACHING.values(), ids=REACHING)
 
 DURATION = 10.0  # [s]
 MARGIN = 0.03  # [m]
@@ -54,14 +54,14 @@ def _along(corridor: Corridor) -> tuple[np.ndarray, np.ndarray]:
     return positions, rotations.as_quat(scalar_first=True)
 
 
-def _objects(place: Scene) -> list[np.ndarray]:
+def _objects(place: ReachingScene) -> list[np.ndarray]:
     """Two opposite corners of the region and a position inside it."""
     return [np.array(place.region.lower), np.array(place.region.upper), place.region.sample(np.random.default_rng(3))]
 
 
-@pytest.fixture(scope="module", params=SCENES.values(), ids=SCENES)
+@pytest.fixture(scope="module", params=REACHING.values(), ids=REACHING)
 def stage(request: pytest.FixtureRequest, description: RobotDescription) -> tuple[World, Kinematics]:
-    place: Scene = request.param
+    place: ReachingScene = request.param
     return World(place, place.variants[0], description), Kinematics(description.urdf, place.posture)
 
 

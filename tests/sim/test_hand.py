@@ -6,7 +6,7 @@ from sim.correction import plan
 from sim.hand import ARM, DAMPING, REACTION, STIFFNESS, WRIST, Hand, Seen
 from sim.pose import Pose
 from sim.rotations import rotated, rotation_to
-from sim.scenes import DISHWASHER, SCENES
+from sim.scenes import DISHWASHER, REACHING
 from sim.stylus import Stylus, StylusState
 
 FEEDBACK = 50.0  # [N/m] of equation (14)
@@ -16,7 +16,7 @@ OBJECT = {"dishwasher": np.array([0.87, 0.07, 0.553]), "table": np.array([0.70, 
 
 
 def ways(name):
-    scene = SCENES[name]
+    scene = REACHING[name]
     return [scene.corridor(variant, OBJECT[name]) for variant in scene.variants]
 
 
@@ -118,7 +118,7 @@ def test_the_hand_is_an_impedance_and_nothing_when_off():
     assert hand.rotation is None
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", REACHING)
 def test_the_way_that_is_safe_is_left_alone(name):
     _, safe = ways(name)
     correction = plan(*predicted(safe), safe, ways(name))
@@ -126,7 +126,7 @@ def test_the_way_that_is_safe_is_left_alone(name):
     assert np.max(np.abs(correction.rotations)) < 1e-3
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", REACHING)
 def test_a_recognised_way_is_moved_way_point_by_way_point(name):
     learnt, safe = ways(name)
     positions, orientations = predicted(learnt)
@@ -159,7 +159,7 @@ def test_exaggeration_multiplies_the_correction():
 
 
 @pytest.mark.sim
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", REACHING)
 def test_the_robot_ends_up_on_the_safe_way_and_at_the_object(name):
     """A prediction that goes wrong by more than 0.1 m, and ends 0.03 m beside the object and rolled, is put right."""
     learnt, safe = ways(name)

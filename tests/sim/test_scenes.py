@@ -1,15 +1,16 @@
 import numpy as np
 import pytest
 
-from sim.exceptions import UnknownScene, UnknownVariant
+from sim.exceptions import UnknownScene, UnknownVariant, WrongPlace
 from sim.pose import Pose
-from sim.scenes import SCENES, scene
-from sim.scenes.scene import OBJECT_SIZE, Scene, pitched_down
+from sim.scenes import REACHING, SCENES, scene
+from sim.scenes.scene import OBJECT_SIZE, ReachingScene, Scene, pitched_down
 
 SCENE = pytest.mark.parametrize("place", SCENES.values(), ids=SCENES)
+REACHING_SCENE = pytest.mark.parametrize("place", REACHING.values(), ids=REACHING)
 
 
-def corners(place: Scene) -> list[np.ndarray]:
+def corners(place: ReachingScene) -> list[np.ndarray]:
     lower, upper = place.region.lower, place.region.upper
     return [np.array([x, y, lower[2]]) for x in (lower[0], upper[0]) for y in (lower[1], upper[1])]
 
@@ -33,8 +34,8 @@ def test_boxes_have_unique_names_and_unit_quaternions(place: Scene) -> None:
         np.testing.assert_allclose([np.linalg.norm(box.quaternion) for box in boxes], 1.0, atol=1e-12)
 
 
-@SCENE
-def test_every_corridor_leads_from_the_start_into_the_object(place: Scene) -> None:
+@REACHING_SCENE
+def test_every_corridor_leads_from_the_start_into_the_object(place: ReachingScene) -> None:
     for variant in place.variants:
         for position in corners(place):
             corridor = place.corridor(variant, position)
@@ -43,8 +44,8 @@ def test_every_corridor_leads_from_the_start_into_the_object(place: Scene) -> No
             assert np.all(np.abs(corridor.positions[-1] - position) <= np.array(OBJECT_SIZE) / 2)
 
 
-@SCENE
-def test_a_corridor_from_another_start_joins_the_scenes_own(place: Scene) -> None:
+@REACHING_SCENE
+def test_a_corridor_from_another_start_joins_the_scenes_own(place: ReachingScene) -> None:
     start = Pose(place.start.position + np.array([-0.05, 0.08, 0.03]), -pitched_down(0.5))
     for variant in place.variants:
         own, other = (place.corridor(variant, place.training_positions[0], s) for s in (place.start, start))
@@ -58,8 +59,8 @@ def test_a_corridor_from_another_start_joins_the_scenes_own(place: Scene) -> Non
         np.testing.assert_array_equal(other.orientations[0], -start.orientation)
 
 
-@SCENE
-def test_the_correction_between_the_variants_is_within_an_operators_reach(place: Scene) -> None:
+@REACHING_SCENE
+def test_the_correction_between_the_variants_is_within_an_operators_reach(place: ReachingScene) -> None:
     """A refinement that displaces the trained motion by at most 0.20 m gives the changed one."""
     trained, changed = place.variants
     for position in corners(place):
@@ -70,7 +71,13 @@ def test_the_correction_between_the_variants_is_within_an_operators_reach(place:
 
 
 def test_unknown_names_are_refused_with_those_that_are_known() -> None:
-    with pytest.raises(UnknownScene, match="dishwasher, table"):
+    with pytest.raises(UnknownScene, match="dishwasher, table, particle"):
         scene("kitchen")
     with pytest.raises(UnknownVariant, match="b1, b2"):
         scene("dishwasher").boxes("b3")
+
+
+@SCENE
+def test_a_place_of_another_dimension_is_refused(place: Scene) -> None:
+    with pytest.raises(WrongPlace, match="not 5"):
+        place.corridor(place.variants[0], np.zeros(5))

@@ -7,17 +7,17 @@ from scipy.spatial.transform import Rotation
 from sim.contacts import Contact
 from sim.description import CONTROLLED_JOINTS, RobotDescription
 from sim.exceptions import UnknownVariant
-from sim.scenes import SCENES, scene
-from sim.scenes.scene import Scene
+from sim.scenes import REACHING, scene
+from sim.scenes.scene import ReachingScene
 from sim.world import CONTROL_PERIOD, World
 
 pytestmark = pytest.mark.sim
-SCENE = pytest.mark.parametrize("place", SCENES.values(), ids=SCENES)
+SCENE = pytest.mark.parametrize("place", REACHING.values(), ids=REACHING)
 REST = np.zeros(len(CONTROLLED_JOINTS))
 
 
 @SCENE
-def test_nothing_moves_in_twenty_seconds_of_rest(place: Scene, description: RobotDescription) -> None:
+def test_nothing_moves_in_twenty_seconds_of_rest(place: ReachingScene, description: RobotDescription) -> None:
     world = World(place, place.variants[0], description)
     for _ in range(100):  # the object settles by a tenth of a millimetre
         world.step(place.posture, REST)
@@ -32,7 +32,7 @@ def test_nothing_moves_in_twenty_seconds_of_rest(place: Scene, description: Robo
 
 
 @SCENE
-def test_the_start_is_clear_in_both_variants(place: Scene, description: RobotDescription) -> None:
+def test_the_start_is_clear_in_both_variants(place: ReachingScene, description: RobotDescription) -> None:
     world = World(place, place.variants[0], description)
     for variant in place.variants:
         world.reset(place.training_positions[0], variant)

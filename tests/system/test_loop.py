@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from services.viewer.web_files import sdk_program
+from sim.scenes import SCENES
 from tests.system.harness import EVERYBODY, Command, configured, free_endpoint
 
 pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.sim]
@@ -20,7 +21,7 @@ def succeeded(attempt):
     return verdict["reached"] and not verdict["kicked_over"] and not verdict["collision"]
 
 
-@pytest.mark.parametrize("scene", ["dishwasher", "table"])
+@pytest.mark.parametrize("scene", SCENES)
 def test_a_prediction_fails_is_refined_and_the_next_one_succeeds_by_itself(tmp_path, scene):
     configuration = configured(tmp_path, free_endpoint())
     arguments = ("--fresh", "--headless", "--once", "--scene", scene, "--json", "out.json", "--config", configuration)
@@ -47,6 +48,7 @@ def test_a_prediction_fails_is_refined_and_the_next_one_succeeds_by_itself(tmp_p
         assert attempt["scene"] == scene
         assert attempt["duration_s"] > 0.0
         assert attempt["object_position"] == pytest.approx(first["object_position"], abs=SAME_PLACE_M)
+        assert attempt["condition"] == first["condition"]
 
     recording = Path(report["recording"])
     assert recording.suffix == ".rrd"

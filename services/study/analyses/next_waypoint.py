@@ -28,7 +28,7 @@ from sim.correction import Correction, plan
 from sim.description import prepare
 from sim.hand import REACTION
 from sim.scenes.dishwasher import DISHWASHER
-from sim.scenes.scene import Scene
+from sim.scenes.scene import ReachingScene
 from sim.scenes.table import TABLE
 
 Array = NDArray[np.float64]
@@ -92,7 +92,7 @@ class _Task:
     object_position: Array
 
     @classmethod
-    def build(cls, scene: Scene, variant: str, object_position: Array) -> Self:
+    def build(cls, scene: ReachingScene, variant: str, object_position: Array) -> Self:
         """The motion that the scene's first variant teaches, in any variant."""
         motion = demonstrate(scene, object_position, None).trajectory
         prediction = replace(resample(motion, PREDICTION_POINTS), duration=_DURATION)

@@ -1,0 +1,87 @@
+"""The seam between control and a robot's geometry: what the arm asks of its kinematics."""
+
+from collections.abc import Sequence
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from services.exceptions import ServiceError
+from services.robot.correction import Correction
+from sim.pose import Pose
+
+Array = NDArray[np.float64]
+
+
+class InverseFailed(ServiceError):
+    """The solver found no step from this configuration."""
+
+    def __init__(self, reason: str) -> None:
+        self.reason = reason
+        super().__init__(f"inverse kinematics found no step ({reason}): move the robot away from its joint limits")
+
+
+class Unreachable(ServiceError):
+    """No joint configuration was found that puts the grasping frame there."""
+
+    def __init__(self, position: Array) -> None:
+        self.position = position
+        place = ", ".join(f"{value:.3f}" for value in position)
+        super().__init__(f"the robot cannot reach ({place}) m in that orientation: choose a pose closer to the robot")
+
+
+class Mechanism(Protocol):
+    """Forward and inverse kinematics of the grasping frame.
+
+    Attributes:
+        lower: least joint positions, shape (m,).
+        upper: greatest joint positions, shape (m,).
+        velocity_limit: greatest joint speeds, shape (m,).
+    """
+
+    lower: Array
+    upper: Array
+    velocity_limit: Array
+
+    def forward(self, q: Array) -> Pose:
+        """The pose of the grasping frame in the base frame at joint positions q, shape (m,)."""
+        ...
+
+    def admitted(self, wanted: Correction) -> Correction:
+        """What the robot can follow of an operator's correction."""
+        ...
+
+    def solve_step(self, q: Array, position: Array, orientation: Array, dt: float) -> tuple[Array, Array]:
+        """Move one tick towards a pose.
+
+        Args:
+            q: joint positions, shape (m,).
+            position: of the grasping frame, shape (3,) [m].
+            orientation: of the grasping frame, scalar first, shape (4,).
+            dt: duration of the tick [s]; speeds stay within the joints' limits over it.
+
+        Returns:
+            Next joint positions and the velocities that lead there, each of shape (m,).
+
+        Raises:
+            InverseFailed: there is no step.
+        """
+        ...
+
+    def solve(self, position: Array, orientation: Array, seeds: Sequence[Array], rng: np.random.Generator) -> Array:
+        """Joint positions for a pose, shape (m,).
+
+        Args:
+            position: of the grasping frame, shape (3,) [m].
+            orientation: of the grasping frame, scalar first, shape (4,).
+            seeds: configurations to start a search from, each of shape (m,).
+            rng: of further starts.
+
+        Raises:
+            Unreachable: there are none.
+        """
+        ...
+
+    def self_distance(self, q: Array) -> float:
+        """The smallest distance between two parts of the robot at joint positions q, shape (m,) [m]."""
+        ...
