@@ -28,7 +28,7 @@ from services.study.store import write_whole
 from services.study.success_map import Place, SuccessMap
 from sim.scenes import REACHING, AnyScene
 from sim.scenes import scene as find_scene
-from sim.scenes.scene import ReachingScene, Scene
+from sim.scenes.scene import ReachingScene
 
 _POSITION = 3  # dimension of the condition that a map is made of
 _SCENE = "dishwasher"
@@ -127,6 +127,14 @@ def _with_an_object(scene: AnyScene) -> ReachingScene:
     return scene
 
 
+def _scene(name: str) -> ReachingScene:
+    """The scene of that name, in which there must be an object to reach."""
+    find_scene(name)
+    if name not in REACHING:
+        raise NothingToMap(f"no object is reached for in {name!r}: choose {' or '.join(REACHING)} with --scene")
+    return REACHING[name]
+
+
 def _stored(request: Request) -> list[StoredDemonstration]:
     """What the database holds; nothing where none was given."""
     if request.database is None:
@@ -166,7 +174,7 @@ def _stages(request: Request, stored: list[StoredDemonstration]) -> tuple[tuple[
     return tuple(taken), tuple(model for model in models if model is not None)
 
 
-def _places(request: Request, scene: Scene) -> tuple[Place, ...]:
+def _places(request: Request, scene: ReachingScene) -> tuple[Place, ...]:
     if request.samples is None:
         return success_map.grid(scene, request.grid, request.spread)
     return success_map.sample(scene, request.samples, request.spread, np.random.default_rng(request.seed))

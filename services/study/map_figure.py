@@ -15,12 +15,11 @@ from services.study.analysis import Figure
 from services.study.models import Kind
 from services.study.style import ADAPTIVE, CONDITIONED, OBSTACLE, REFINEMENT, TRUTH, drawn, panels
 from services.study.success_map import Condition, Outcome, SuccessMap, stage_name
-from sim.scenes.scene import OBJECT_SIZE, Box, Group, Scene
+from sim.scenes.scene import OBJECT_SIZE, Box, Group, ReachingScene
 
 Array = NDArray[np.float64]
 
 _HEIGHT = 3.1  # [inch] of a row
-_ROOM = 0.06  # [m] around what is shown
 _EDGE = "#7c8794"
 _BELOW, _ABOVE = OBJECT_SIZE[2], 0.25  # [m] an object's centre: the slice that is seen from above
 
@@ -51,6 +50,7 @@ class _View:
         up: axis upwards.
         mirrored: the axis across points left, as y does for the robot.
         from_start: positions are relative to the scene's start.
+        room: around what is marked [m].
         point: what is marked of a condition, shape (3,) [m].
         labels: of the axes.
     """
@@ -59,6 +59,7 @@ class _View:
     up: int
     mirrored: bool
     from_start: bool
+    room: float
     point: Callable[[Condition], Array]
     labels: tuple[str, str]
 
@@ -68,6 +69,7 @@ _FROM_ABOVE = _View(
     up=0,
     mirrored=True,
     from_start=False,
+    room=0.06,
     point=lambda one: np.array(one.place.object_position),
     labels=("y [m]", "x [m]"),
 )
@@ -76,12 +78,13 @@ _FROM_THE_SIDE = _View(
     up=2,
     mirrored=False,
     from_start=True,
+    room=0.02,
     point=lambda one: np.array(one.place.offset),
     labels=("x from the scene's start [m]", "z from the scene's start [m]"),
 )
 
 
-def figure(scene: Scene, found: SuccessMap, kind: Kind) -> Figure:
+def figure(scene: ReachingScene, found: SuccessMap, kind: Kind) -> Figure:
     """A column for each stage: above it where the object stood, below it where the motion started.
 
     Args:
@@ -138,8 +141,10 @@ def _outline(axes: Axes, view: _View, boxes: list[Box], origin: Array) -> None:
         corner = (low[view.across], low[view.up])
         axes.add_patch(Rectangle(corner, width, height, facecolor=(*box.rgba[:3], 0.16), edgecolor=_EDGE, lw=0.8))
     (x0, x1), (y0, y1) = shown
-    room = _ROOM if x1 > x0 else -_ROOM
-    axes.set(xlim=(x0 - room, x1 + room), ylim=(y0 - _ROOM, y1 + _ROOM))
+    room = view.room if x1 > x0 else -view.room
+    # Automatic, so that what is equal in both directions may widen them.
+    axes.set_xlim(x0 - room, x1 + room, auto=True)
+    axes.set_ylim(y0 - view.room, y1 + view.room, auto=True)
 
 
 def _extent(box: Box) -> tuple[Array, Array]:

@@ -25,8 +25,8 @@ from services.robot.starts import StartImpossible
 from services.robot.verdict import Verdict
 from services.study.success_map import UNREACHABLE, Condition, Outcome, Place, Trial
 from sim.description import prepare
-from sim.scenes import scene as find_scene
-from sim.scenes.scene import Scene
+from sim.scenes import REACHING
+from sim.scenes.scene import ReachingScene
 
 REFINEMENTS_ALLOWED = 10
 
@@ -36,7 +36,7 @@ class Tried:
     """What is to be tried.
 
     Attributes:
-        scene: by name.
+        scene: by name, of those in which an arm reaches for an object.
         variant: of the scene.
         models: the stages of a model.
         places: where each of them is tried.
@@ -72,7 +72,7 @@ def conditions(task: Tried, jobs: int, progress: Progress = lambda _: None) -> l
 
 
 def corrected_once(
-    scene: Scene, variant: str, kind: str, demonstrations: Sequence[Demonstration], seed: int
+    scene: ReachingScene, variant: str, kind: str, demonstrations: Sequence[Demonstration], seed: int
 ) -> list[StoredDemonstration]:
     """Let the scripted operator correct a model once: where the first of the scene's training positions fails.
 
@@ -107,7 +107,7 @@ def corrected_once(
 
 
 def _carry_out(task: Tried, progress: Progress) -> list[tuple[Trial, ...]]:
-    scene, found = find_scene(task.scene), []
+    scene, found = REACHING[task.scene], list[tuple[Trial, ...]]()
     with threadpool_limits(1):
         arm = simulated_arm(scene, task.variant, prepare())
         for place in task.places:
@@ -116,7 +116,7 @@ def _carry_out(task: Tried, progress: Progress) -> list[tuple[Trial, ...]]:
     return found
 
 
-def _tried(arm: Arm, scene: Scene, task: Tried, place: Place) -> tuple[Trial, ...]:
+def _tried(arm: Arm, scene: ReachingScene, task: Tried, place: Place) -> tuple[Trial, ...]:
     start, position = place.start(scene), np.array(place.object_position)
     situation = Situation.reaching(position, start.position, start.orientation)
 

@@ -13,7 +13,7 @@ from scipy.stats import qmc
 from protocol.messages import Vector3
 from services.arrays import vector3
 from sim.pose import Pose
-from sim.scenes.scene import Scene
+from sim.scenes.scene import ReachingScene
 
 Array = NDArray[np.float64]
 
@@ -39,7 +39,7 @@ class Place(msgspec.Struct, frozen=True):
     object_position: Vector3
     offset: Vector3 = (0.0, 0.0, 0.0)
 
-    def start(self, scene: Scene) -> Pose:
+    def start(self, scene: ReachingScene) -> Pose:
         """Of the motion; the orientation is the scene's."""
         return Pose(scene.start.position + np.array(self.offset), scene.start.orientation)
 
@@ -115,7 +115,7 @@ def stage_name(corrections: int, *, before: bool = False) -> str:
     return f"after {corrections} correction{'' if corrections == 1 else 's'}"
 
 
-def grid(scene: Scene, n: int, spread: float) -> tuple[Place, ...]:
+def grid(scene: ReachingScene, n: int, spread: float) -> tuple[Place, ...]:
     """About n * n object positions evenly all over a scene's region, each with a start of its own.
 
     The cells are as square as the region allows. The starts fill their cube evenly (a Halton sequence), so that each
@@ -136,7 +136,7 @@ def grid(scene: Scene, n: int, spread: float) -> tuple[Place, ...]:
     return _places(lower + shares * (upper - lower), spread * (2.0 * starts - 1.0))
 
 
-def sample(scene: Scene, n: int, spread: float, rng: np.random.Generator) -> tuple[Place, ...]:
+def sample(scene: ReachingScene, n: int, spread: float, rng: np.random.Generator) -> tuple[Place, ...]:
     """Random object positions and starts, both even.
 
     Args:
