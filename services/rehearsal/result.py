@@ -91,7 +91,7 @@ class Attempt:
         verdict, said = self.verdict, []
         if verdict.collision:
             link, thing = verdict.collision_between or ("robot", "something")
-            said.append(f"{link} hit {thing} with {verdict.collision_force:.0f} N")
+            said.append(f"{_words(link)} hit {_words(thing)} with {verdict.collision_force:.0f} N")
         if verdict.kicked_over:
             said.append(f"kicked over by {1e3 * float(np.max(np.abs(verdict.object_displacement))):.0f} mm")
         if not verdict.reached:
@@ -127,6 +127,11 @@ class Course:
     def needed_refinement(self) -> bool:
         """The first prediction failed."""
         return bool(self.attempts) and not self.attempts[0].success
+
+
+def _words(name: str) -> str:
+    """A part's name as a person would say it."""
+    return name.removesuffix("_link").replace("_", " ")
 
 
 def _trajectory(motion: Motion) -> Trajectory:
