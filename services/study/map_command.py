@@ -127,14 +127,6 @@ def _with_an_object(scene: AnyScene) -> ReachingScene:
     return scene
 
 
-def _scene(name: str) -> ReachingScene:
-    """The scene of that name, in which there must be an object to reach."""
-    find_scene(name)
-    if name not in REACHING:
-        raise NothingToMap(f"no object is reached for in {name!r}: choose {' or '.join(REACHING)} with --scene")
-    return REACHING[name]
-
-
 def _stored(request: Request) -> list[StoredDemonstration]:
     """What the database holds; nothing where none was given."""
     if request.database is None:
