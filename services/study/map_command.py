@@ -103,7 +103,7 @@ def draw_map(request: Request) -> SuccessMap:
     _write(request.out, figure(scene, found, BY_NAME[request.kind]).image, "--out")
     if request.json:
         _write(request.json, msgspec.json.format(msgspec.json.encode(found)), "--json")
-    console.print(found.summary())
+    console.print(found.summary(), soft_wrap=True)
     Console(highlight=False, soft_wrap=True).print(str(request.out.resolve()), markup=False)
     return found
 
