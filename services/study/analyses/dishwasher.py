@@ -16,7 +16,8 @@ _CONDITIONS = 4
 _PART = ((0.38, -0.16, 0.40), (0.98, 0.30, 0.82))  # [m] of space that is drawn
 
 
-def _question() -> Question:
+def question() -> Question:
+    """Of the analysis."""
     (x0, y0, z), (x1, y1, _) = DISHWASHER.region.lower, DISHWASHER.region.upper
     places = [((x0 + x1) / 2, float(y), z) for y in np.linspace(y0, y1, _CONDITIONS)]
     trained, changed = DISHWASHER.variants
@@ -26,10 +27,10 @@ def _question() -> Question:
 
 
 def _dishwasher(context: Context) -> Finding:
-    question = _question()
-    answer = teaching.answered(question, context)
-    titles = [f"{i}: object at y = {one.place[1]:.2f} m" for i, one in enumerate(question.refined, 1)]
-    y0, y1 = (question.refined[i].place[1] for i in (0, -1))
+    asked = question()
+    answer = teaching.answered(asked, context)
+    titles = [f"{i}: object at y = {one.place[1]:.2f} m" for i, one in enumerate(asked.refined, 1)]
+    y0, y1 = (asked.refined[i].place[1] for i in (0, -1))
     return Finding(
         teaching.holds(answer, _NEEDED),
         teaching.sentence(answer, _NEEDED),

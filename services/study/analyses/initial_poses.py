@@ -17,7 +17,7 @@ _SPREAD = 0.10  # [m] of a start from the scene's own, along an axis
 _PART = ((0.38, -0.16, 0.30), (0.98, 0.30, 0.82))  # [m] of space that is drawn
 
 
-def _question() -> Question:
+def question() -> Question:
     """The starts are the corners of an icosahedron: as even as twelve directions can be, each with its opposite."""
     golden = (1.0 + math.sqrt(5.0)) / 2.0
     rectangles = [np.roll([0.0, 1.0, golden], shift) for shift in range(3)]
@@ -35,11 +35,11 @@ def _question() -> Question:
 
 
 def _initial_poses(context: Context) -> Finding:
-    question = _question()
-    answer = teaching.answered(question, context)
+    asked = question()
+    answer = teaching.answered(asked, context)
     titles = [
         f"{i}: start at ({', '.join(f'{value:.2f}' for value in one.start.position)}) m"
-        for i, one in enumerate(question.refined, 1)
+        for i, one in enumerate(asked.refined, 1)
         if one.start is not None
     ]
     return Finding(

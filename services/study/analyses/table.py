@@ -19,7 +19,8 @@ _REFINED = ((2, 1), (1, 2), (1, 1), (1, 0), (0, 2), (0, 0))
 _PART = ((0.52, -0.40, 0.62), (0.98, 0.32, 0.92))  # [m] of space that is drawn
 
 
-def _question() -> Question:
+def question() -> Question:
+    """Of the analysis."""
     (x0, y0, z), (x1, y1, _) = TABLE.region.lower, TABLE.region.upper
     xs, ys = np.linspace(x0, x1, 3).tolist(), np.linspace(y0, y1, 3).tolist()
     clear = TABLE.variants[0]
@@ -29,9 +30,9 @@ def _question() -> Question:
 
 
 def _table(context: Context) -> Finding:
-    question = _question()
-    answer = teaching.answered(question, context)
-    titles = [f"{i}: object at ({one.place[0]:.2f}, {one.place[1]:.2f}) m" for i, one in enumerate(question.refined, 1)]
+    asked = question()
+    answer = teaching.answered(asked, context)
+    titles = [f"{i}: object at ({one.place[0]:.2f}, {one.place[1]:.2f}) m" for i, one in enumerate(asked.refined, 1)]
     width, depth = (upper - lower for lower, upper in zip(TABLE.region.lower[:2], TABLE.region.upper[:2], strict=True))
     return Finding(
         teaching.holds(answer, _NEEDED),
