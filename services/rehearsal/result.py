@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lfd.trajectory import Trajectory
 from protocol.messages import Condition, EpisodeResult, Mode, Motion, Pose, Vector3, Verdict
@@ -19,15 +19,20 @@ class Arrangement:
 
     Attributes:
         variant: of the scene.
-        object_position: of the object's centre, base frame [m].
+        object_position: of the object's centre, base frame [m]; None where a scene has no object.
         start: of the grasping frame; the scene's own, or as it was put last, where there is none.
         condition: the external state of a scene that has another than the object's position.
     """
 
     variant: str
-    object_position: Vector3
+    object_position: Vector3 | None = None
     start: Pose | None = None
     condition: Condition | None = None
+
+    @property
+    def place(self) -> NDArray[np.float64]:
+        """Of the target: the object's position, or the condition, shape (d,) [m]."""
+        return np.array(self.condition if self.object_position is None else self.object_position, dtype=np.float64)
 
     def reset(self) -> Reset:
         """The request that arranges it; the epoch is for the asker to fill in."""
@@ -47,8 +52,7 @@ class Attempt:
         refined: the reference, the operator's correction included.
         commanded: what the joints were told, of which the model learns.
         measured: what the arm did.
-        miss: from the object's centre to the ellipsoid that it is reached in, along the line to the grasping frame;
-            0 inside [m].
+        miss: how much nearer it should have come to reach the target; 0 where it did [m].
     """
 
     mode: Mode
@@ -62,11 +66,8 @@ class Attempt:
     miss: float
 
     @classmethod
-    def of(cls, result: EpisodeResult, model_version: int, arrangement: Arrangement) -> Attempt:
+    def of(cls, result: EpisodeResult, model_version: int, miss: float) -> Attempt:
         """From the robot's message, and what it does not know."""
-        measured = _trajectory(result.measured)
-        lies = np.add(arrangement.object_position, result.verdict.object_displacement)
-        distance = float(np.linalg.norm(lies - measured.positions[-1]))
         return cls(
             mode=result.mode,
             model_version=model_version,
@@ -75,8 +76,8 @@ class Attempt:
             prediction=_trajectory(result.prediction),
             refined=_trajectory(result.refined),
             commanded=_trajectory(result.commanded),
-            measured=measured,
-            miss=distance * (1.0 - 1.0 / math.sqrt(max(1.0, result.verdict.ellipsoid_value))),
+            measured=_trajectory(result.measured),
+            miss=miss,
         )
 
     @property
@@ -91,7 +92,8 @@ class Attempt:
         verdict, said = self.verdict, []
         if verdict.collision:
             link, thing = verdict.collision_between or ("robot", "something")
-            said.append(f"{_words(link)} hit {_words(thing)} with {verdict.collision_force:.0f} N")
+            force = f" with {verdict.collision_force:.0f} N" if verdict.collision_force else ""
+            said.append(f"{_words(link)} hit {_words(thing)}{force}")
         if verdict.kicked_over:
             said.append(f"kicked over by {1e3 * float(np.max(np.abs(verdict.object_displacement))):.0f} mm")
         if not verdict.reached:

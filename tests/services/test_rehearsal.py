@@ -15,6 +15,7 @@ from services.rehearsal.eyes import DEVIATION, MEDIAN_ERROR, Eyes
 from services.rehearsal.rehearsal import Plan, rehearse
 from services.rehearsal.result import Arrangement, Attempt, Course
 from sim.scenes import DISHWASHER
+from sim.scenes.particle import PARTICLE
 
 UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 PLACE = (0.86, 0.07, DISHWASHER.region.lower[2])
@@ -117,3 +118,15 @@ def test_one_condition_is_refined_learnt_and_then_succeeds_again():
     correction = taught.attempts[1].refined.positions - taught.attempts[1].prediction.positions
     assert 0.05 < np.max(np.linalg.norm(correction, axis=1)) < 0.3
     assert shares == [0.5, 1.0]
+
+
+@pytest.mark.sim
+def test_a_condition_of_the_scenes_own_is_taught_in_the_same_way():
+    """Via-points ten units away from those that the first demonstration passes."""
+    arrangement = Arrangement("free", condition=(0.1, 0.1))
+    rehearsed = rehearse(Plan("particle", "adaptive", tuple(first_demonstrations(PARTICLE)), (arrangement,)))
+    (taught,) = rehearsed.first
+    assert taught.attempts[0].miss == pytest.approx(0.09, abs=0.004)
+    assert taught.updates == 1
+    assert taught.success
+    assert taught.attempts[-1].miss == 0.0

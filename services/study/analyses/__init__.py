@@ -10,6 +10,7 @@ from services.study.analyses.incremental import WELFORD
 from services.study.analyses.initial_poses import INITIAL_POSES
 from services.study.analyses.linear import LINEAR, LINEAR_3D_CONTEXT, LINEAR_3D_OUTPUT
 from services.study.analyses.next_waypoint import NEXT_WAYPOINT
+from services.study.analyses.particle import OBSTACLE_2D, VIA_POINTS
 from services.study.analyses.planes import PLANES
 from services.study.analyses.shifted_start import SHIFTED_START
 from services.study.analyses.sine import SINE
@@ -24,6 +25,8 @@ ANALYSES: tuple[Analysis, ...] = (
     LINEAR_3D_OUTPUT,
     SINE,
     PLANES,
+    VIA_POINTS,
+    OBSTACLE_2D,
     TABLE_OBJECTS,
     DISHWASHER_BASKET,
     INITIAL_POSES,
