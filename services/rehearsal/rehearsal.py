@@ -18,6 +18,7 @@ from services.exceptions import CommandFailed
 from services.parallel import Progress, each
 from services.rehearsal.result import Arrangement, Attempt, Course
 from services.rehearsal.stage import Stage
+from sim import scenes
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,6 +123,7 @@ class Rehearsal:
 
     def __init__(self, plan: Plan, database: Path) -> None:
         self._plan = plan
+        self._scene = scenes.scene(plan.scene)
         self._stage = Stage(plan.configuration(database))
         self._bus = self._stage.bus()
         self._results = self._bus.subscribe(EPISODE_RESULT)
@@ -162,7 +164,8 @@ class Rehearsal:
                 return False
             updates = state.updates
             if len(state.attempts) > len(attempts):
-                attempts.append(Attempt.of(self._result(), state.attempts[-1].model_version, arrangement))
+                version = state.attempts[-1].model_version
+                attempts.append(Attempt.of(self._result(), version, self._scene, arrangement))
             return state.finished
 
         self._stage.teach(arrangement.reset(), refinements_allowed, finished)

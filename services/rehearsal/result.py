@@ -11,6 +11,9 @@ from lfd.trajectory import Trajectory
 from protocol.messages import Condition, EpisodeResult, Mode, Motion, Pose, Vector3, Verdict
 from protocol.queries import Reset
 from services.arrays import motion_from_wire
+from sim.scenes import AnyScene
+from sim.scenes.particle import ParticleScene
+from sim.scenes.scene import ReachingScene
 
 
 @dataclass(frozen=True)
@@ -19,15 +22,20 @@ class Arrangement:
 
     Attributes:
         variant: of the scene.
-        object_position: of the object's centre, base frame [m].
+        object_position: of the object's centre, base frame [m]; None in a scene that has none.
         start: of the grasping frame; the scene's own, or as it was put last, where there is none.
         condition: the external state of a scene that has another than the object's position.
     """
 
     variant: str
-    object_position: Vector3
+    object_position: Vector3 | None = None
     start: Pose | None = None
     condition: Condition | None = None
+
+    @property
+    def place(self) -> tuple[float, ...]:
+        """Of the target, as the scene counts it: the object's centre, or the scene's own condition [m]."""
+        return self.condition or self.object_position or ()
 
     def reset(self) -> Reset:
         """The request that arranges it; the epoch is for the asker to fill in."""
@@ -47,8 +55,8 @@ class Attempt:
         refined: the reference, the operator's correction included.
         commanded: what the joints were told, of which the model learns.
         measured: what the arm did.
-        miss: from the object's centre to the ellipsoid that it is reached in, along the line to the grasping frame;
-            0 inside [m].
+        miss: from the object's centre to the ellipsoid that it is reached in, along the line to the grasping frame, or
+            from the ring of the via-point that was missed most; 0 inside [m].
     """
 
     mode: Mode
@@ -62,11 +70,9 @@ class Attempt:
     miss: float
 
     @classmethod
-    def of(cls, result: EpisodeResult, model_version: int, arrangement: Arrangement) -> Attempt:
+    def of(cls, result: EpisodeResult, model_version: int, scene: AnyScene, arrangement: Arrangement) -> Attempt:
         """From the robot's message, and what it does not know."""
         measured = _trajectory(result.measured)
-        lies = np.add(arrangement.object_position, result.verdict.object_displacement)
-        distance = float(np.linalg.norm(lies - measured.positions[-1]))
         return cls(
             mode=result.mode,
             model_version=model_version,
@@ -76,7 +82,7 @@ class Attempt:
             refined=_trajectory(result.refined),
             commanded=_trajectory(result.commanded),
             measured=measured,
-            miss=distance * (1.0 - 1.0 / math.sqrt(max(1.0, result.verdict.ellipsoid_value))),
+            miss=_miss(scene, arrangement, result.verdict, measured),
         )
 
     @property
@@ -91,7 +97,8 @@ class Attempt:
         verdict, said = self.verdict, []
         if verdict.collision:
             link, thing = verdict.collision_between or ("robot", "something")
-            said.append(f"{link} hit {thing} with {verdict.collision_force:.0f} N")
+            force = f" with {verdict.collision_force:.0f} N" if verdict.collision_force else ""
+            said.append(f"{link} hit {thing}{force}")
         if verdict.kicked_over:
             said.append(f"kicked over by {1e3 * float(np.max(np.abs(verdict.object_displacement))):.0f} mm")
         if not verdict.reached:
@@ -127,6 +134,17 @@ class Course:
     def needed_refinement(self) -> bool:
         """The first prediction failed."""
         return bool(self.attempts) and not self.attempts[0].success
+
+
+def _miss(scene: AnyScene, arrangement: Arrangement, verdict: Verdict, measured: Trajectory) -> float:
+    """See `Attempt`."""
+    beyond = math.sqrt(max(1.0, verdict.ellipsoid_value))
+    match scene:
+        case ReachingScene():
+            lies = np.add(arrangement.place, verdict.object_displacement)
+            return float(np.linalg.norm(lies - measured.positions[-1])) * (1.0 - 1.0 / beyond)
+        case ParticleScene():
+            return scene.tolerance * (beyond - 1.0)
 
 
 def _trajectory(motion: Motion) -> Trajectory:

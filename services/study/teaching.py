@@ -41,7 +41,7 @@ class Question:
 
     Attributes:
         scene: of all conditions.
-        demonstrated: that the models start from, in the scene's first variant.
+        demonstrated: that the models start from.
         refined: conditions that Algorithm 1 goes through.
         executed: conditions of the second round.
         shown: least and greatest corner of the part of space to draw [m].
@@ -81,14 +81,16 @@ def taught(scene: AnyScene, arrangements: Sequence[Arrangement], rng: np.random.
     """A demonstration under each arrangement, given in the simulator by the scripted operator.
 
     Raises:
-        CommandFailed: no motion to some object succeeded.
+        CommandFailed: no motion to some place succeeded.
         StartImpossible: no motion can start there.
     """
     arm = simulated_arm(scene, scene.variants[0], prepare())
-    return tuple(
-        demonstrate(arm, scene, np.array(one.object_position), rng, start=_pose(one.start) if one.start else None)
-        for one in arrangements
-    )
+
+    def shown(one: Arrangement) -> Demonstration:
+        start = _pose(one.start) if one.start else None
+        return demonstrate(arm, scene, np.array(one.place), rng, variant=one.variant, start=start)
+
+    return tuple(shown(one) for one in arrangements)
 
 
 def answered(question: Question, context: Context) -> Answer:
@@ -211,7 +213,7 @@ def _first_round(
     canvas, panes = panels(titles, height=2.7, rows=-(-len(titles) // _COLUMNS), solid=True)
     for axes, course in zip(panes, rehearsed.first, strict=True):
         furnish(axes, question.scene.boxes(course.arrangement.variant), *question.shown)
-        place_object(axes, course.arrangement.object_position)
+        place_object(axes, course.arrangement.place)
         _draw_course(axes, course, kind)
     return drawn(canvas, name, caption, raster=True)
 
@@ -236,7 +238,7 @@ def second_round(answer: Answer, caption: str) -> Figure:
         for demonstration in answer.demonstrations:
             draw_way(axes, demonstration.trajectory.positions, DEMONSTRATION_LINE, "demonstration")
         for course in rehearsed.second:
-            place_object(axes, course.arrangement.object_position)
+            place_object(axes, course.arrangement.place)
             _draw_course(axes, course, kind)
     return drawn(canvas, "second", f"{caption}.", raster=True)
 

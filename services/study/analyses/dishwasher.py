@@ -27,8 +27,8 @@ def _question() -> Question:
 def _dishwasher(context: Context) -> Finding:
     question = _question()
     answer = teaching.answered(question, context)
-    titles = [f"{i}: object at y = {one.object_position[1]:.2f} m" for i, one in enumerate(question.refined, 1)]
-    y0, y1 = (question.refined[i].object_position[1] for i in (0, -1))
+    titles = [f"{i}: object at y = {one.place[1]:.2f} m" for i, one in enumerate(question.refined, 1)]
+    y0, y1 = (question.refined[i].place[1] for i in (0, -1))
     return Finding(
         teaching.holds(answer, _NEEDED),
         teaching.sentence(answer, _NEEDED),

@@ -30,10 +30,7 @@ def _question() -> Question:
 def _table(context: Context) -> Finding:
     question = _question()
     answer = teaching.answered(question, context)
-    titles = [
-        f"{i}: object at ({one.object_position[0]:.2f}, {one.object_position[1]:.2f}) m"
-        for i, one in enumerate(question.refined, 1)
-    ]
+    titles = [f"{i}: object at ({one.place[0]:.2f}, {one.place[1]:.2f}) m" for i, one in enumerate(question.refined, 1)]
     width, depth = (upper - lower for lower, upper in zip(TABLE.region.lower[:2], TABLE.region.upper[:2], strict=True))
     return Finding(
         teaching.holds(answer, _NEEDED),
