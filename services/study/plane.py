@@ -28,7 +28,8 @@ NINE: tuple[Values, ...] = tuple((y_1, y_2) for y_1, y_2 in product((-10.0, 0.0,
 """The conditions that both analyses go through, in the order of rows."""
 
 _UNIT = np.array([X_UNIT, Y_UNIT])
-_REFINED_LINE = Line(REFINEMENT, 1.4)
+_REFINED_LINE = Line(REFINEMENT, 3.4)
+_THIN = 1.4  # [pt] of a prediction that is not compared with another model's
 _FAILED = (0.0, (2.0, 1.5))
 _SHOWN = ((0.0, -0.25, 0.0), (0.4, 0.25, 0.0))  # [m]
 _COLUMNS = 3
@@ -163,7 +164,7 @@ def first_rounds(answer: Answer, caption: str) -> list[Figure]:
         canvas, panes = panels(titles, height=2.0, rows=_rows(len(titles)))
         for pane, course in zip(panes, rehearsed.first, strict=True):
             _lay_out(pane, course.arrangement.variant, [course.arrangement.condition])
-            _draw_attempts(pane, course, kind)
+            _draw_attempts(pane, course, kind, _THIN)
         figures.append(drawn(canvas, f"first-{model}", f"{caption}: {kind.label}."))
     return figures
 
@@ -181,7 +182,7 @@ def second_round(answer: Answer, caption: str) -> Figure:
         courses = [rehearsed.second[number] for rehearsed in answer.of_kinds]
         _lay_out(pane, courses[0].arrangement.variant, [courses[0].arrangement.condition])
         for kind, course in zip(KINDS, courses, strict=True):
-            _draw_attempts(pane, course, kind)
+            _draw_attempts(pane, course, kind, kind.line.linewidth)
     return drawn(canvas, "second", caption)
 
 
@@ -200,7 +201,7 @@ def beyond(answer: Answer, sizes: Sequence[float], caption: str) -> Figure:
         courses = [one for one in rehearsed.second[len(NINE) :] if _size(one.arrangement.condition) == size]
         _lay_out(pane, courses[0].arrangement.variant, [one.arrangement.condition for one in courses])
         for course in courses:
-            _draw_attempts(pane, course, kind)
+            _draw_attempts(pane, course, kind, _THIN)
     return drawn(canvas, "beyond", caption)
 
 
@@ -228,13 +229,15 @@ def learning_curve(answer: Answer, caption: str) -> Figure:
     """
     canvas, (pane,) = panels([""], height=2.6)
     observed = np.arange(1, len(NINE) + 1)
+    tolerated = (PARTICLE.tolerance / Y_UNIT) ** 2
     for kind, rehearsed in zip(KINDS, answer.of_kinds, strict=True):
         pane.plot(observed, errors(rehearsed.first), marker="o", markersize=5.0, **kind.line(f"{kind.label}: at first"))
         again = Line(kind.line.color, 0.6 * kind.line.linewidth, _FAILED)
         pane.plot(observed, errors(rehearsed.second[: len(NINE)]), **again(f"{kind.label}: after all nine"))
     names = [named(one.condition) for one in answer.question.refined]
     pane.set_xticks(observed, [f"{i}\n{name}" for i, name in enumerate(names, 1)])
-    pane.set(xlabel="conditions observed, and the one that is predicted", ylabel="mean square error (eq. 25)")
+    pane.axhline(tolerated, color=TRUTH, linewidth=0.8, label="both via-points missed by the tolerance")
+    pane.set(xlabel="conditions observed, and the one that is predicted", ylabel="mean square error", yscale="log")
     return drawn(canvas, "error", caption)
 
 
@@ -258,16 +261,22 @@ def _lay_out(pane: Axes, variant: str, conditions: Sequence[Condition | None]) -
         centre = np.array([x, y]) / _UNIT
         pane.add_patch(Ellipse((centre[0], centre[1]), *size, fill=False, edgecolor=TRUTH, linewidth=1.0, zorder=3.0))
     pane.set(xlim=_LIMITS[0], ylim=_LIMITS[1], xticks=range(5), yticks=range(-20, 21, 10))
+    pane.set(xlabel="x", ylabel="y")
+    pane.label_outer()
 
 
-def _draw_attempts(pane: Axes, course: Course, kind: Kind) -> None:
+def _draw_attempts(pane: Axes, course: Course, kind: Kind, width: float) -> None:
+    """Each episode's way, what succeeded in a width [pt]."""
     for attempt in course.attempts:
         if attempt.mode is Mode.REFINE:
             _draw(pane, attempt.refined, _REFINED_LINE, "refinement")
-        elif attempt.success:
-            _draw(pane, attempt.prediction, kind.line, f"{kind.label}: prediction")
+    for attempt in course.attempts:
+        if attempt.mode is Mode.REFINE:
+            continue
+        if attempt.success:
+            _draw(pane, attempt.prediction, Line(kind.line.color, width), f"{kind.label}: prediction")
         else:
-            failed = Line(kind.line.color, min(kind.line.linewidth, 1.5), _FAILED)
+            failed = Line(kind.line.color, _THIN, _FAILED)
             _draw(pane, attempt.prediction, failed, f"{kind.label}: prediction that failed")
 
 

@@ -30,7 +30,7 @@ def _obstacle(context: Context) -> Finding:
         (
             "The text of the thesis names [−20, 20] and [0, 20] as the two conditions that failed, its Fig. 21 and B.5"
             " [0, −20] and [−20, −20], its discussion [0, −20] and [−20, 20].",
-            "The thesis gives the obstacle's left edge only. Here it reaches from x = 0.5 to 0.9 and up to y = 2.5, and"
+            "The thesis gives the obstacle's left edge only. Here it reaches from x = 0.5 to 0.8 and up to y = 2.5, and"
             " the operator leads the particle over it at y = 8 whatever the condition. How high that is decides what"
             " is learnt from few refinements: at y = 5.5 the default model, refined at −10, ran into it at −20.",
             *teaching.notes(answer),
