@@ -32,7 +32,8 @@ class CorrectionOptions:
         mean_std: Uncertainty of one demonstration as the mean of its condition.
         near_std: Of the room between the demonstrations' conditions.
         slope_std: By how much a motion may change as its condition changes by one unit, both lengths [-].
-        reach: Length over which a surprising correction fades.
+        reach: Length over which a surprising correction fades: what the world changed in one place it changed wherever
+            the same motion leads through it.
         most: Corrections kept; beyond it the most outdated is forgotten.
     """
 
@@ -41,7 +42,7 @@ class CorrectionOptions:
     mean_std: float = 0.02
     near_std: float = 0.03
     slope_std: float = 1.0
-    reach: float = 1.6
+    reach: float = 2.5
     most: int = 200
 
 

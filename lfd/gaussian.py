@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.linalg import solve_triangular
+from scipy.linalg.lapack import dtrtrs
 
 from lfd.arrays import Array, checked, frozen
 from lfd.exceptions import OutOfRange, TooFewDemonstrations
@@ -44,7 +44,12 @@ class JointGaussian:
     @property
     def covariance(self) -> Array:
         """Sigma = Psi / (M - 1), shape (d, d); zero for a single sample, which says nothing about spread."""
-        return frozen(self.scatter / max(self.count - 1.0, 1.0))
+        return frozen(self.scatter / self.divisor)
+
+    @property
+    def divisor(self) -> float:
+        """M - 1, by which the scatter is divided; 1 for a single sample, whose scatter is zero."""
+        return max(self.count - 1.0, 1.0)
 
 
 def welford(joint: JointGaussian, x: Array, kept: float = 1.0) -> JointGaussian:
@@ -103,10 +108,15 @@ def condition(joint: JointGaussian, s: Array, noise: float) -> Conditional:
     """
     if not noise > 0.0:
         raise OutOfRange("conditioning noise", noise, "positive")
-    k = len(joint.mean) - len(s)
-    Sigma = joint.covariance
-    L = np.linalg.cholesky(Sigma[k:, k:] + noise * np.eye(len(s)))
-    right = np.column_stack([Sigma[k:, :k], s - joint.mean[k:]])
-    whitened = solve_triangular(L, right, lower=True, check_finite=False)
+    k, scale = len(joint.mean) - len(s), 1.0 / joint.divisor
+    Sigma_sw = scale * joint.scatter[k:, :k]
+    L = np.linalg.cholesky(scale * joint.scatter[k:, k:] + noise * np.eye(len(s)))
+    right = np.hstack([Sigma_sw, (s - joint.mean[k:])[:, None]])
+    # What solve_triangular calls in the end, without checks that take longer than the work. It cannot fail: a Cholesky
+    # factor has a positive diagonal.
+    whitened, _ = dtrtrs(L, right, lower=1)
     V, deviation = whitened[:, :k], whitened[:, k]
-    return Conditional(frozen(joint.mean[:k] + deviation @ V), frozen(Sigma[:k, :k] - V.T @ V))
+    covariance = scale * joint.scatter[:k, :k]
+    covariance -= V.T @ V
+    covariance.setflags(write=False)
+    return Conditional(frozen(joint.mean[:k] + deviation @ V), covariance)

@@ -31,6 +31,9 @@ EXIT_INTERRUPTED = 130
 TAUGHT_S = 10.0
 """Duration of a motion through waypoints, unless told otherwise: the thesis' time of an autonomous execution."""
 
+WIDEST_M = 0.5
+"""Beyond it no scene has a start that the arm can take."""
+
 LONGEST_S = 3600.0
 """Duration of the longest motion that a message carries."""
 
@@ -46,6 +49,15 @@ examples:
                                               teach a running model a motion that you wrote down
   retouch top                                 what lives on the network, with rates, ages and drops
   retouch reproduce                           the thesis' analyses, made again: one report
+  retouch map --teach                         where a model succeeds, before and after one correction: a picture
+"""
+
+MAP_EXAMPLES = """\
+examples:
+  retouch map --teach                         the dishwasher, before and after one correction
+  retouch map --teach --kind promp            the same with the thesis' own model
+  retouch map --database model.sqlite --before 3 --samples 400
+                                              a model of yours, without its last 3 updates and with them
 """
 
 
@@ -108,6 +120,7 @@ def parser() -> argparse.ArgumentParser:
     replay.add_argument("--debug", action="store_true", help=argparse.SUPPRESS)
     commands.add_parser("topics", help="print the table of topics and queries")
     _add_reproduce(commands)
+    _add_map(commands)
     return root
 
 
@@ -117,7 +130,7 @@ def _seed(text: str) -> int:
     return int(text)
 
 
-def _jobs(text: str) -> int:
+def _at_least_one(text: str) -> int:
     if not text.isdecimal() or int(text) == 0:
         raise argparse.ArgumentTypeError(f"must be a whole number, at least 1, not {text!r}")
     return int(text)
@@ -162,9 +175,47 @@ def _add_reproduce(commands: argparse._SubParsersAction[_Parser]) -> None:
         "--out", type=Path, metavar="FOLDER", default=Path("reproduction"), help="default: ./reproduction"
     )
     reproduce.add_argument("--fresh", action="store_true", help="do again what is done already")
-    reproduce.add_argument("--jobs", type=_jobs, metavar="N", default=1, help="analyses at once (default: 1)")
+    reproduce.add_argument("--jobs", type=_at_least_one, metavar="N", default=1, help="analyses at once (default: 1)")
     reproduce.add_argument("--seed", type=_seed, metavar="N", default=0, help="of all that is random (default: 0)")
     reproduce.add_argument("--debug", action="store_true", help=argparse.SUPPRESS)
+
+
+def _add_map(commands: argparse._SubParsersAction[_Parser]) -> None:
+    command = commands.add_parser(
+        "map",
+        help="where a model succeeds, before and after a correction: a picture",
+        description="Executes a model's predictions under some hundred conditions (an object's position and a start"
+        " pose each), simulated on all cores, and draws which succeeded, before the newest corrections and after them."
+        " A condition is unreachable, and does not count, where no motion can start or where the scene's own safe way"
+        " fails too: the map judges the model, not the scene.",
+        epilog=MAP_EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    model = command.add_argument_group("the model")
+    model.add_argument("--kind", choices=("adaptive", "promp"), default="adaptive", help="promp: the thesis' own")
+    model.add_argument(
+        "--database", type=Path, metavar="FILE", help="that a model was taught into (default: first demonstrations)"
+    )
+    model.add_argument(
+        "--before", type=_at_least_one, metavar="N", help="newest updates that the earlier stage lacks (default: 1)"
+    )
+    model.add_argument("--teach", action="store_true", help="let the scripted operator correct it once first")
+    where = command.add_argument_group("the conditions")
+    where.add_argument("--scene", metavar="S", help="dishwasher or table (default: the database's, or dishwasher)")
+    where.add_argument("--variant", metavar="V", help="of the scene (default: the one that was changed)")
+    many = where.add_mutually_exclusive_group()
+    many.add_argument(
+        "--grid", type=_at_least_one, metavar="N", default=16, help="about N times N, evenly (default: 16)"
+    )
+    many.add_argument("--samples", type=_at_least_one, metavar="N", help="N at random instead")
+    where.add_argument(
+        "--spread", type=_spread, metavar="M", default=0.05, help="of starts along each axis [m] (default: 0.05)"
+    )
+    where.add_argument("--seed", type=_seed, metavar="N", default=0, help="of all that is random (default: 0)")
+    command.add_argument("--out", type=Path, metavar="FILE.png", default=Path("map.png"), help="default: ./map.png")
+    command.add_argument("--json", type=Path, metavar="FILE", help="write what became of each condition")
+    command.add_argument("--jobs", type=_at_least_one, metavar="N", help="processes (default: one a core)")
+    command.add_argument("--debug", action="store_true", help=argparse.SUPPRESS)
 
 
 def _add_teach(commands: argparse._SubParsersAction[_Parser], common: _Parser) -> None:
@@ -202,6 +253,16 @@ def _seconds(text: str) -> float:
     if not 0.0 < seconds <= LONGEST_S:
         raise argparse.ArgumentTypeError(f"must be seconds, above 0 and at most {LONGEST_S:g}, not {text!r}")
     return seconds
+
+
+def _spread(text: str) -> float:
+    try:
+        spread = _finite(text)
+    except ValueError:
+        spread = -1.0
+    if not 0.0 <= spread <= WIDEST_M:
+        raise argparse.ArgumentTypeError(f"must be metres, from 0 to {WIDEST_M:g}, not {text!r}")
+    return spread
 
 
 def _finite(text: str) -> float:
@@ -275,21 +336,9 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _dispatch(arguments: argparse.Namespace) -> int:
     # Each command imports what it needs: a robot's computer has no page, a station no physics.
-    if arguments.command == "topics":
-        sys.stdout.write(f"{topic_table()}\n\n{query_table()}\n")
-        return 0
-    if arguments.command == "replay":
-        from services.viewer.replay import replay  # noqa: PLC0415
-
-        replay(arguments.file)
-        return 0
-    if arguments.command == "prepare":
-        from services.teach import prepare_all  # noqa: PLC0415
-
-        prepare_all()
-        return 0
-    if arguments.command == "reproduce":
-        return _reproduce(arguments)
+    alone = _WITHOUT_NETWORK.get(arguments.command)
+    if alone is not None:
+        return alone(arguments)
     settings = configuration(arguments)
     if arguments.supervised is not None:
         from services.worker import die_with_parent  # noqa: PLC0415
@@ -325,6 +374,25 @@ def _dispatch(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def _topics(_: argparse.Namespace) -> int:
+    sys.stdout.write(f"{topic_table()}\n\n{query_table()}\n")
+    return 0
+
+
+def _replay(arguments: argparse.Namespace) -> int:
+    from services.viewer.replay import replay  # noqa: PLC0415
+
+    replay(arguments.file)
+    return 0
+
+
+def _prepare(_: argparse.Namespace) -> int:
+    from services.teach import prepare_all  # noqa: PLC0415
+
+    prepare_all()
+    return 0
+
+
 def _reproduce(arguments: argparse.Namespace) -> int:
     try:
         from services.study.command import Request, reproduce, show_list  # noqa: PLC0415
@@ -334,6 +402,24 @@ def _reproduce(arguments: argparse.Namespace) -> int:
         show_list()
         return 0
     return reproduce(Request.from_arguments(arguments))
+
+
+def _map(arguments: argparse.Namespace) -> int:
+    try:
+        from services.study.map_command import Request, draw_map  # noqa: PLC0415
+    except ModuleNotFoundError as error:
+        raise RoomMissing("study", error.name or "?") from None
+    draw_map(Request.from_arguments(arguments))
+    return 0
+
+
+_WITHOUT_NETWORK: dict[str, Callable[[argparse.Namespace], int]] = {
+    "topics": _topics,
+    "replay": _replay,
+    "prepare": _prepare,
+    "reproduce": _reproduce,
+    "map": _map,
+}
 
 
 def _teach(settings: Configuration, arguments: argparse.Namespace) -> None:

@@ -119,6 +119,7 @@ class StationSection(_Section, frozen=True):
         refine_s: duration of an execution under correction [s].
         variant: arrangement of the scene that is taught; empty for the one that was changed since the first lesson.
         adapt: which way-point a correction moves: "next" (eq. 15-17), or "current" (eq. B.7) for comparison.
+        alpha: how far the model believes a refinement (eq. 18), from 0 to 1; 1 is all the way.
         scripted: the workflow's buttons are pressed by a script; there is no page.
         once: finish when the loop has closed, instead of going on with another object position.
     """
@@ -131,6 +132,7 @@ class StationSection(_Section, frozen=True):
     refine_s: Positive = 20.0
     variant: str = ""
     adapt: Adapt = Adapt.NEXT
+    alpha: Annotated[float, msgspec.Meta(ge=0.0, le=1.0)] = 1.0
     scripted: bool = False
     once: bool = False
 

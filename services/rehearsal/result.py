@@ -98,7 +98,7 @@ class Attempt:
         if verdict.collision:
             link, thing = verdict.collision_between or ("robot", "something")
             force = f" with {verdict.collision_force:.0f} N" if verdict.collision_force else ""
-            said.append(f"{link} hit {thing}{force}")
+            said.append(f"{_words(link)} hit {_words(thing)}{force}")
         if verdict.kicked_over:
             said.append(f"kicked over by {1e3 * float(np.max(np.abs(verdict.object_displacement))):.0f} mm")
         if not verdict.reached:
@@ -145,6 +145,11 @@ def _miss(scene: AnyScene, arrangement: Arrangement, verdict: Verdict, measured:
             return float(np.linalg.norm(lies - measured.positions[-1])) * (1.0 - 1.0 / beyond)
         case ParticleScene():
             return scene.tolerance * (beyond - 1.0)
+
+
+def _words(name: str) -> str:
+    """A part's name as a person would say it."""
+    return name.removesuffix("_link").replace("_", " ")
 
 
 def _trajectory(motion: Motion) -> Trajectory:

@@ -13,7 +13,7 @@ from sim.description import prepare
 from sim.pose import Pose
 from sim.scenes import AnyScene
 from sim.scenes.particle import ParticleScene
-from sim.scenes.scene import ReachingScene
+from sim.scenes.scene import Corridor, Freedom, ReachingScene
 from sim.steering import steer
 
 Array = NDArray[np.float64]
@@ -73,13 +73,18 @@ def demonstrate(
     variant = variant or scene.variants[0]
     start = scene.start if start is None else start
     for _ in range(TRIES):
-        way = steer(scene.corridor(variant, place, start), rng, freedom=scene.freedom)
-        times = np.linspace(0.0, DURATION_S, len(way.positions))
-        trajectory = from_samples(times, way.positions, way.orientations, POINTS)
+        trajectory = steered(scene.corridor(variant, place, start), rng, scene.freedom)
         outcome = rollout(arm, trajectory, place, variant=variant, start=start)
         if outcome.verdict.success:
             return _demonstration(scene, place, outcome.measured)
     raise CommandFailed(f"no motion to a target at {np.round(place, 3).tolist()} succeeded in {TRIES} tries")
+
+
+def steered(corridor: Corridor, rng: np.random.Generator | None, freedom: Freedom) -> Trajectory:
+    """A person's motion through a corridor; with a steady hand where there is no randomness."""
+    way = steer(corridor, rng, freedom=freedom)
+    times = np.linspace(0.0, DURATION_S, len(way.positions))
+    return from_samples(times, way.positions, way.orientations, POINTS)
 
 
 def _demonstration(scene: AnyScene, place: Array, motion: Trajectory) -> Demonstration:

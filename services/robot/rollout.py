@@ -122,6 +122,7 @@ def rollout(
     start: Pose | None = None,
     operator: Operator | None = None,
     after: float | None = None,
+    to_collision: bool = False,
 ) -> EpisodeOutcome:
     """Reset the arm and execute a prediction to the end.
 
@@ -133,6 +134,7 @@ def rollout(
         start: of the grasping frame; as it was by default.
         operator: who corrects it; nobody by default.
         after: look-ahead of the correction [s]; one way-point interval by default, 0 moves the current way-point.
+        to_collision: end at the first touch, for whoever wants to know no more.
 
     Raises:
         StartImpossible: no motion can start there.
@@ -146,6 +148,8 @@ def rollout(
         if operator is not None and arm.episode is not None:
             execution = arm.episode.execution
             wanted = operator(RolloutView(time, execution.progress, execution.nominal, execution.correction, tick))
+        if to_collision and tick.verdict.collision is not None:
+            arm.finish("it collided")
         tick = arm.tick(wanted)
         time += CONTROL_PERIOD
     return tick.outcome

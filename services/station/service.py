@@ -61,6 +61,7 @@ def settings(section: StationSection) -> Settings:
         refinements_allowed=section.refinements_allowed,
         updates_allowed=section.updates_allowed,
         adapt=section.adapt,
+        alpha=section.alpha,
         variant=section.variant,
         scripted=section.scripted,
         once=section.once,

@@ -77,6 +77,7 @@ class Settings:
         refinements_allowed: attempts at one update.
         updates_allowed: updates at one place.
         adapt: which way-point a correction moves.
+        alpha: how far the model believes a refinement (eq. 18).
         variant: arrangement of the scene that the run is about; empty for the one that was changed.
         scripted: the recommended action is taken at once.
         once: the recommended action after the loop has closed is to end.
@@ -89,6 +90,7 @@ class Settings:
     refinements_allowed: int = 10
     updates_allowed: int = 8
     adapt: Adapt = Adapt.NEXT
+    alpha: float = 1.0
     variant: str = ""
     scripted: bool = False
     once: bool = False

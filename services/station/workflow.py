@@ -236,7 +236,10 @@ def _learning(state: Workflow, view: View, settings: Settings) -> Step:
         return Step(_to(state, Phase.DECIDING, view))
     motion = learnable(state.taught, settings.autonomous_s)
     scene = view.scene.name if view.scene is not None else ""
-    request = queries.AddDemonstration(queries.Kind.UPDATE, motion, state.looked, scene, state.condition)
+    refined = learnable(state.prediction.motion, settings.autonomous_s) if state.prediction is not None else None
+    request = queries.AddDemonstration(
+        queries.Kind.UPDATE, motion, state.looked, scene, state.condition, prediction=refined, alpha=settings.alpha
+    )
     reply = _asked(state, view, queries.ADD_DEMONSTRATION, request)
     if isinstance(reply, Step):
         return reply
@@ -244,12 +247,9 @@ def _learning(state: Workflow, view: View, settings: Settings) -> Step:
     return _again(learnt, view, Mode.AUTONOMOUS)
 
 
-def learnable(commanded: Motion, duration: float) -> Motion:
-    """What the model is to learn of a refinement: the path as commanded, in the tempo of an autonomous execution.
-
-    Eq. 18 with alpha = 1 is the refinement itself; it ran slower than what it corrects, so its time is rescaled.
-    """
-    return msgspec.structs.replace(commanded, duration=duration)
+def learnable(motion: Motion, duration: float) -> Motion:
+    """A motion in the tempo of an autonomous execution: a refinement ran slower than what it corrects."""
+    return msgspec.structs.replace(motion, duration=duration)
 
 
 def _undoing(state: Workflow, view: View, settings: Settings) -> Step:

@@ -2,7 +2,8 @@
 
 StudyError
 ├── UnknownAnalysis  a name that no analysis has
-└── CannotKeep       a folder that results cannot be kept in
+├── CannotKeep       a folder that results cannot be kept in
+└── NothingToMap     a model that cannot be mapped
 """
 
 from __future__ import annotations
@@ -31,6 +32,10 @@ class UnknownAnalysis(StudyError):
 class CannotKeep(StudyError):
     """Results cannot be written."""
 
-    def __init__(self, folder: Path, reason: str) -> None:
+    def __init__(self, folder: Path, reason: str, flag: str = "--out") -> None:
         self.folder = folder
-        super().__init__(f"cannot keep results in {folder}: {reason}; choose another folder with --out")
+        super().__init__(f"cannot keep results in {folder}: {reason}; choose another folder with {flag}")
+
+
+class NothingToMap(StudyError):
+    """The model's success cannot be mapped."""

@@ -31,3 +31,6 @@ THESIS = Kind("thesis' method", Line(CONDITIONED, 3.2), ConditionedProMP.fit)
 DEFAULT = Kind("default model", Line(ADAPTIVE, 1.5), AdaptiveProMP.fit)
 KINDS = (THESIS, DEFAULT)
 """In the order of a row's columns, `conditioned` and `adaptive`."""
+
+BY_NAME = {"promp": THESIS, "adaptive": DEFAULT}
+"""By the name that the model process knows them by."""

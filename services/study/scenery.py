@@ -22,6 +22,7 @@ OBJECT = "#3c6e57"
 _CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=np.float64)
 _FACES = ((0, 1, 3, 2), (4, 5, 7, 6), (0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5))
 _VIEW = {"elev": 22.0, "azim": -60.0}  # [deg]
+_ZOOM = 1.15
 
 
 def solid(axes: Axes) -> Axes3D:
@@ -41,6 +42,8 @@ def furnish(axes: Axes, boxes: Sequence[Box], lower: Vector, upper: Vector) -> N
         upper: greatest corner [m].
     """
     pane = solid(axes)
+    # What is drawn later lies in front: the automatic order cuts translucent faces through what stands on them.
+    pane.computed_zorder = False
     for box in boxes:
         corners = box.centre + (_CORNERS * box.half_sizes) @ matrix_from_quaternion(np.array(box.quaternion)).T
         if box.group is Group.DETAIL or np.any(corners.min(axis=0) > upper) or np.any(corners.max(axis=0) < lower):
@@ -52,7 +55,8 @@ def furnish(axes: Axes, boxes: Sequence[Box], lower: Vector, upper: Vector) -> N
             Poly3DCollection(faces, facecolors=box.rgba[:3], edgecolors="#7c8794", linewidths=0.4, alpha=alpha)
         )
     pane.set(xlim=(lower[0], upper[0]), ylim=(lower[1], upper[1]), zlim=(lower[2], upper[2]))
-    pane.set_box_aspect(np.subtract(upper, lower).tolist())
+    pane.set_box_aspect(np.subtract(upper, lower).tolist(), zoom=_ZOOM)
+    pane.locator_params(nbins=4)
     pane.view_init(**_VIEW)
     pane.tick_params(labelsize=6.0, pad=-2.0)
     pane.set_xlabel("x [m]", labelpad=-6.0, fontsize=7.0)

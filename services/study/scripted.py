@@ -9,14 +9,13 @@ from lfd.demonstration import Demonstration
 from lfd.trajectory import Trajectory
 from services.robot.verdict import ellipsoid_value
 from sim.pose import Pose
-from sim.scenes.scene import Corridor, ReachingScene
+from sim.scenes.scene import ReachingScene
 from sim.steering import steer
 
 Array = NDArray[np.float64]
 
 DURATION = 10.0  # [s] the thesis' time of an autonomous execution
 POINTS = 200
-_SETTLED = 3  # way-point from which on a motion from another start takes the scene's way
 
 
 def demonstrate(
@@ -36,9 +35,8 @@ def demonstrate(
         variant: of the scene; its first by default.
         start: of the motion, shape (3,) [m]; the scene's by default.
     """
-    corridor = scene.corridor(variant or scene.variants[0], object_position)
-    if start is not None:
-        corridor = _from(corridor, start)
+    begin = None if start is None else Pose(start, scene.start.orientation)
+    corridor = scene.corridor(variant or scene.variants[0], object_position, begin)
     way = steer(corridor, rng, POINTS)
     return Demonstration.reaching(Trajectory(way.positions, way.orientations, DURATION), object_position)
 
@@ -59,10 +57,3 @@ def reaches(trajectory: Trajectory, object_position: Array, scene: ReachingScene
     """Whether an object, shape (3,) [m], is in the ellipsoid of Fig. E.2 at a trajectory's end."""
     end = Pose(trajectory.positions[-1], trajectory.orientations[-1])
     return ellipsoid_value(end, object_position, scene.reached_radii) <= 1.0
-
-
-def _from(corridor: Corridor, start: Array) -> Corridor:
-    """The corridor from another start: its displacement fades over the first way-points."""
-    fading = np.clip(1.0 - np.arange(len(corridor.positions)) / _SETTLED, 0.0, 1.0)
-    moved = corridor.positions + fading[:, None] * (start - corridor.positions[0])
-    return Corridor(moved, corridor.orientations)

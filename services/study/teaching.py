@@ -18,7 +18,7 @@ from services.rehearsal.result import Arrangement, Course
 from services.robot.lesson import demonstrate
 from services.robot.rollout import simulated_arm
 from services.study.analysis import Context, Figure, Holds, Row
-from services.study.models import KINDS, Kind
+from services.study.models import BY_NAME, KINDS, Kind
 from services.study.scenery import draw_way, furnish, place_object
 from services.study.style import DEMONSTRATION_LINE, REFINEMENT, Line, drawn, panels
 from sim.description import prepare
@@ -28,7 +28,7 @@ from sim.scenes.scene import Vector
 
 Array = NDArray[np.float64]
 
-MODELS = ("promp", "adaptive")
+MODELS = tuple(BY_NAME)
 """The model process' names of `KINDS`, in their order."""
 
 _REFINEMENT_LINE = Line(REFINEMENT, 1.4)
@@ -210,7 +210,9 @@ def first_rounds(answer: Answer, titles: Sequence[str], caption: str) -> list[Fi
 def _first_round(
     question: Question, rehearsed: Rehearsed, *, kind: Kind, titles: Sequence[str], name: str, caption: str
 ) -> Figure:
-    canvas, panes = panels(titles, height=2.7, rows=-(-len(titles) // _COLUMNS), solid=True)
+    canvas, panes = panels(
+        titles, height=2.9 if len(titles) <= _COLUMNS else 3.3, rows=-(-len(titles) // _COLUMNS), solid=True
+    )
     for axes, course in zip(panes, rehearsed.first, strict=True):
         furnish(axes, question.scene.boxes(course.arrangement.variant), *question.shown)
         place_object(axes, course.arrangement.place)

@@ -111,7 +111,7 @@ def sideways(model, corrected, reach, offset):
 
 def test_a_correction_fades_with_distance_and_leaves_far_places_alone(model, reach):
     corrected = model.updated(reach(LEFT, bend=0.25))
-    moved = [sideways(model, corrected, reach, offset) for offset in (0.0, 0.03, 0.06, 0.1, 0.2, 0.4, 0.8, 2.0)]
+    moved = [sideways(model, corrected, reach, offset) for offset in (0.0, 0.03, 0.06, 0.1, 0.2, 0.4, 0.8, 2.0, 4.0)]
     assert (np.diff(moved) < 0.0).all()
     assert moved[-1] < 0.1 * moved[0]
 

@@ -73,8 +73,8 @@ def attempt(mode=Mode.AUTONOMOUS, miss=0.0, **verdict):
     [
         (attempt(), ""),
         (
-            attempt(collision=True, collision_between=("palm", "basket_front"), collision_force=8.4),
-            "palm hit basket_front with 8 N",
+            attempt(collision=True, collision_between=("gripper_palm_link", "basket_front"), collision_force=8.4),
+            "gripper palm hit basket front with 8 N",
         ),
         (attempt(reached=False, miss=0.0123), "missed by 12 mm"),
         (

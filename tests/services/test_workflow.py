@@ -10,7 +10,7 @@ from protocol.messages import Attempt, EpisodeResult, Mode, Outcome, Verdict
 from services.arrays import motion_to_wire, to_wire
 from services.bus import Failed
 from services.station.state import Action, Phase, Place, Settings, View, Workflow
-from services.station.workflow import EPISODE_GRACE_S, advance, loop_has_closed
+from services.station.workflow import EPISODE_GRACE_S, advance, learnable, loop_has_closed
 
 POSE = messages.Pose((0.5, 0.0, 0.5), (1.0, 0.0, 0.0, 0.0))
 MOTION = motion_to_wire([[0.5, 0.0, 0.5], [0.8, 0.0, 0.6]], [[1.0, 0.0, 0.0, 0.0]] * 2, 7.0)
@@ -192,6 +192,14 @@ def test_refinements_run_slower_than_predictions_and_are_learnt_in_a_predictions
     durations = [ask.request.prediction.duration for ask in site.asked if ask.query is queries.EXECUTE]
     learnt = [ask.request.motion.duration for ask in site.asked if ask.query is queries.ADD_DEMONSTRATION]
     assert (durations, learnt) == ([10.0, 20.0, 10.0], [10.0])
+
+
+def test_a_refinement_is_learnt_with_the_prediction_that_it_refines_as_far_as_it_is_believed():
+    site = Site(replace(SCRIPTED, alpha=0.5), [COLLIDED, REACHED, REACHED])
+    site.run_to(Phase.FINISHED)
+    (learnt,) = [ask.request for ask in site.asked if ask.query is queries.ADD_DEMONSTRATION]
+    assert learnt.alpha == 0.5
+    assert learnt.prediction == learnable(MOTION, SCRIPTED.autonomous_s)
 
 
 def test_too_many_refinements_end_the_run_with_the_reason():

@@ -14,6 +14,7 @@ from services.study.analyses.obstacle import OBSTACLE
 from services.study.analyses.planes import PLANES
 from services.study.analyses.shifted_start import SHIFTED_START
 from services.study.analyses.sine import SINE
+from services.study.analyses.slow_adaptation import SLOW_ADAPTATION
 from services.study.analyses.table import TABLE_OBJECTS
 from services.study.analyses.time_warping import TIME_WARPING
 from services.study.analyses.via_points import VIA_POINTS
@@ -30,6 +31,7 @@ ANALYSES: tuple[Analysis, ...] = (
     TABLE_OBJECTS,
     DISHWASHER_BASKET,
     INITIAL_POSES,
+    SLOW_ADAPTATION,
     WELFORD,
     NEXT_WAYPOINT,
     SHIFTED_START,

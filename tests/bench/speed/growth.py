@@ -23,11 +23,13 @@ def measure(rng, effort):
     results, models = [], dict(MODELS)
     for count in counts:
         print(f"bench: models of {count} demonstrations", file=sys.stderr)
-        learnt = {name: model.fit(taught[:count]) for name, model in models.items()}
+        learnt, memory = {}, []
+        for name, model in models.items():
+            learnt[name], figures = _fit(name, model, taught[:count], new)
+            memory += figures
         timings = _times(learnt, new, count, effort)
-        results += timings
-        for name, model in learnt.items():
-            results += _memory(name, model, new, count)
+        results += [*timings, *memory]
+        for name in learnt:
             slowest = max(t.value for t in timings if t.name == name) / 1e3
             # Where the work grows with the cube, ten times the demonstrations take a thousand times as long.
             if 1000.0 * slowest > PATIENCE_S:
@@ -57,17 +59,16 @@ def _times(learnt, new, count, effort):
     ]
 
 
-def _memory(name, model, new, count):
-    """What an update and a prediction take at most, and what they leave in memory."""
+def _fit(name, model, taught, new):
+    """The model, and what it keeps in memory and takes at most to be fitted, updated and asked once."""
     tracemalloc.start()
     try:
-        updated = model.updated(new)
-        updated.predict(new.situation)
+        learnt = model.fit(taught)
+        learnt.updated(new).predict(new.situation)
         kept, peak = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()
-    operation = f"{count} demonstrations, update and prediction"
-    return [
-        Result(f"{name}, {operation}: memory, peak", peak / 1e6, "MB"),
-        Result(f"{name}, {operation}: memory, kept", kept / 1e6, "MB"),
+    return learnt, [
+        Result(f"{name}, {len(taught)} demonstrations: memory, kept", kept / 1e6, "MB"),
+        Result(f"{name}, {len(taught)} demonstrations: memory, peak", peak / 1e6, "MB"),
     ]
