@@ -52,6 +52,14 @@ examples:
   retouch map --teach                         where a model succeeds, before and after one correction: a picture
 """
 
+MAP_ABOUT = """\
+Executes a model's predictions under some hundred conditions (an object's position
+and a start pose each), simulated on all cores, and draws which succeeded, before
+the newest corrections and after them. A condition is unreachable, and does not
+count, where no motion can start, or where every prediction fails and the scene's
+own safe way does too: the map judges the model, not the scene.
+"""
+
 MAP_EXAMPLES = """\
 examples:
   retouch map --teach                         the dishwasher, before and after one correction
@@ -184,10 +192,7 @@ def _add_map(commands: argparse._SubParsersAction[_Parser]) -> None:
     command = commands.add_parser(
         "map",
         help="where a model succeeds, before and after a correction: a picture",
-        description="Executes a model's predictions under some hundred conditions (an object's position and a start"
-        " pose each), simulated on all cores, and draws which succeeded, before the newest corrections and after them."
-        " A condition is unreachable, and does not count, where no motion can start or where the scene's own safe way"
-        " fails too: the map judges the model, not the scene.",
+        description=MAP_ABOUT,
         epilog=MAP_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )

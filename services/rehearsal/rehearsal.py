@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
+import math
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+
+import numpy as np
 
 from lfd.demonstration import Demonstration
 from protocol import queries
 from protocol.messages import EpisodeResult, TeachingState
 from protocol.queries import AddDemonstration, Kind, Learnt
 from protocol.topics import EPISODE_RESULT, TEACHING_STATE
-from services.arrays import motion_to_wire, vector3
+from services.arrays import from_wire, motion_to_wire, vector3
 from services.config import Configuration, MasterSection, ModelSection, RobotSection, Scripted, StationSection
 from services.exceptions import CommandFailed
 from services.parallel import Progress, each
 from services.rehearsal.result import Arrangement, Attempt, Course
 from services.rehearsal.stage import Stage
-from sim import scenes
+from sim.scenes import AnyScene
+from sim.scenes import scene as find_scene
+from sim.scenes.particle import ParticleScene
+from sim.scenes.scene import ReachingScene
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,7 +129,7 @@ class Rehearsal:
 
     def __init__(self, plan: Plan, database: Path) -> None:
         self._plan = plan
-        self._scene = scenes.scene(plan.scene)
+        self._scene = find_scene(plan.scene)
         self._stage = Stage(plan.configuration(database))
         self._bus = self._stage.bus()
         self._results = self._bus.subscribe(EPISODE_RESULT)
@@ -164,8 +170,9 @@ class Rehearsal:
                 return False
             updates = state.updates
             if len(state.attempts) > len(attempts):
-                version = state.attempts[-1].model_version
-                attempts.append(Attempt.of(self._result(), version, self._scene, arrangement))
+                result = self._result()
+                miss = missed_by(self._scene, arrangement, result)
+                attempts.append(Attempt.of(result, state.attempts[-1].model_version, miss))
             return state.finished
 
         self._stage.teach(arrangement.reset(), refinements_allowed, finished)
@@ -184,3 +191,22 @@ class Rehearsal:
         if received is None:
             raise CommandFailed("an episode was judged whose result nobody heard")
         return received.message
+
+
+def missed_by(scene: AnyScene, arrangement: Arrangement, result: EpisodeResult) -> float:
+    """How much nearer a motion should have come: to the object, along the line to it, or to the worse via-point [m].
+
+    Args:
+        scene: in which it was executed.
+        arrangement: of the scene.
+        result: of the episode.
+    """
+    # The verdict's value is the square of how many times too far it was.
+    times = max(1.0, math.sqrt(result.verdict.ellipsoid_value))
+    match scene:
+        case ReachingScene():
+            lies = arrangement.place + result.verdict.object_displacement
+            end = from_wire(result.measured.positions)[-1]
+            return float(np.linalg.norm(lies - end)) * (1.0 - 1.0 / times)
+        case ParticleScene():
+            return scene.tolerance * (times - 1.0)

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lfd.trajectory import Trajectory
 from protocol.messages import Condition, EpisodeResult, Mode, Motion, Pose, Vector3, Verdict
 from protocol.queries import Reset
 from services.arrays import motion_from_wire
-from sim.scenes import AnyScene
-from sim.scenes.particle import ParticleScene
-from sim.scenes.scene import ReachingScene
 
 
 @dataclass(frozen=True)
@@ -22,7 +19,7 @@ class Arrangement:
 
     Attributes:
         variant: of the scene.
-        object_position: of the object's centre, base frame [m]; None in a scene that has none.
+        object_position: of the object's centre, base frame [m]; None where a scene has no object.
         start: of the grasping frame; the scene's own, or as it was put last, where there is none.
         condition: the external state of a scene that has another than the object's position.
     """
@@ -33,9 +30,9 @@ class Arrangement:
     condition: Condition | None = None
 
     @property
-    def place(self) -> tuple[float, ...]:
-        """Of the target, as the scene counts it: the object's centre, or the scene's own condition [m]."""
-        return self.condition or self.object_position or ()
+    def place(self) -> NDArray[np.float64]:
+        """Of the target: the object's position, or the condition, shape (d,) [m]."""
+        return np.array(self.condition if self.object_position is None else self.object_position, dtype=np.float64)
 
     def reset(self) -> Reset:
         """The request that arranges it; the epoch is for the asker to fill in."""
@@ -55,8 +52,7 @@ class Attempt:
         refined: the reference, the operator's correction included.
         commanded: what the joints were told, of which the model learns.
         measured: what the arm did.
-        miss: from the object's centre to the ellipsoid that it is reached in, along the line to the grasping frame, or
-            from the ring of the via-point that was missed most; 0 inside [m].
+        miss: how much nearer it should have come to reach the target; 0 where it did [m].
     """
 
     mode: Mode
@@ -70,9 +66,8 @@ class Attempt:
     miss: float
 
     @classmethod
-    def of(cls, result: EpisodeResult, model_version: int, scene: AnyScene, arrangement: Arrangement) -> Attempt:
+    def of(cls, result: EpisodeResult, model_version: int, miss: float) -> Attempt:
         """From the robot's message, and what it does not know."""
-        measured = _trajectory(result.measured)
         return cls(
             mode=result.mode,
             model_version=model_version,
@@ -81,8 +76,8 @@ class Attempt:
             prediction=_trajectory(result.prediction),
             refined=_trajectory(result.refined),
             commanded=_trajectory(result.commanded),
-            measured=measured,
-            miss=_miss(scene, arrangement, result.verdict, measured),
+            measured=_trajectory(result.measured),
+            miss=miss,
         )
 
     @property
@@ -134,17 +129,6 @@ class Course:
     def needed_refinement(self) -> bool:
         """The first prediction failed."""
         return bool(self.attempts) and not self.attempts[0].success
-
-
-def _miss(scene: AnyScene, arrangement: Arrangement, verdict: Verdict, measured: Trajectory) -> float:
-    """See `Attempt`."""
-    beyond = math.sqrt(max(1.0, verdict.ellipsoid_value))
-    match scene:
-        case ReachingScene():
-            lies = np.add(arrangement.place, verdict.object_displacement)
-            return float(np.linalg.norm(lies - measured.positions[-1])) * (1.0 - 1.0 / beyond)
-        case ParticleScene():
-            return scene.tolerance * (beyond - 1.0)
 
 
 def _words(name: str) -> str:

@@ -103,7 +103,7 @@ def draw_map(request: Request) -> SuccessMap:
     _write(request.out, figure(scene, found, BY_NAME[request.kind]).image, "--out")
     if request.json:
         _write(request.json, msgspec.json.format(msgspec.json.encode(found)), "--json")
-    console.print(found.summary())
+    console.print(found.summary(), soft_wrap=True)
     Console(highlight=False, soft_wrap=True).print(str(request.out.resolve()), markup=False)
     return found
 
@@ -125,14 +125,6 @@ def _with_an_object(scene: AnyScene) -> ReachingScene:
     if not isinstance(scene, ReachingScene):
         raise NothingToMap(f"scene {scene.name} has no object to reach: map one of {', '.join(REACHING)}")
     return scene
-
-
-def _scene(name: str) -> ReachingScene:
-    """The scene of that name, in which there must be an object to reach."""
-    find_scene(name)
-    if name not in REACHING:
-        raise NothingToMap(f"no object is reached for in {name!r}: choose {' or '.join(REACHING)} with --scene")
-    return REACHING[name]
 
 
 def _stored(request: Request) -> list[StoredDemonstration]:

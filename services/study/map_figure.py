@@ -51,6 +51,7 @@ class _View:
         mirrored: the axis across points left, as y does for the robot.
         from_start: positions are relative to the scene's start.
         room: around what is marked [m].
+        size: of the marks, as a share: objects stand closer together on paper than starts.
         point: what is marked of a condition, shape (3,) [m].
         labels: of the axes.
     """
@@ -60,6 +61,7 @@ class _View:
     mirrored: bool
     from_start: bool
     room: float
+    size: float
     point: Callable[[Condition], Array]
     labels: tuple[str, str]
 
@@ -70,6 +72,7 @@ _FROM_ABOVE = _View(
     mirrored=True,
     from_start=False,
     room=0.06,
+    size=0.4,
     point=lambda one: np.array(one.place.object_position),
     labels=("y [m]", "x [m]"),
 )
@@ -79,6 +82,7 @@ _FROM_THE_SIDE = _View(
     mirrored=False,
     from_start=True,
     room=0.02,
+    size=1.0,
     point=lambda one: np.array(one.place.offset),
     labels=("x from the scene's start [m]", "z from the scene's start [m]"),
 )
@@ -120,7 +124,7 @@ def _draw(axes: Axes, view: _View, found: SuccessMap, stage: int) -> None:
         if any(counts):
             label = f"{outcome.value}: {' → '.join(map(str, counts))}"
             x, y = points[chosen][:, [view.across, view.up]].T
-            axes.scatter(x, y, s=mark.size, c=mark.color, marker=mark.shape, linewidths=1.0, label=label)
+            axes.scatter(x, y, s=view.size * mark.size, c=mark.color, marker=mark.shape, linewidths=1.0, label=label)
     axes.set(xlabel=view.labels[0], ylabel=view.labels[1], aspect="equal", adjustable="datalim")
     if view.mirrored:
         axes.xaxis.set_inverted(True)

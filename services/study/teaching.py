@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
-from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from lfd.demonstration import Demonstration
@@ -17,22 +16,16 @@ from services.rehearsal.rehearsal import Plan, Rehearsed, rehearse_all
 from services.rehearsal.result import Arrangement, Course
 from services.robot.lesson import demonstrate
 from services.robot.rollout import simulated_arm
-from services.study.analysis import Context, Figure, Holds, Row
-from services.study.models import BY_NAME, KINDS, Kind
-from services.study.scenery import draw_way, furnish, place_object
-from services.study.style import DEMONSTRATION_LINE, REFINEMENT, Line, drawn, panels
+from services.study.analysis import Context, Holds, Row
+from services.study.models import BY_NAME, KINDS
 from sim.description import prepare
 from sim.pose import Pose
 from sim.scenes import AnyScene
-from sim.scenes.scene import Vector
 
 Array = NDArray[np.float64]
 
 MODELS = tuple(BY_NAME)
 """The model process' names of `KINDS`, in their order."""
-
-_REFINEMENT_LINE = Line(REFINEMENT, 1.4)
-_COLUMNS = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,17 +34,17 @@ class Question:
 
     Attributes:
         scene: of all conditions.
-        demonstrated: that the models start from.
+        demonstrated: that the models start from, in the scene's first variant.
         refined: conditions that Algorithm 1 goes through.
         executed: conditions of the second round.
-        shown: least and greatest corner of the part of space to draw [m].
+        beyond: conditions to which the models are to generalise after that; they are not taught either.
     """
 
     scene: AnyScene
     demonstrated: tuple[Arrangement, ...]
     refined: tuple[Arrangement, ...]
     executed: tuple[Arrangement, ...]
-    shown: tuple[Vector, Vector]
+    beyond: tuple[Arrangement, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,11 +55,13 @@ class Answer:
         question: that was asked.
         demonstrations: that both models started from.
         of_kinds: both rounds of each model.
+        beyond: of each model, the conditions to which it was to generalise.
     """
 
     question: Question
     demonstrations: tuple[Demonstration, ...]
     of_kinds: tuple[Rehearsed, ...]
+    beyond: tuple[tuple[Course, ...], ...]
 
 
 def arrangement(
@@ -81,26 +76,36 @@ def taught(scene: AnyScene, arrangements: Sequence[Arrangement], rng: np.random.
     """A demonstration under each arrangement, given in the simulator by the scripted operator.
 
     Raises:
-        CommandFailed: no motion to some place succeeded.
+        CommandFailed: no motion to some object succeeded.
         StartImpossible: no motion can start there.
     """
     arm = simulated_arm(scene, scene.variants[0], prepare())
-
-    def shown(one: Arrangement) -> Demonstration:
-        start = _pose(one.start) if one.start else None
-        return demonstrate(arm, scene, np.array(one.place), rng, variant=one.variant, start=start)
-
-    return tuple(shown(one) for one in arrangements)
+    return tuple(
+        demonstrate(arm, scene, one.place, rng, start=_pose(one.start) if one.start else None) for one in arrangements
+    )
 
 
 def answered(question: Question, context: Context) -> Answer:
     """Teach both models, each in a process of its own where there are several cores."""
     demonstrations = taught(question.scene, question.demonstrated, context.rng())
+    executed = (*question.executed, *question.beyond)
     plans = [
-        Plan(question.scene.name, model, demonstrations, question.refined, question.executed, seed=context.seed)
+        Plan(question.scene.name, model, demonstrations, question.refined, executed, seed=context.seed)
         for model in MODELS
     ]
-    return Answer(question, demonstrations, tuple(rehearse_all(plans, os.cpu_count() or 1, context.advance)))
+    rehearsed = rehearse_all(plans, os.cpu_count() or 1, context.advance)
+    n = len(question.executed)
+    return Answer(
+        question,
+        demonstrations,
+        tuple(replace(one, second=one.second[:n]) for one in rehearsed),
+        tuple(one.second[n:] for one in rehearsed),
+    )
+
+
+def successes(courses: Sequence[Course]) -> int:
+    """Of some conditions."""
+    return sum(course.success for course in courses)
 
 
 def needed(rehearsed: Rehearsed) -> int:
@@ -124,7 +129,7 @@ def sentence(answer: Answer, needed_by_thesis: int) -> str:
         f"Without exaggeration the thesis' method needed refinements under {needed(conditioned)} of {total} conditions"
         f" (in the thesis {needed_by_thesis}), the default model under {needed(adaptive)}."
     )
-    missed = [len(one.second) - sum(course.success for course in one.second) for one in answer.of_kinds]
+    missed = [len(one.second) - successes(one.second) for one in answer.of_kinds]
     if not any(missed):
         return f"{first} In the second round both reached every condition."
     return (
@@ -152,7 +157,7 @@ def rows(answer: Answer, needed_by_thesis: int) -> tuple[Row, ...]:
         row(
             f"conditions reached in the second round, of {len(question.executed)}",
             len(question.executed),
-            [sum(course.success for course in one.second) for one in kinds],
+            [successes(one.second) for one in kinds],
         ),
     )
 
@@ -184,65 +189,6 @@ def _history(course: Course) -> str:
         f"reached after {course.updates} update{'s' if course.updates != 1 else ''}" if course.success else "given up"
     )
     return f"{', then '.join(steps)}; {outcome}"
-
-
-def first_rounds(answer: Answer, titles: Sequence[str], caption: str) -> list[Figure]:
-    """Predictions and refinements condition by condition, a figure for each model.
-
-    Args:
-        answer: what came out.
-        titles: of the conditions.
-        caption: without the model's name.
-    """
-    return [
-        _first_round(
-            answer.question,
-            rehearsed,
-            kind=kind,
-            titles=titles,
-            name=f"first-{model}",
-            caption=f"{caption}: {kind.label}.",
-        )
-        for kind, model, rehearsed in zip(KINDS, MODELS, answer.of_kinds, strict=True)
-    ]
-
-
-def _first_round(
-    question: Question, rehearsed: Rehearsed, *, kind: Kind, titles: Sequence[str], name: str, caption: str
-) -> Figure:
-    canvas, panes = panels(
-        titles, height=2.9 if len(titles) <= _COLUMNS else 3.3, rows=-(-len(titles) // _COLUMNS), solid=True
-    )
-    for axes, course in zip(panes, rehearsed.first, strict=True):
-        furnish(axes, question.scene.boxes(course.arrangement.variant), *question.shown)
-        place_object(axes, course.arrangement.place)
-        _draw_course(axes, course, kind)
-    return drawn(canvas, name, caption, raster=True)
-
-
-def _draw_course(axes: Axes, course: Course, kind: Kind) -> None:
-    for attempt in course.attempts:
-        if attempt.mode is messages.Mode.REFINE:
-            draw_way(axes, attempt.refined.positions, _REFINEMENT_LINE, "refinement")
-        else:
-            style = "-" if attempt.success else (0.0, (2.0, 1.5))
-            label = f"{kind.label}: prediction" if attempt.success else f"{kind.label}: prediction that failed"
-            draw_way(axes, attempt.prediction.positions, Line(kind.line.color, 1.3, style), label)
-
-
-def second_round(answer: Answer, caption: str) -> Figure:
-    """All predictions of the second round, a panel for each model, with the demonstrations that they started from."""
-    question = answer.question
-    canvas, panes = panels([kind.label for kind in KINDS], height=3.6, solid=True)
-    for axes, kind, rehearsed in zip(panes, KINDS, answer.of_kinds, strict=True):
-        variant = question.executed[-1].variant
-        furnish(axes, question.scene.boxes(variant), *question.shown)
-        for demonstration in answer.demonstrations:
-            draw_way(axes, demonstration.trajectory.positions, DEMONSTRATION_LINE, "demonstration")
-        for course in rehearsed.second:
-            place_object(axes, course.arrangement.place)
-            _draw_course(axes, course, kind)
-    return drawn(canvas, "second", f"{caption}.", raster=True)
 
 
 def _pose(pose: messages.Pose) -> Pose:

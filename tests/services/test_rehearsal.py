@@ -5,17 +5,17 @@ import pytest
 
 from lfd.trajectory import Trajectory
 from protocol import messages
-from protocol.messages import EpisodeResult, Mode, Verdict
+from protocol.messages import Mode, Verdict
 from protocol.topics import OBJECT_POSE, WORLD_STATE
-from services.arrays import motion_to_wire, to_wire, vector3
+from services.arrays import to_wire, vector3
 from services.clock import ManualClock
 from services.lessons import first_demonstrations
 from services.memory_bus import MemoryNetwork
 from services.rehearsal.eyes import DEVIATION, MEDIAN_ERROR, Eyes
 from services.rehearsal.rehearsal import Plan, rehearse
 from services.rehearsal.result import Arrangement, Attempt, Course
-from services.robot.lesson import lesson
-from sim.scenes import DISHWASHER, PARTICLE
+from sim.scenes import DISHWASHER
+from sim.scenes.particle import PARTICLE
 
 UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 PLACE = (0.86, 0.07, DISHWASHER.region.lower[2])
@@ -98,60 +98,6 @@ def test_a_course_succeeds_only_by_a_prediction_and_counts_what_it_took():
     assert not Course(arrangement, (attempt(),), updates=0).needed_refinement
 
 
-def test_the_place_of_an_arrangement_is_the_object_or_the_scenes_own_condition():
-    assert Arrangement("b2", PLACE).place == PLACE
-    assert Arrangement("free", condition=(0.1, -0.1)).place == (0.1, -0.1)
-    request = Arrangement("free", condition=(0.1, -0.1)).reset()
-    assert (request.variant, request.object_position, request.condition) == ("free", None, (0.1, -0.1))
-
-
-@pytest.mark.parametrize(
-    ("scene", "arrangement", "miss"),
-    [
-        # 0.3 m from the end, on a line along which the ellipsoid ends at a third of it.
-        (DISHWASHER, Arrangement("b2", (0.0, 0.3, 0.0)), 0.2),
-        # Three tolerances from a via-point, of which the ring takes one.
-        (PARTICLE, Arrangement("free", condition=(0.1, 0.1)), 2.0 * PARTICLE.tolerance),
-    ],
-)
-def test_a_miss_is_counted_from_where_the_target_would_have_been_reached(scene, arrangement, miss):
-    motion = motion_to_wire(STILL.positions, STILL.orientations, STILL.duration)
-    verdict = Verdict(reached=False, kicked_over=False, collision=False, ellipsoid_value=9.0)
-    result = EpisodeResult(
-        episode=1,
-        request=1,
-        mode=Mode.AUTONOMOUS,
-        completed=True,
-        reason="",
-        prediction=motion,
-        refined=motion,
-        commanded=motion,
-        measured=motion,
-        verdict=verdict,
-        operator_input=False,
-        clamped=0,
-        held=0.0,
-        duration=1.0,
-    )
-    assert Attempt.of(result, 1, scene, arrangement).miss == pytest.approx(miss)
-
-
-@pytest.mark.sim
-def test_a_via_point_is_refined_learnt_and_then_succeeds_again():
-    """Algorithm 1 with the particle, whose condition nobody has to look for."""
-    arrangement = Arrangement("obstacle", condition=(0.1, -0.05))
-    demonstrations = tuple(lesson(PARTICLE))
-    rehearsed = rehearse(Plan("particle", "adaptive", demonstrations, (arrangement,), (arrangement,)))
-    (taught,), (again,) = rehearsed.first, rehearsed.second
-    assert taught.needed_refinement
-    assert "particle hit block" in taught.attempts[0].failure
-    assert "missed by" in taught.attempts[0].failure
-    assert taught.success
-    assert again.success
-    for made in taught.attempts:
-        np.testing.assert_allclose(made.refined.positions[:, [0, 2]], made.prediction.positions[:, [0, 2]], atol=1e-3)
-
-
 @pytest.mark.sim
 def test_one_condition_is_refined_learnt_and_then_succeeds_again():
     """Algorithm 1 with the default model in the changed dishwasher; the second round finds it learnt."""
@@ -172,3 +118,15 @@ def test_one_condition_is_refined_learnt_and_then_succeeds_again():
     correction = taught.attempts[1].refined.positions - taught.attempts[1].prediction.positions
     assert 0.05 < np.max(np.linalg.norm(correction, axis=1)) < 0.3
     assert shares == [0.5, 1.0]
+
+
+@pytest.mark.sim
+def test_a_condition_of_the_scenes_own_is_taught_in_the_same_way():
+    """Via-points ten units away from those that the first demonstration passes."""
+    arrangement = Arrangement("free", condition=(0.1, 0.1))
+    rehearsed = rehearse(Plan("particle", "adaptive", tuple(first_demonstrations(PARTICLE)), (arrangement,)))
+    (taught,) = rehearsed.first
+    assert taught.attempts[0].miss == pytest.approx(0.09, abs=0.004)
+    assert taught.updates == 1
+    assert taught.success
+    assert taught.attempts[-1].miss == 0.0

@@ -185,11 +185,11 @@ def test_a_model_that_began_with_its_updates_has_no_stage_before_all_of_them(dat
 def test_what_becomes_of_a_condition_is_the_models_doing_where_a_motion_can_succeed():
     demonstrations = first_demonstrations(DISHWASHER)
     model = DEFAULT.fit(demonstrations)
-    far = (1.3, 0.07, HOME[2])
-    places = (Place(HOME), Place(HOME, (0.09, 0.04, 0.01)), Place(far))
-    trained = [one.trials[0] for one in conditions(Tried("dishwasher", "b1", (model,), places), jobs=1)]
-    assert [trial.outcome for trial in trained] == [R, U, U]
-    (changed,) = conditions(Tried("dishwasher", "b2", (model, model), (Place(HOME),)), jobs=1)
+    far, blocked = Place((1.3, 0.07, HOME[2])), Place(HOME, (0.09, 0.04, 0.01))
+    trained = conditions(Tried("dishwasher", "b1", (model,), (Place(HOME), far, blocked)), jobs=1)
+    assert [one.trials[0].outcome for one in trained] == [R, U, R]
+    changed, impossible = conditions(Tried("dishwasher", "b2", (model, model), (Place(HOME), blocked)), jobs=1)
+    assert [trial.outcome for trial in impossible.trials] == [U, U]
     assert changed.trials[0] == changed.trials[1]
     assert changed.trials[0].outcome is C
     robot, thing = changed.trials[0].touched

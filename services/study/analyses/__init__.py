@@ -10,14 +10,13 @@ from services.study.analyses.incremental import WELFORD
 from services.study.analyses.initial_poses import INITIAL_POSES
 from services.study.analyses.linear import LINEAR, LINEAR_3D_CONTEXT, LINEAR_3D_OUTPUT
 from services.study.analyses.next_waypoint import NEXT_WAYPOINT
-from services.study.analyses.obstacle import OBSTACLE
+from services.study.analyses.particle import OBSTACLE_2D, VIA_POINTS
 from services.study.analyses.planes import PLANES
 from services.study.analyses.shifted_start import SHIFTED_START
 from services.study.analyses.sine import SINE
 from services.study.analyses.slow_adaptation import SLOW_ADAPTATION
 from services.study.analyses.table import TABLE_OBJECTS
 from services.study.analyses.time_warping import TIME_WARPING
-from services.study.analyses.via_points import VIA_POINTS
 from services.study.analysis import Analysis
 
 ANALYSES: tuple[Analysis, ...] = (
@@ -27,7 +26,7 @@ ANALYSES: tuple[Analysis, ...] = (
     SINE,
     PLANES,
     VIA_POINTS,
-    OBSTACLE,
+    OBSTACLE_2D,
     TABLE_OBJECTS,
     DISHWASHER_BASKET,
     INITIAL_POSES,

@@ -8,34 +8,36 @@ from services.rehearsal.result import Arrangement
 from services.study import teaching
 from services.study.analysis import Analysis, Context, Finding
 from services.study.teaching import Question
+from services.study.teaching_figures import first_rounds, second_round
 from sim.scenes.dishwasher import DISHWASHER
 
 _NEEDED = 2  # of the thesis
 _CONDITIONS = 4
-_SHOWN = ((0.38, -0.16, 0.40), (0.98, 0.30, 0.82))  # [m]
+_PART = ((0.38, -0.16, 0.40), (0.98, 0.30, 0.82))  # [m] of space that is drawn
 
 
-def _question() -> Question:
+def question() -> Question:
+    """Of the analysis."""
     (x0, y0, z), (x1, y1, _) = DISHWASHER.region.lower, DISHWASHER.region.upper
     places = [((x0 + x1) / 2, float(y), z) for y in np.linspace(y0, y1, _CONDITIONS)]
     trained, changed = DISHWASHER.variants
     refined = tuple(Arrangement(changed, place) for place in places)
     demonstrated = tuple(Arrangement(trained, place) for place in (places[0], places[-1]))
-    return Question(DISHWASHER, demonstrated, refined, refined, _SHOWN)
+    return Question(DISHWASHER, demonstrated, refined, refined)
 
 
 def _dishwasher(context: Context) -> Finding:
-    question = _question()
-    answer = teaching.answered(question, context)
-    titles = [f"{i}: object at y = {one.place[1]:.2f} m" for i, one in enumerate(question.refined, 1)]
-    y0, y1 = (question.refined[i].place[1] for i in (0, -1))
+    asked = question()
+    answer = teaching.answered(asked, context)
+    titles = [f"{i}: object at y = {one.place[1]:.2f} m" for i, one in enumerate(asked.refined, 1)]
+    y0, y1 = (asked.refined[i].place[1] for i in (0, -1))
     return Finding(
         teaching.holds(answer, _NEEDED),
         teaching.sentence(answer, _NEEDED),
         teaching.rows(answer, _NEEDED),
         (
-            *teaching.first_rounds(answer, titles, "Predictions and refinements in basket position b2 (Fig. 23)"),
-            teaching.second_round(answer, "The same conditions once more (Fig. B.13), and the demonstrations (B.11)"),
+            *first_rounds(answer, _PART, titles, "Predictions and refinements in basket position b2 (Fig. 23)"),
+            second_round(answer, _PART, "The same conditions once more (Fig. B.13), and the demonstrations (B.11)."),
         ),
         (
             f"The object stands at four places across the basket, from y = {y0:.2f} to {y1:.2f} m: {y1 - y0:.2f} m, as"

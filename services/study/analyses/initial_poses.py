@@ -9,14 +9,15 @@ import numpy as np
 from services.study import teaching
 from services.study.analysis import Analysis, Context, Finding
 from services.study.teaching import Question
+from services.study.teaching_figures import first_rounds, second_round
 from sim.scenes.dishwasher import DISHWASHER
 
 _NEEDED = 2  # of the thesis
 _SPREAD = 0.10  # [m] of a start from the scene's own, along an axis
-_SHOWN = ((0.38, -0.16, 0.30), (0.98, 0.30, 0.82))  # [m]
+_PART = ((0.38, -0.16, 0.30), (0.98, 0.30, 0.82))  # [m] of space that is drawn
 
 
-def _question() -> Question:
+def question() -> Question:
     """The starts are the corners of an icosahedron: as even as twelve directions can be, each with its opposite."""
     golden = (1.0 + math.sqrt(5.0)) / 2.0
     rectangles = [np.roll([0.0, 1.0, golden], shift) for shift in range(3)]
@@ -30,15 +31,15 @@ def _question() -> Question:
         tuple(teaching.arrangement(DISHWASHER, DISHWASHER.variants[0], place, offset.tolist()) for offset in offsets)
         for offsets in (demonstrated, new)
     )
-    return Question(DISHWASHER, first, second, (*first, *second), _SHOWN)
+    return Question(DISHWASHER, first, second, (*first, *second))
 
 
 def _initial_poses(context: Context) -> Finding:
-    question = _question()
-    answer = teaching.answered(question, context)
+    asked = question()
+    answer = teaching.answered(asked, context)
     titles = [
         f"{i}: start at ({', '.join(f'{value:.2f}' for value in one.start.position)}) m"
-        for i, one in enumerate(question.refined, 1)
+        for i, one in enumerate(asked.refined, 1)
         if one.start is not None
     ]
     return Finding(
@@ -46,8 +47,8 @@ def _initial_poses(context: Context) -> Finding:
         teaching.sentence(answer, _NEEDED),
         teaching.rows(answer, _NEEDED),
         (
-            *teaching.first_rounds(answer, titles, "Predictions and refinements from new initial poses (Fig. 24)"),
-            teaching.second_round(answer, "All twelve once more (Fig. B.15-B.16), and the demonstrations (B.14)"),
+            *first_rounds(answer, _PART, titles, "Predictions and refinements from new initial poses (Fig. 24)"),
+            second_round(answer, _PART, "All twelve once more (Fig. B.15-B.16), and the demonstrations (B.14)."),
         ),
         (
             f"Twelve initial poses lie evenly around the scene's own, up to {_SPREAD:.2f} m away along each axis: the"
