@@ -152,9 +152,7 @@ def _error_figure(answer: Answer) -> Figure:
     tolerated = (PARTICLE.tolerance / Y_UNIT) ** 2
     axes.axhline(tolerated, color=TRUTH, linewidth=0.8, label="both via-points missed by the tolerance")
     axes.set(xlabel="condition", ylabel="mean squared error", yscale="log")
-    caption = (
-        "Equation (25) of the prediction for each condition, before it is refined, and once all are learnt."
-    )
+    caption = "Equation (25) of the prediction for each condition, before it is refined, and once all are learnt."
     return drawn(canvas, "error", caption)
 
 
@@ -162,14 +160,16 @@ def _first_rounds(answer: Answer, reference: str) -> list[Figure]:
     titles = [f"{number}: {_named(one)}" for number, one in enumerate(answer.question.refined, 1)]
     made = []
     for kind, model, rehearsed in zip(KINDS, MODELS, answer.of_kinds, strict=True):
-        canvas, panes = panels(titles, height=1.5, rows=-(-len(titles) // _COLUMNS))
+        canvas, panes = panels(titles, height=1.8, rows=-(-len(titles) // _COLUMNS))
         for axes, course in zip(panes, rehearsed.first, strict=True):
             _furnish(axes, course.arrangement.variant)
             _mark(axes, course.arrangement)
+            # A refinement that was learnt lies under the next prediction.
             for attempt in course.attempts:
                 if attempt.mode is Mode.REFINE:
-                    _draw(axes, attempt.refined, REFINEMENT_LINE, "refinement")
-                else:
+                    _draw(axes, attempt.refined, replace(REFINEMENT_LINE, linewidth=3.4), "refinement")
+            for attempt in course.attempts:
+                if attempt.mode is not Mode.REFINE:
                     _draw(axes, attempt.prediction, *prediction_line(kind, success=attempt.success))
         caption = f"Predictions and refinements, condition by condition ({reference}): {kind.label}."
         made.append(drawn(canvas, f"first-{model}", caption))
@@ -177,7 +177,7 @@ def _first_rounds(answer: Answer, reference: str) -> list[Figure]:
 
 
 def _second_round(answer: Answer, reference: str) -> Figure:
-    canvas, panes = panels([_named(one) for one in answer.question.executed], height=1.5, rows=_COLUMNS)
+    canvas, panes = panels([_named(one) for one in answer.question.executed], height=1.8, rows=_COLUMNS)
     for number, axes in enumerate(panes):
         _furnish(axes, answer.question.executed[number].variant)
         _mark(axes, answer.question.executed[number])
@@ -208,7 +208,7 @@ def _furnish(axes: Axes, variant: str) -> None:
         if box.group is not Group.DETAIL:
             centre, half = (np.array(v[:2]) / (X_UNIT, Y_UNIT) for v in (box.centre, box.half_sizes))
             axes.add_patch(Rectangle(tuple(centre - half), *(2.0 * half), color=OBSTACLE, alpha=0.35, lw=0.0))
-    axes.set(xlim=(-0.1, 4.1), ylim=(-24.0, 24.0), xlabel="x", ylabel="y")
+    axes.set(xlim=(-0.1, 4.1), ylim=(-24.0, 24.0), xticks=range(5), yticks=range(-20, 21, 10), xlabel="x", ylabel="y")
     axes.label_outer()
 
 
