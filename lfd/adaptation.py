@@ -109,8 +109,11 @@ class AdaptiveProMP:
             WrongShape: Its condition has another dimension than those before.
         """
         self._check(demonstration.condition)
-        place = self._regression.at(demonstration.condition)
-        return replace(self, corrections=self.corrections.added(place, self.encoding.encode(demonstration)))
+        return self.corrected(demonstration.condition, self.encoding.encode(demonstration))
+
+    def corrected(self, s: Array, x: Array) -> Self:
+        """The model that has also learnt that the vector x (D,) is right at the condition s (c,)."""
+        return replace(self, corrections=self.corrections.added(self._regression.at(s), x).tested())
 
     def undone(self) -> Self:
         """The model without its newest correction.
@@ -120,7 +123,7 @@ class AdaptiveProMP:
         """
         if not len(self.corrections):
             raise NothingToTakeBack
-        return replace(self, corrections=self.corrections.without(-1))
+        return replace(self, corrections=self.corrections.without(-1).tested())
 
     def predict(self, situation: Situation, n: int = PREDICTION_POINTS) -> Prediction:
         """See `MovementModel.predict`; the prediction begins exactly at the start pose."""

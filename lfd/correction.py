@@ -102,6 +102,31 @@ class Corrections:
         )
         return longer if len(longer) <= self.options.most else longer.without(int(np.argmax(longer._outdated)))
 
+    @property
+    def vectors(self) -> Array:
+        """x_j, what the corrections said, shape (J, D)."""
+        return self._first_vectors(len(self))
+
+    def _first_vectors(self, n: int) -> Array:
+        means = [self.regression.mean(s) for s in self.conditions[:n]]
+        return self.changes[:n] + np.array(means).reshape(-1, self.changes.shape[1])
+
+    def on(self, regression: Regression) -> Self:
+        """The same corrections of another regression."""
+        corrections = type(self).none(regression, self.options)
+        for s, x in zip(self.conditions, self.vectors, strict=True):
+            corrections = corrections.added(regression.at(s), x)
+        return corrections
+
+    def tested(self) -> Self:
+        """The same, their regression's trend tested by the oldest of them, where it cannot tell by itself."""
+        if self.regression.determined:
+            return self
+        if not len(self):
+            return self.on(replace(self.regression, tested_shrinkage=None))
+        regression = self.regression.tested(self.conditions[:_TESTS], self._first_vectors(_TESTS))
+        return self if regression is self.regression else self.on(regression)
+
     def without(self, index: int) -> Self:
         """Without the correction of that index; -1 is the newest."""
         kept = np.delete(np.arange(len(self)), index)
@@ -195,3 +220,6 @@ class Corrections:
     def _gain(self) -> Array:
         gain: Array = cho_solve(self._factor, self.changes)
         return gain
+
+
+_TESTS = 5  # corrections that a trend is tested by: later ones leave the demonstrations' account as it is

@@ -8,7 +8,7 @@ import json
 import os
 import tempfile
 import zipfile
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +18,7 @@ from lfd.adaptation import AdaptiveOptions, AdaptiveProMP
 from lfd.alignment import Selection
 from lfd.arrays import Array, frozen
 from lfd.basis import GaussianBasis
-from lfd.correction import CorrectionOptions, Corrections
+from lfd.correction import CorrectionOptions
 from lfd.encoding import Encoding
 from lfd.exceptions import LfdError, StorageError
 from lfd.gaussian import JointGaussian
@@ -92,7 +92,7 @@ def _taught(model: AdaptiveProMP) -> dict[str, Array]:
         "conditions": regression.conditions,
         "vectors": regression.vectors,
         "corrected_conditions": corrections.conditions,
-        "changes": corrections.changes,
+        "corrected_vectors": corrections.vectors,
     }
 
 
@@ -109,11 +109,9 @@ def _adaptive(header: dict[str, Any], arrays: dict[str, Array]) -> AdaptiveProMP
     )
     encoding = Encoding(options.basis, options.samples, arrays["rotation"], anchored=True)
     model = AdaptiveProMP.of_vectors(encoding, arrays["conditions"], arrays["vectors"], header["extent"], options)
-    corrections: Corrections = model.corrections
-    for s, change in zip(arrays["corrected_conditions"], arrays["changes"], strict=True):
-        place = corrections.regression.at(s)
-        corrections = corrections.added(place, place.mean + change)
-    return replace(model, corrections=corrections)
+    for s, x in zip(arrays["corrected_conditions"], arrays["corrected_vectors"], strict=True):
+        model = model.corrected(s, x)
+    return model
 
 
 def _promp(header: dict[str, Any], arrays: dict[str, Array]) -> ConditionedProMP:

@@ -1,7 +1,11 @@
 """What demonstrations say: their vectors as a function of the condition, shrunk as far as they ask for it."""
 
-from dataclasses import dataclass
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,6 +78,7 @@ class Regression:
         measure: Linear map from vectors to numbers whose sum of squares is what counts as the error, shape (D, P).
         extent: E, the length that the options' fractions are of, in units of the condition, positive.
         options: Parameters.
+        tested_shrinkage: q as tested elsewhere, for demonstrations that cannot tell; see `tested`.
     """
 
     conditions: Array
@@ -81,6 +86,7 @@ class Regression:
     measure: Array
     extent: float
     options: RegressionOptions
+    tested_shrinkage: float | None = None
 
     def at(self, s: Array) -> Place:
         """What the demonstrations say about a condition, shape (c,)."""
@@ -130,11 +136,47 @@ class Regression:
         groups = group_by_condition(self.conditions, self.options.same * self.extent)
         return [np.array(group, dtype=np.intp) for group in groups]
 
-    @cached_property
-    def shrinkage(self) -> float:
-        """q: the squared error of an unshrunk trend at left-out conditions, relative to that of their mean, 0 to 1.
+    @property
+    def determined(self) -> bool:
+        """Whether the demonstrations can tell by themselves how far their trend is to be trusted."""
+        return self._left_out_ratio is not None
 
-        A condition whose loss leaves the trend undetermined says nothing about it.
+    @property
+    def shrinkage(self) -> float:
+        """q, from 0 for a trend that is trusted to 1 for one that is shrunk most."""
+        if self._left_out_ratio is not None:
+            return self._left_out_ratio
+        return self.options.undetermined if self.tested_shrinkage is None else self.tested_shrinkage
+
+    def tested(self, conditions: Array, vectors: Array) -> Self:
+        """The same, with its trend tested at conditions (J, c) where vectors (J, D) were right.
+
+        A test speaks only in the trend's favour: where it fails, the world may have changed. It has passed if it
+        predicts a quarter of what is measured. Demonstrations that can tell by themselves do not listen.
+
+        Args:
+            conditions: At least one.
+            vectors: Right there.
+        """
+        about_mean = vectors - self._centre[1]
+        about_trend = about_mean - self._unshrunk(self._moments, conditions - self._centre[0])
+        errors, totals = (np.sum((x @ self.measure) ** 2, axis=0) for x in (about_trend, about_mean))
+        counted = totals > _NEGLIGIBLE * totals.max()
+        passed = float(np.quantile(errors[counted] / totals[counted], 0.25)) if counted.any() else 1.0
+        shrinkage = min(passed, self.options.undetermined)
+        known = self.tested_shrinkage is not None and math.isclose(self.tested_shrinkage, shrinkage, abs_tol=1e-9)
+        return self if known else replace(self, tested_shrinkage=shrinkage)
+
+    def _unshrunk(self, moments: _Moments, away: Array) -> Array:
+        """What a trend without shrinkage adds to its mean at distances (m, c) from the mean condition, shape (m, D)."""
+        directions, values = self._directions(moments)
+        return np.asarray(away @ directions / values @ directions.T @ moments.cross, dtype=np.float64)
+
+    @cached_property
+    def _left_out_ratio(self) -> float | None:
+        """The squared error of an unshrunk trend at left-out conditions, relative to that of their mean, 0 to 1.
+
+        A condition whose loss leaves the trend undetermined says nothing about it; None where that is so of all.
         """
         if len(self.groups) < 2:
             return 1.0
@@ -142,15 +184,13 @@ class Regression:
         error = total = 0.0
         for group in self.groups:
             rest = self._moments.without(self._deviations[group], self._departures[group])
-            directions, values = self._directions(rest)
-            if len(values) < dimensions:
+            if len(self._directions(rest)[1]) < dimensions:
                 continue
             about_mean = self._departures[group] - rest.mean
-            away = (self._deviations[group] - rest.s_mean) @ directions
-            about_trend = about_mean - away / values @ directions.T @ rest.cross
+            about_trend = about_mean - self._unshrunk(rest, self._deviations[group] - rest.s_mean)
             error += float(np.sum((about_trend @ self.measure) ** 2))
             total += float(np.sum((about_mean @ self.measure) ** 2))
-        return min(error / total, 1.0) if total > 0.0 else self.options.undetermined
+        return min(error / total, 1.0) if total > 0.0 else None
 
     @cached_property
     def left_out(self) -> tuple[Array, Array]:
@@ -192,17 +232,17 @@ class Regression:
         return self.vectors - self._centre[1]
 
     @cached_property
-    def _moments(self) -> "_Moments":
+    def _moments(self) -> _Moments:
         S, X = self._deviations, self._departures
         return _Moments(len(S), np.zeros(S.shape[1]), np.zeros(X.shape[1]), S.T @ S, S.T @ X)
 
-    def _directions(self, moments: "_Moments") -> tuple[Array, Array]:
+    def _directions(self, moments: _Moments) -> tuple[Array, Array]:
         """The directions in which conditions differ by more than `same`, shape (c, r), and their scatter (r,)."""
         values, axes = np.linalg.eigh(moments.scatter)
         differs = values > moments.count * (self.options.same * self.extent) ** 2
         return axes[:, differs], values[differs]
 
-    def _ridge(self, moments: "_Moments") -> tuple[Array, Array]:
+    def _ridge(self, moments: _Moments) -> tuple[Array, Array]:
         """Slope (c, D) of a trend through the mean, and its variance relative to that of a motion (c, c)."""
         q, scatter, count = self.shrinkage, moments.scatter, moments.count
         total, squared = float(np.trace(scatter)), float(np.sum(scatter**2))
@@ -256,7 +296,7 @@ class _Moments:
     scatter: Array
     cross: Array
 
-    def without(self, S: Array, X: Array) -> "_Moments":
+    def without(self, S: Array, X: Array) -> _Moments:
         """The same for what is left when conditions (m, c) and vectors (m, D) are taken away, at least one staying."""
         left = self.count - len(S)
         s_mean = (self.count * self.s_mean - S.sum(axis=0)) / left
@@ -270,3 +310,4 @@ class _Moments:
 
 
 _RANK_TOLERANCE = 1e-12
+_NEGLIGIBLE = 1e-3  # of the largest

@@ -60,7 +60,7 @@ def test_left_out_errors_are_those_of_a_regression_that_has_not_seen_the_conditi
     for group in whole.groups:
         rest = np.setdiff1d(np.arange(8), group)
         anew = regression(conditions[rest], vectors[rest])
-        anew.__dict__["shrinkage"], anew.__dict__["length"] = whole.shrinkage, whole.length
+        anew.__dict__["_left_out_ratio"], anew.__dict__["length"] = whole.shrinkage, whole.length
         for i in group:
             np.testing.assert_allclose(errors[i], vectors[i] - anew.mean(conditions[i]), atol=1e-9)
             assert variances[i] == pytest.approx(anew.uncertainty(anew.at(conditions[i])), rel=1e-6)
@@ -82,3 +82,29 @@ def test_uncertainty_grows_away_from_the_conditions(rng):
     fitted = regression(rng.uniform(-0.1, 0.1, size=(6, 2)), rng.normal(size=(6, 3)))
     away = [np.array([x, 0.0]) for x in (0.1, 0.3, 0.6, 1.0, 3.0)]
     assert (np.diff([fitted.uncertainty(fitted.at(s)) for s in away]) > 0.0).all()
+
+
+def test_a_trend_that_cannot_be_judged_is_believed_once_corrections_agree_with_it(rng):
+    """Three points in the plane determine a trend and leave nothing over to judge it by."""
+    slope, conditions = rng.normal(size=(2, 8)), np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    fitted = regression(conditions, conditions @ slope)
+    assert (fitted.determined, fitted.shrinkage) == (False, OPTIONS.undetermined)
+    elsewhere = np.array([[-1.0, 0.5]])
+    right = elsewhere @ slope
+    changed = right + np.array([3.0] * 4 + [0.0] * 4)
+    for tested in (fitted.tested(elsewhere, right), fitted.tested(elsewhere, changed)):
+        assert tested.shrinkage < 1e-12
+        np.testing.assert_allclose(tested.mean(np.array([2.0, -3.0])), np.array([2.0, -3.0]) @ slope, atol=1e-9)
+
+
+def test_a_trend_that_fails_a_test_is_shrunk_no_more_than_before(rng):
+    conditions = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    fitted = regression(conditions, conditions @ rng.normal(size=(2, 8)))
+    assert fitted.tested(np.array([[-1.0, 0.5]]), 9.0 * rng.normal(size=(1, 8))).shrinkage == OPTIONS.undetermined
+
+
+def test_demonstrations_that_can_tell_do_not_listen_to_a_test(rng):
+    fitted = regression(rng.normal(size=(9, 2)), rng.normal(size=(9, 4)))
+    assert fitted.determined
+    tested = fitted.tested(np.array([[0.3, 0.3]]), np.zeros((1, 4)))
+    assert tested.shrinkage == fitted.shrinkage
