@@ -54,7 +54,7 @@ def test_every_way_moves_along_x_at_a_constant_speed_and_passes_through_both_via
         fine = line(variant, condition)
         np.testing.assert_allclose(np.interp([2.0 * X_UNIT, 3.6 * X_UNIT], *fine.T[:2]), condition, atol=1e-6)
         slopes = np.diff(way[:, 1]) / np.diff(way[:, 0])
-        assert np.abs(np.diff(slopes)).max() < 1.0, "no kink"
+        assert np.abs(np.diff(slopes)).max() <= 0.5 * np.abs(slopes).max(), "no kink"
 
 
 def test_the_lower_left_corner_of_the_obstacle_is_at_half_a_unit() -> None:
@@ -135,5 +135,5 @@ def test_via_points_and_obstacle_are_drawn_where_the_state_says(description: Rob
         assert np.any(before != moved)
         cameras.show(OBSTACLE)
         blocked = cameras.render("head", np.zeros(5))
-        assert np.mean(np.any(blocked != before, axis=2)) > 0.01
+        assert np.mean(np.any(blocked != before, axis=2)) > 0.005
         assert cameras.render("wrist", np.zeros(5)).std() > 5.0
