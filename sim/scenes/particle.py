@@ -10,8 +10,7 @@ thesis' normalised master position p = d / 0.1 m this is y = 10 p in its units, 
 Variant free has nothing in the way; obstacle has a block whose lower left corner is at x = 0.5 (Fig. 13). The thesis
 does not give its size. This one lies in every way that was taught without it for a condition within +-20, those of
 Fig. B.3 among them, and leaves room above it for a way to every such condition: one way for all, so that it can be
-learnt. That way keeps 0.05 m from it, which is wide: with half as much, models that were
-refined at +-10 only run into it at -20.
+learnt.
 """
 
 import math
@@ -28,8 +27,8 @@ X_UNIT, Y_UNIT = 0.1, 0.01  # [m] of the thesis' axes
 _FREE, _OBSTACLE = "free", "obstacle"
 _END = 4.0 * X_UNIT
 _VIA_X = (2.0 * X_UNIT, 3.6 * X_UNIT)
-_BLOCK = ((0.5 * X_UNIT, -6.0 * Y_UNIT), (0.8 * X_UNIT, 2.5 * Y_UNIT))  # [m] lower left and upper right corner
-_PASSAGE = ((0.42 * X_UNIT, 8.0 * Y_UNIT), (0.9 * X_UNIT, 8.0 * Y_UNIT))  # [m] well above the block, see the module
+_BLOCK = ((0.5 * X_UNIT, -6.0 * Y_UNIT), (0.9 * X_UNIT, 2.5 * Y_UNIT))  # [m] lower left and upper right corner
+_PASSAGE = ((0.42 * X_UNIT, 5.5 * Y_UNIT), (1.0 * X_UNIT, 5.5 * Y_UNIT))  # [m] as far above the block as people keep
 _BOARD_Z = -0.006  # [m] of the board that the particle rolls on
 _WAY_POINTS = 81
 _RING_SEGMENTS = 20
