@@ -45,7 +45,8 @@ def answer(conditioned, adaptive, second=(WELL, WELL)):
     [
         ((CORRECTED, WELL), (WELL, WELL), Holds.YES),
         ((CORRECTED, CORRECTED), (WELL, WELL), Holds.DIFFERS),
-        ((WELL, WELL), (WELL, FAILED), Holds.NO),
+        ((WELL, WELL), (WELL, FAILED), Holds.DIFFERS),
+        ((CORRECTED, CORRECTED), (WELL, FAILED), Holds.NO),
     ],
 )
 def test_the_claim_holds_where_few_are_refined_and_all_succeed_again(first, second, holds):
