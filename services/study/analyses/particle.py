@@ -37,9 +37,9 @@ _SQUARES = tuple(s for a in (20.0, 5.0) for s in product((-a, 0.0, a), repeat=2)
 
 _ABOUT_THE_OBSTACLE = (
     "The thesis gives the obstacle's left edge only. Here it reaches from x = 0.5 to 0.8 and up to y = 2.5, and the"
-    " operator leads the particle over it at y = 8 whatever the condition. The higher that is, the fewer refinements are"
-    " needed: at y = 5.5, over an obstacle to x = 0.9, it was six of nine with the thesis' method and three with the"
-    " default model."
+    " operator leads the particle over it at y = 8 whatever the condition. The higher that is, the fewer refinements"
+    " are needed: at y = 5.5, over an obstacle to x = 0.9, it was six of nine with the thesis' method and three with"
+    " the default model."
 )
 
 
