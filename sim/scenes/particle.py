@@ -10,8 +10,7 @@ thesis' normalised master position p = d / 0.1 m this is y = 10 p in its units, 
 Variant free has nothing in the way; obstacle has a block whose lower left corner is at x = 0.5 (Fig. 13). The thesis
 does not give its size. This one lies in every way that was taught without it for a condition within +-20, those of
 Fig. B.3 among them, and leaves room above it for a way to every such condition: one way for all, so that it can be
-learnt. That way keeps 0.05 m from it, an exaggeration in the thesis' sense: the larger it is, the fewer refinements
-are needed.
+learnt. That way keeps 0.05 m from it, which is wide: the wider it is, the fewer refinements are needed.
 """
 
 import math

@@ -13,6 +13,7 @@ from sim.scenes.dishwasher import DISHWASHER
 
 _NEEDED = 2  # of the thesis
 _CONDITIONS = 4
+_ORDER = (1, 2, 0, 3)  # of the conditions across the basket: from the middle outwards
 _PART = ((0.38, -0.16, 0.40), (0.98, 0.30, 0.82))  # [m] of space that is drawn
 
 
@@ -21,7 +22,7 @@ def question() -> Question:
     (x0, y0, z), (x1, y1, _) = DISHWASHER.region.lower, DISHWASHER.region.upper
     places = [((x0 + x1) / 2, float(y), z) for y in np.linspace(y0, y1, _CONDITIONS)]
     trained, changed = DISHWASHER.variants
-    refined = tuple(Arrangement(changed, place) for place in places)
+    refined = tuple(Arrangement(changed, places[i]) for i in _ORDER)
     demonstrated = tuple(Arrangement(trained, place) for place in (places[0], places[-1]))
     return Question(DISHWASHER, demonstrated, refined, refined)
 
@@ -30,7 +31,8 @@ def _dishwasher(context: Context) -> Finding:
     asked = question()
     answer = teaching.answered(asked, context)
     titles = [f"{i}: object at y = {one.place[1]:.2f} m" for i, one in enumerate(asked.refined, 1)]
-    y0, y1 = (asked.refined[i].place[1] for i in (0, -1))
+    across = [one.place[1] for one in asked.refined]
+    y0, y1, reach = min(across), max(across), max(abs(y - across[0]) for y in across)
     return Finding(
         teaching.holds(answer, _NEEDED),
         teaching.sentence(answer, _NEEDED),
@@ -41,7 +43,9 @@ def _dishwasher(context: Context) -> Finding:
         ),
         (
             f"The object stands at four places across the basket, from y = {y0:.2f} to {y1:.2f} m: {y1 - y0:.2f} m, as"
-            " in the thesis. The motions to the outer two were demonstrated in basket position b1.",
+            " in the thesis. The motions to the outer two were demonstrated in basket position b1. The thesis does not"
+            " tell the order of its conditions; here it is from the middle outwards, so that the first correction has to"
+            f" carry over {reach:.2f} m, not over all {y1 - y0:.2f} m.",
             *teaching.notes(answer),
         ),
     )
