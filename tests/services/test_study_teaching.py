@@ -83,7 +83,7 @@ def test_the_baskets_outer_places_are_demonstrated_and_all_four_refined():
     assert [one.variant for one in (*asked.demonstrated, *asked.refined)] == ["b1"] * 2 + ["b2"] * 4
     places = [one.object_position for one in asked.refined]
     assert [one.object_position for one in asked.demonstrated] == [places[0], places[-1]]
-    assert places[-1][1] - places[0][1] == pytest.approx(0.3)
+    assert places[0][1] - places[-1][1] == pytest.approx(0.3)  # in the order of Fig. 23
 
 
 def test_the_tables_three_and_six_places_are_one_grid():
