@@ -4,8 +4,8 @@ The change at s, given the changes y_j that the corrections made at s_j, is C(s,
 
 1. What the demonstrations left open: how uncertain their mean and trend are, and the room between their conditions.
    A correction that this explains says nothing new about places where the demonstrations are sure.
-2. Where the corrections are larger than that, the world has changed: a part as large as the surprise, and as wide as
-   the motion is long.
+2. Where the corrections are larger than that, the world has changed: a part as large as the surprise, and a few times
+   as wide as the motion is long.
 
 So a correction acts near its condition and, smoothly, less with distance; it acts wider the more it surprises.
 """
