@@ -132,7 +132,7 @@ def test_keys_of_the_live_view_count_and_those_of_strangers_do_not(tab, station,
     page, feed = station
     feed.view = replace(feed.view, recording=Recording(path="a.rrd", viewer_url=viewer, recording_id="first"))
     frame = tab.page.wait_for_selector("iframe.viewer").content_frame()
-    assert urlsplit(frame.url).hostname == "localhost"
+    frame.wait_for_url(lambda url: urlsplit(url).hostname == "localhost")
     tab.page.evaluate("window.postMessage({kind: 'key', code: 'KeyW', down: true}, '*')")
     frame.wait_for_load_state()
     frame.evaluate("document.dispatchEvent(new KeyboardEvent('keydown', {code: 'KeyD'}))")
