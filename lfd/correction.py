@@ -70,6 +70,8 @@ class Corrections:
         changes: y_j = x_j - m(s_j), where m is the regression's mean, shape (J, D).
         solved: (K + r I)^-1 k(s_j, S), of the demonstrations' kernel K, shape (J, M).
         openness: Part 1 of C between the corrections, shape (J, J).
+        middle: Mean condition of the demonstrations, shape (c,).
+        slope_covariance: Of each output's slope there, as the demonstrations left it, shape (c, c).
     """
 
     regression: Regression
@@ -78,14 +80,25 @@ class Corrections:
     changes: Array
     solved: Array
     openness: Array
+    middle: Array
+    slope_covariance: Array
 
     @classmethod
     def none(cls, regression: Regression, options: CorrectionOptions) -> Self:
         """No correction yet."""
         M, c = regression.conditions.shape
         D = regression.vectors.shape[1]
-        shapes = ((0, c), (0, D), (0, M), (0, 0))
-        return cls(regression, options, *(np.zeros(shape) for shape in shapes))
+        middle = regression.conditions.mean(axis=0)
+        return cls(
+            regression,
+            options,
+            conditions=np.zeros((0, c)),
+            changes=np.zeros((0, D)),
+            solved=np.zeros((0, M)),
+            openness=np.zeros((0, 0)),
+            middle=middle,
+            slope_covariance=_slope_covariance(regression.conditions - middle, options, regression.extent),
+        )
 
     def __len__(self) -> int:
         return len(self.conditions)
@@ -164,12 +177,12 @@ class Corrections:
     def _open(self, place: Place) -> Array:
         """Part 1 of C between a place and the corrections, shape (J,)."""
         near = self.regression.kernel(place.s[None], self.conditions)[0] - self.solved @ place.nearness
-        slopes = (self.conditions - self._middle) @ (self._slope_covariance @ (place.s - self._middle))
+        slopes = (self.conditions - self.middle) @ (self.slope_covariance @ (place.s - self.middle))
         return np.asarray(self._mean_variance + slopes + self._near_variance * near, dtype=np.float64)
 
     def _open_at(self, place: Place) -> float:
-        away = place.s - self._middle
-        slope = float(away @ self._slope_covariance @ away)
+        away = place.s - self.middle
+        slope = float(away @ self.slope_covariance @ away)
         return self._mean_variance + slope + self._near_variance * place.unexplained
 
     @cached_property
@@ -191,19 +204,6 @@ class Corrections:
         return wide
 
     @cached_property
-    def _middle(self) -> Array:
-        return np.asarray(self.regression.conditions.mean(axis=0), dtype=np.float64)
-
-    @cached_property
-    def _slope_covariance(self) -> Array:
-        """Of each output's slope, given demonstrations of `mean_std` and before them `slope_std`, shape (c, c)."""
-        variance = (self.options.mean_std * self.regression.extent) ** 2
-        deviations = self.regression.conditions - self._middle
-        values, axes = np.linalg.eigh(deviations.T @ deviations)
-        prior = self.options.slope_std**2
-        return np.asarray(axes * (prior * variance / (prior * np.maximum(values, 0.0) + variance)) @ axes.T)
-
-    @cached_property
     def _outdated(self) -> Array:
         """How many newer corrections lie at the condition of each, fading with distance, shape (J,)."""
         newer: Array = np.triu(self.regression.kernel(self.conditions, self.conditions) ** 4, k=1)
@@ -220,6 +220,13 @@ class Corrections:
     def _gain(self) -> Array:
         gain: Array = cho_solve(self._factor, self.changes)
         return gain
+
+
+def _slope_covariance(deviations: Array, options: CorrectionOptions, extent: float) -> Array:
+    """Given demonstrations of `mean_std` whose conditions deviate so (M, c), and before them `slope_std`."""
+    variance, prior = (options.mean_std * extent) ** 2, options.slope_std**2
+    values, axes = np.linalg.eigh(deviations.T @ deviations)
+    return np.asarray(axes * (prior * variance / (prior * np.maximum(values, 0.0) + variance)) @ axes.T)
 
 
 _TESTS = 5  # corrections that a trend is tested by: later ones leave the demonstrations' account as it is
