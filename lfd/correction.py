@@ -37,10 +37,10 @@ class CorrectionOptions:
         most: Corrections kept; beyond it the most outdated is forgotten.
     """
 
-    noise: float = 0.01
+    noise: float = 0.003
     forgetting: float = 2.0
     mean_std: float = 0.02
-    near_std: float = 0.03
+    near_std: float = 0.003
     slope_std: float = 1.0
     reach: float = 2.5
     most: int = 200
