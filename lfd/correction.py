@@ -165,14 +165,17 @@ class Corrections:
         """Mean square by which the corrections exceed what the demonstrations left open; the measure's unit squared."""
         if not len(self):
             return 0.0
-        squares = np.sum((self.changes @ self.regression.measure) ** 2, axis=1)
-        return max(float(np.mean(squares - np.diag(self.openness))), 0.0)
+        return max(float(np.mean(self._squares - np.diag(self.openness))), 0.0)
 
     @cached_property
     def surprising_share(self) -> float:
         """The share of the corrections' mean square that was a surprise."""
-        squares = np.sum((self.changes @ self.regression.measure) ** 2, axis=1)
-        return self.surprise / float(np.mean(squares)) if self.surprise > 0.0 else 0.0
+        return self.surprise / float(np.mean(self._squares)) if self.surprise > 0.0 else 0.0
+
+    @cached_property
+    def _squares(self) -> Array:
+        """Mean squares of the changes, in the measure's unit squared, shape (J,)."""
+        return np.asarray(np.sum((self.changes @ self.regression.measure) ** 2, axis=1), dtype=np.float64)
 
     def _open(self, place: Place) -> Array:
         """Part 1 of C between a place and the corrections, shape (J,)."""
@@ -196,8 +199,8 @@ class Corrections:
     def _wide(self, s: Array) -> Array:
         """Part 2 of C between s (m, c) and the corrections, at one unit of surprise, shape (m, J).
 
-        The Matern kernel of order 3/2: smooth, but not so smooth that two corrections against each other, side by side,
-        would be taken for a slope and overshoot beyond them.
+        The Matern kernel of order 3/2: smooth enough to carry a trend of the corrections on, and less smooth than a
+        Gaussian, which carries the slope between two corrections against each other on still further.
         """
         distances = np.sqrt(3.0) * cdist(s, self.conditions) / (self.options.reach * self.regression.extent)
         wide: Array = (1.0 + distances) * np.exp(-distances)
