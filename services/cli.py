@@ -17,10 +17,10 @@ from protocol.exceptions import ProtocolError
 from protocol.messages import Vector3
 from protocol.table import query_table, topic_table
 from protocol.topics import checked_name
-from services.child import EXIT_BAD_INPUT
-from services.config import Configuration, RobotSection, Scripted, load
-from services.exceptions import CommandFailed, RoomMissing, ServiceError
-from services.processes import PROCESS_NAMES, PROCESSES, process
+from services.commands.up.child import EXIT_BAD_INPUT
+from services.process.config import Configuration, RobotSection, Scripted, load
+from services.process.exceptions import CommandFailed, RoomMissing, ServiceError
+from services.process.processes import PROCESS_NAMES, PROCESSES, process
 from sim.exceptions import SimError
 
 log = logging.getLogger(__name__)
@@ -153,7 +153,7 @@ def _add_scene(command: _Parser) -> None:
 
 def _about_scenes() -> str:
     # Imported here: only who asks for help waits until the scenes are loaded.
-    from sim.scenes import SCENES  # noqa: PLC0415
+    from sim.tasks import SCENES  # noqa: PLC0415
 
     return "scenes: " + "; ".join(f"{name} ({', '.join(scene.variants)})" for name, scene in SCENES.items())
 
@@ -304,7 +304,7 @@ def configuration(arguments: argparse.Namespace) -> Configuration:
         station = msgspec.structs.replace(station, variant=arguments.variant)
     result = msgspec.structs.replace(result, station=station, **changes)
     if result.station.variant:
-        from sim.scenes import scene  # noqa: PLC0415
+        from sim.tasks import scene  # noqa: PLC0415
 
         scene(result.robot.scene).check(result.station.variant)
     checked_name(result.name)
@@ -346,34 +346,34 @@ def _dispatch(arguments: argparse.Namespace) -> int:
         return alone(arguments)
     settings = configuration(arguments)
     if arguments.supervised is not None:
-        from services.worker import die_with_parent  # noqa: PLC0415
+        from services.process.worker import die_with_parent  # noqa: PLC0415
 
         die_with_parent(arguments.supervised)
     match arguments.command:
         case "up":
-            from services.launch import Launch, launch  # noqa: PLC0415
+            from services.commands.up.launch import Launch, launch  # noqa: PLC0415
 
             return launch(settings, Launch.from_arguments(arguments))
         case "router":
-            from services.router import run_router  # noqa: PLC0415
+            from services.commands.router import run_router  # noqa: PLC0415
 
             run_router(settings, arguments.connect)
         case "teach":
             _teach(settings, arguments)
         case "echo":
-            from services.echo import echo  # noqa: PLC0415
+            from services.commands.echo import echo  # noqa: PLC0415
 
             echo(settings.connect, arguments.key, arguments.count)
         case "top":
-            from services.top import top  # noqa: PLC0415
+            from services.commands.top import top  # noqa: PLC0415
 
             top(settings.connect, once=arguments.once)
         case "stop":
-            from services.stop import release, stop  # noqa: PLC0415
+            from services.commands.stop import release, stop  # noqa: PLC0415
 
             (release if arguments.release else stop)(settings)
         case name:
-            from services.worker import run_process  # noqa: PLC0415
+            from services.process.worker import run_process  # noqa: PLC0415
 
             run_process(process(name), settings)
     return 0
@@ -392,7 +392,7 @@ def _replay(arguments: argparse.Namespace) -> int:
 
 
 def _prepare(_: argparse.Namespace) -> int:
-    from services.teach import prepare_all  # noqa: PLC0415
+    from services.commands.teach import prepare_all  # noqa: PLC0415
 
     prepare_all()
     return 0
@@ -400,7 +400,7 @@ def _prepare(_: argparse.Namespace) -> int:
 
 def _reproduce(arguments: argparse.Namespace) -> int:
     try:
-        from services.study.command import Request, reproduce, show_list  # noqa: PLC0415
+        from services.commands.reproduce import Request, reproduce, show_list  # noqa: PLC0415
     except ModuleNotFoundError as error:
         raise RoomMissing("study", error.name or "?") from None
     if arguments.list:
@@ -411,7 +411,7 @@ def _reproduce(arguments: argparse.Namespace) -> int:
 
 def _map(arguments: argparse.Namespace) -> int:
     try:
-        from services.study.map_command import Request, draw_map  # noqa: PLC0415
+        from services.commands.map import Request, draw_map  # noqa: PLC0415
     except ModuleNotFoundError as error:
         raise RoomMissing("study", error.name or "?") from None
     draw_map(Request.from_arguments(arguments))
@@ -428,7 +428,7 @@ _WITHOUT_NETWORK: dict[str, Callable[[argparse.Namespace], int]] = {
 
 
 def _teach(settings: Configuration, arguments: argparse.Namespace) -> None:
-    from services.teach import teach, teach_waypoints  # noqa: PLC0415
+    from services.commands.teach import teach, teach_waypoints  # noqa: PLC0415
 
     given = [flag for flag in ("waypoints", "object", "duration") if getattr(arguments, flag) is not None]
     if not given:

@@ -12,10 +12,10 @@ from pathlib import Path
 
 import numpy as np
 
-from lfd.demonstration import Demonstration
 from lfd.exceptions import LfdError
-from lfd.resampling import from_samples
-from lfd.trajectory import Trajectory
+from lfd.motion.demonstration import Demonstration
+from lfd.motion.resampling import from_samples
+from lfd.motion.trajectory import Trajectory
 
 FOLDER = Path(__file__).resolve().parents[2] / "shared" / "data"
 

@@ -14,17 +14,17 @@ import numpy as np
 
 from protocol.messages import CameraImage, Figure, Pose, SceneState, WorldState
 from protocol.topics import HEAD_IMAGE, SCENE_STATE, WORLD_STATE, WRIST_IMAGE, Topic
-from services.arrays import Floats, NotFinite, from_wire, quaternion, vector3
-from services.bus import Bus
-from services.clock import Clock
-from services.config import CameraSection, Configuration
-from services.runner import Service
-from sim.cameras import Cameras
-from sim.description import prepare
-from sim.drawing import Image
+from services.bus.arrays import Floats, NotFinite, from_wire, quaternion, vector3
+from services.bus.bus import Bus
+from services.process.clock import Clock
+from services.process.config import CameraSection, Configuration
+from services.process.runner import Service
 from sim.exceptions import UnknownScene, UnknownVariant
-from sim.scenes import scene
-from sim.staging import HEAD_CAMERA, WRIST_CAMERA
+from sim.robots.description import prepare
+from sim.tasks import scene
+from sim.world.cameras import Cameras
+from sim.world.drawing import Image
+from sim.world.staging import HEAD_CAMERA, WRIST_CAMERA
 
 log = logging.getLogger(__name__)
 

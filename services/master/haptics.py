@@ -11,9 +11,9 @@ import numpy as np
 
 from lfd import haptics
 from protocol.messages import Figure, Vector3
-from services.clock import Clock
-from services.runner import TickStatistics
-from sim.stylus import RATE_HZ, Stylus, StylusState
+from services.process.clock import Clock
+from services.process.runner import TickStatistics
+from sim.person.stylus import RATE_HZ, Stylus, StylusState
 
 _PERIOD_NS = round(1e9 / RATE_HZ)
 _CAUGHT_UP = 100

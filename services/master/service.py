@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from protocol.messages import Figure, MasterState
 from protocol.topics import AUTHORITY_STATE, MASTER_STATE, OPERATOR_INPUT, ROBOT_STATE
-from services.bus import Bus
-from services.clock import Clock
-from services.config import Configuration, Keyboard, Scripted
-from services.master.device import Device, Moment
-from services.master.keyboard import KeyboardMaster
+from services.bus.bus import Bus
+from services.master.devices.device import Device, Moment
+from services.master.devices.keyboard import KeyboardMaster
+from services.process.clock import Clock
+from services.process.config import Configuration, Keyboard, Scripted
 
 _LONGEST_STEP_S = 0.1
 """A process that was stopped for longer does not make up for it: nobody held a key meanwhile."""
@@ -33,7 +33,7 @@ def _device(bus: Bus, clock: Clock, configuration: Configuration) -> Device:
             return KeyboardMaster(law)
         case Scripted() as settings:
             # Imported here, so that a keyboard needs no simulation packages.
-            from services.master.scripted import ScriptedMaster  # noqa: PLC0415
+            from services.master.devices.scripted import ScriptedMaster  # noqa: PLC0415
 
             return ScriptedMaster(bus, clock, settings, configuration.seed)
 

@@ -9,22 +9,22 @@ from pathlib import Path
 
 import numpy as np
 
-from lfd.adaptation import AdaptiveProMP
-from lfd.demonstration import Demonstration, Situation
 from lfd.exceptions import LfdError
-from lfd.model import MovementModel
-from lfd.promp import ConditionedProMP
-from lfd.refinement import refine
-from lfd.storage import DemonstrationStore, StoredDemonstration
-from lfd.storage import Kind as StoredKind
-from lfd.trajectory import Trajectory
+from lfd.models.adaptive.adaptation import AdaptiveProMP
+from lfd.models.model import MovementModel
+from lfd.models.promp import ConditionedProMP
+from lfd.motion.demonstration import Demonstration, Situation
+from lfd.motion.refinement import refine
+from lfd.motion.trajectory import Trajectory
+from lfd.store.database import DemonstrationStore, StoredDemonstration
+from lfd.store.database import Kind as StoredKind
 from protocol import messages, queries, topics
 from protocol.queries import AddDemonstration, Predict, Predicted, Refused
-from services.arrays import motion_from_wire, motion_to_wire, to_wire
-from services.bus import Bus, Rep, Req, Server
-from services.clock import Clock
-from services.config import Configuration, ModelSection
-from services.exceptions import ServiceError
+from services.bus.arrays import motion_from_wire, motion_to_wire, to_wire
+from services.bus.bus import Bus, Rep, Req, Server
+from services.process.clock import Clock
+from services.process.config import Configuration, ModelSection
+from services.process.exceptions import ServiceError
 
 log = logging.getLogger(__name__)
 

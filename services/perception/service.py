@@ -13,15 +13,15 @@ import numpy as np
 
 from protocol.messages import CameraImage, Figure, ObjectPose, Pose
 from protocol.topics import HEAD_IMAGE, OBJECT_POSE
-from services.arrays import quaternion, vector3
-from services.bus import Bus
-from services.clock import Clock
-from services.config import Configuration
+from services.bus.arrays import quaternion, vector3
+from services.bus.bus import Bus
 from services.perception.filter import PoseFilter
 from services.perception.placement import Matrix, placement, quaternion_from_rotation
 from services.perception.tags import TagFinder, candidates, choose, decode
-from services.runner import Service
-from sim.scenes.scene import TAG_ID
+from services.process.clock import Clock
+from services.process.config import Configuration
+from services.process.runner import Service
+from sim.tasks.scene import TAG_ID
 
 RATE_HZ = 30.0
 

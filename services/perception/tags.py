@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from services.perception.placement import Matrix, angle_between, assembled, inverse, placement
-from sim.scenes.scene import TAG_DICTIONARY, TAG_ID, TAG_IN_OBJECT, TAG_SIZE
+from sim.tasks.scene import TAG_DICTIONARY, TAG_ID, TAG_IN_OBJECT, TAG_SIZE
 
 Picture = NDArray[np.uint8]
 Corners = NDArray[np.float64]

@@ -4,14 +4,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lfd.exceptions import LfdError
-from lfd.rotations import conjugate, log_map, multiply
-from lfd.trajectory import Trajectory
+from lfd.motion.rotations import conjugate, log_map, multiply
+from lfd.motion.trajectory import Trajectory
 from protocol.queries import Reset
 from services.robot.refusal import Refusal
 from sim.pose import Pose
-from sim.scenes import AnyScene
-from sim.scenes.particle import ParticleScene
-from sim.scenes.scene import ReachingScene, Scene
+from sim.tasks import AnyScene
+from sim.tasks.particle import ParticleScene
+from sim.tasks.scene import ReachingScene, Scene
 
 Array = NDArray[np.float64]
 

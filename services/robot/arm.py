@@ -9,10 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from lfd.trajectory import Trajectory
+from lfd.motion.trajectory import Trajectory
 from protocol.messages import Phase
 from services.robot import safety
-from services.robot.backend import CONTROL_PERIOD, Backend, Blocked, Observation
+from services.robot.backends.backend import CONTROL_PERIOD, Backend, Blocked, Observation
 from services.robot.correction import UNCORRECTED, Correction
 from services.robot.episode import Episode, EpisodeOutcome
 from services.robot.execution import angle_between

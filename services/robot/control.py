@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from protocol import messages
 from protocol.messages import MasterState, Mode, Phase
 from protocol.queries import AcquireAuthority, Adapt, Execute, Finish, ReleaseAuthority, ReleaseStop, Reset
-from services.arrays import motion_from_wire
-from services.bus import Received
-from services.exceptions import ServiceError
+from services.bus.arrays import motion_from_wire
+from services.bus.bus import Received
+from services.process.exceptions import ServiceError
 from services.robot.admission import admit_prediction, admit_reset, admit_target
 from services.robot.arm import Arm, Tick
 from services.robot.authority import Lease
@@ -24,7 +24,7 @@ from services.robot.refusal import Refusal
 from services.robot.safety import EmergencyStop, hold_reason
 from services.robot.starts import StartImpossible
 from sim.pose import Pose
-from sim.scenes import AnyScene
+from sim.tasks import AnyScene
 
 Array = NDArray[np.float64]
 

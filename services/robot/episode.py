@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lfd.trajectory import Trajectory
+from lfd.motion.trajectory import Trajectory
 from services.robot.correction import Correction
 from services.robot.execution import Execution
 from services.robot.recording import Recording

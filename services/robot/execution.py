@@ -26,9 +26,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from lfd.resampling import Interpolation, at_phases
-from lfd.rotations import conjugate, log_map, multiply, slerp
-from lfd.trajectory import Trajectory
+from lfd.motion.resampling import Interpolation, at_phases
+from lfd.motion.rotations import conjugate, log_map, multiply, slerp
+from lfd.motion.trajectory import Trajectory
 from services.robot.correction import UNCORRECTED, Correction
 from sim.pose import Pose
 

@@ -16,8 +16,8 @@ from qpsolvers.exceptions import QPError
 
 from services.robot.correction import Correction
 from services.robot.mechanism import InverseFailed, Unreachable
-from sim.description import CONTROLLED_JOINTS, GRASPING_FRAME
 from sim.pose import Pose
+from sim.robots.description import CONTROLLED_JOINTS, GRASPING_FRAME
 
 Array = NDArray[np.float64]
 

@@ -6,7 +6,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from services.exceptions import ServiceError
+from services.process.exceptions import ServiceError
 from services.robot.correction import Correction
 from sim.pose import Pose
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from lfd.resampling import from_samples
-from lfd.trajectory import Trajectory
+from lfd.motion.resampling import from_samples
+from lfd.motion.trajectory import Trajectory
 from sim.pose import Pose
 
 Array = NDArray[np.float64]

@@ -1,6 +1,6 @@
 """A request that the robot understood and will not carry out."""
 
-from services.exceptions import ServiceError
+from services.process.exceptions import ServiceError
 
 
 class Refusal(ServiceError):

@@ -4,8 +4,8 @@ from typing import Any
 
 from protocol import messages, topics
 from protocol.topics import Topic
-from services.arrays import to_wire, vector3
-from services.bus import Bus
+from services.bus.arrays import to_wire, vector3
+from services.bus.bus import Bus
 from services.robot import wire
 from services.robot.arm import Tick
 from services.robot.control import Control, Finished

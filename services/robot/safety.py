@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from lfd.rotations import slerp
+from lfd.motion.rotations import slerp
 from services.robot.correction import Correction
 from sim.pose import Pose
 

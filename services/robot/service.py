@@ -12,21 +12,21 @@ from numpy.typing import NDArray
 from protocol import queries, topics
 from protocol.messages import Figure, MasterState, Phase
 from protocol.queries import Accepted, AuthorityGranted, EpisodeStarted, Refused
-from services.bus import Bus, Received, Rep, Req, Server
-from services.clock import Clock
-from services.config import Configuration
-from services.identity import same_clock
+from services.bus.bus import Bus, Received, Rep, Req, Server
+from services.bus.identity import same_clock
+from services.process.clock import Clock
+from services.process.config import Configuration
 from services.robot.arm import Tick
+from services.robot.assembly import kinematics_of, simulated_arm
 from services.robot.authority import Lease
-from services.robot.backend import CONTROL_PERIOD
+from services.robot.backends.backend import CONTROL_PERIOD
 from services.robot.control import Control
 from services.robot.mechanism import Mechanism
 from services.robot.pace import Pace
 from services.robot.refusal import Refusal
 from services.robot.reports import Reports
-from services.robot.rollout import kinematics_of, simulated_arm
-from sim.description import prepare
-from sim.scenes import scene as scene_named
+from sim.robots.description import prepare
+from sim.tasks import scene as scene_named
 
 log = logging.getLogger(__name__)
 

@@ -5,7 +5,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from services.exceptions import ServiceError
+from services.process.exceptions import ServiceError
 from services.robot.mechanism import Mechanism, Unreachable
 from sim.pose import Pose
 

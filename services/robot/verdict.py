@@ -6,8 +6,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from lfd.rotations import conjugate, rotate
-from services.robot.backend import Observation, Touch
+from lfd.motion.rotations import conjugate, rotate
+from services.robot.backends.backend import Observation, Touch
 from sim.pose import Pose
 
 Array = NDArray[np.float64]

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from services.robot.backend import Observation, Touch
+from services.robot.backends.backend import Observation, Touch
 from services.robot.verdict import Verdict
 from sim.pose import Pose
 

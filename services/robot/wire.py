@@ -4,15 +4,15 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from lfd.trajectory import Trajectory
+from lfd.motion.trajectory import Trajectory
 from protocol import messages
-from services.arrays import motion_to_wire, quaternion, vector3
+from services.bus.arrays import motion_to_wire, quaternion, vector3
 from services.robot.control import Finished
 from services.robot.verdict import Verdict
 from sim.pose import Pose
-from sim.scenes import AnyScene
-from sim.scenes.particle import ParticleScene
-from sim.scenes.scene import OBJECT_SIZE, Box, ReachingScene
+from sim.tasks import AnyScene
+from sim.tasks.particle import ParticleScene
+from sim.tasks.scene import OBJECT_SIZE, Box, ReachingScene
 
 Array = NDArray[np.float64]
 

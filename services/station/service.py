@@ -11,17 +11,17 @@ import numpy as np
 
 from protocol import messages, topics
 from protocol.messages import Figure
-from services.arrays import vector3
-from services.bus import Bus, Pending, Received, Subscription
-from services.clock import Clock
-from services.config import Configuration, StationSection
-from services.station.state import Action, Phase, Place, Settings, View, Workflow
-from services.station.view import PageView, Picture
-from services.station.words import teaching_state
-from services.station.workflow import advance
+from services.bus.arrays import vector3
+from services.bus.bus import Bus, Pending, Received, Subscription
+from services.process.clock import Clock
+from services.process.config import Configuration, StationSection
+from services.station.page.view import PageView, Picture
+from services.station.workflow.state import Action, Phase, Place, Settings, View, Workflow
+from services.station.workflow.words import teaching_state
+from services.station.workflow.workflow import advance
 
 if TYPE_CHECKING:
-    from services.station.page import Page
+    from services.station.page.page import Page
 
 log = logging.getLogger(__name__)
 
@@ -44,7 +44,7 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> StationServic
 
 def _open_page(section: StationSection, robot: str, clock: Clock) -> Page:
     # A scripted station starts without the page's packages, which take a second to load.
-    from services.station.page import Page  # noqa: PLC0415
+    from services.station.page.page import Page  # noqa: PLC0415
 
     page = Page(section, robot, clock)
     page.start()

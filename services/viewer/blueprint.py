@@ -6,7 +6,7 @@ import rerun as rr
 import rerun.blueprint as rrb
 
 from services.viewer import entities, palette
-from sim.scenes.scene import Eye
+from sim.tasks.scene import Eye
 
 _WINDOW_S = 20.0
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from services.exceptions import ServiceError
+from services.process.exceptions import ServiceError
 
 
 class ViewerError(ServiceError):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import rerun as rr
 
-from services.arrays import Floats
+from services.bus.arrays import Floats
 from services.viewer import entities, palette
 
 _ELLIPSOIDS = 24

@@ -9,12 +9,12 @@ from pathlib import Path
 
 import rerun as rr
 
-from services.config import ViewerSection
-from services.exceptions import PortInUse
+from services.process.config import ViewerSection
+from services.process.exceptions import PortInUse
 from services.viewer import entities
 from services.viewer.blueprint import blueprint
 from services.viewer.exceptions import ViewerError
-from sim.scenes.scene import Eye
+from sim.tasks.scene import Eye
 
 # Enough for a page that is opened late to be live within two seconds; a large buffer would be played back first.
 _LATE_JOINERS_MEMORY = "32MiB"

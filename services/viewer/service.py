@@ -22,11 +22,11 @@ from protocol.topics import (
     WORLD_STATE,
     WRIST_IMAGE,
 )
-from services.arrays import NotFinite, from_wire, vector3
-from services.bus import Bus
-from services.clock import Clock
-from services.config import Configuration
-from services.runner import Service
+from services.bus.arrays import NotFinite, from_wire, vector3
+from services.bus.bus import Bus
+from services.process.clock import Clock
+from services.process.config import Configuration
+from services.process.runner import Service
 from services.viewer import entities, motions, scene, series
 from services.viewer.journal import Entry, Journal
 from services.viewer.news import Changes, News
@@ -34,11 +34,11 @@ from services.viewer.recording import Recording as Run
 from services.viewer.robot_model import RobotModel
 from services.viewer.web import WebServer
 from services.viewer.web_files import web_files
-from sim.description import prepare
 from sim.exceptions import SimError
-from sim.scenes import SCENES
-from sim.scenes.particle import ParticleScene
-from sim.scenes.scene import Eye
+from sim.robots.description import prepare
+from sim.tasks import SCENES
+from sim.tasks.particle import ParticleScene
+from sim.tasks.scene import Eye
 
 log = logging.getLogger(__name__)
 

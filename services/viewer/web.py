@@ -12,8 +12,8 @@ from pathlib import Path
 from string import Template
 from typing import Any
 
-from services.config import Configuration
-from services.exceptions import PortInUse
+from services.process.config import Configuration
+from services.process.exceptions import PortInUse
 from services.viewer.recording import public_host
 from services.viewer.web_files import FILES
 

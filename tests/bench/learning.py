@@ -19,9 +19,9 @@ from rich.progress import track
 from rich.table import Table
 from scipy.spatial.distance import cdist
 
-from lfd.adaptation import AdaptiveProMP
-from lfd.alignment import group_by_condition
-from lfd.promp import ConditionedProMP
+from lfd.models.adaptive.adaptation import AdaptiveProMP
+from lfd.models.promp import ConditionedProMP
+from lfd.motion.alignment import group_by_condition
 from tests import recordings
 from tests.recordings import UnusableRecording
 

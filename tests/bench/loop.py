@@ -20,9 +20,9 @@ from protocol import topics
 from protocol.codec import decode
 from protocol.exceptions import ProtocolError
 from protocol.messages import Mode, Phase
-from services.clock import SystemClock
-from services.zenoh_bus import Passing, close_session, open_session, watch
-from sim.scenes import SCENES
+from services.bus.zenoh import Passing, close_session, open_session, watch
+from services.process.clock import SystemClock
+from sim.tasks import SCENES
 from tests.bench.support.results import Result, write_json
 
 RUN_TIMEOUT_S = 300.0

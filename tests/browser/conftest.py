@@ -42,9 +42,9 @@ def station():
     pytest.importorskip("nicegui")
     from harness import Feed, working_view
 
-    from services.clock import SystemClock
-    from services.config import StationSection
-    from services.station.page import Page
+    from services.process.clock import SystemClock
+    from services.process.config import StationSection
+    from services.station.page.page import Page
 
     page = Page(StationSection(port=_free_port()), "robot1", SystemClock())
     page.start()

@@ -13,10 +13,10 @@ import numpy as np
 
 from protocol import messages
 from protocol.messages import Figure, Light, Phase, Pose
-from services.clock import SystemClock
-from services.config import StationSection
-from services.station.page import Page
-from services.station.view import PageView, Picture
+from services.process.clock import SystemClock
+from services.process.config import StationSection
+from services.station.page.page import Page
+from services.station.page.view import PageView, Picture
 
 FEED_PERIOD_S = 0.02
 POSE = Pose((0.6, 0.1, 0.5), (1.0, 0.0, 0.0, 0.0))

@@ -16,9 +16,9 @@ import msgspec
 import pytest
 
 from protocol.messages import Light, Recording, SafetyState
-from services.clock import SystemClock
-from services.config import StationSection
-from services.exceptions import PortInUse
+from services.process.clock import SystemClock
+from services.process.config import StationSection
+from services.process.exceptions import PortInUse
 
 pytestmark = pytest.mark.browser
 
@@ -245,7 +245,7 @@ def test_a_stranger_s_page_cannot_open_the_link(browser, station):
 
 
 def test_a_port_in_use_is_one_line_that_names_port_and_setting():
-    from services.station.page import Page
+    from services.station.page.page import Page
 
     with socket.create_server(("127.0.0.1", 0)) as other:
         port = other.getsockname()[1]

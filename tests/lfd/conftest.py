@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from lfd.demonstration import Demonstration
-from lfd.rotations import exp_map
-from lfd.trajectory import Trajectory
+from lfd.motion.demonstration import Demonstration
+from lfd.motion.rotations import exp_map
+from lfd.motion.trajectory import Trajectory
 from tests import recordings as recorded
 
 

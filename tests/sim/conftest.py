@@ -2,7 +2,7 @@
 
 import pytest
 
-from sim.description import RobotDescription, prepare
+from sim.robots.description import RobotDescription, prepare
 
 
 @pytest.fixture(scope="session")

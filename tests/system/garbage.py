@@ -5,7 +5,7 @@ import secrets
 
 import msgpack
 
-from services.identity import boot_identity
+from services.bus.identity import boot_identity
 
 HOUR_NS = 3_600_000_000_000
 NESTED = 100_000

@@ -17,10 +17,10 @@ import zenoh
 
 from protocol import topics
 from protocol.queries import Refused
-from services.bus import Failed
-from services.clock import SystemClock
-from services.processes import PROCESS_NAMES
-from services.zenoh_bus import ENCODING, Passing, ZenohBus, close_session, open_session, watch
+from services.bus.bus import Failed
+from services.bus.zenoh import ENCODING, Passing, ZenohBus, close_session, open_session, watch
+from services.process.clock import SystemClock
+from services.process.processes import PROCESS_NAMES
 
 POLL_S = 0.01
 START_S = 120.0

@@ -5,10 +5,10 @@ import pytest
 
 from protocol import topics
 from protocol.messages import Mode, Phase
-from services.arrays import motion_from_wire
-from services.config import load
-from sim.correction import plan
-from sim.scenes import DISHWASHER
+from services.bus.arrays import motion_from_wire
+from services.process.config import load
+from sim.person.correction import plan
+from sim.tasks import DISHWASHER
 from tests.system.harness import START_S, Command, Witness, configured, eventually, free_endpoint
 
 pytestmark = [pytest.mark.system, pytest.mark.browser, pytest.mark.zenoh, pytest.mark.sim]

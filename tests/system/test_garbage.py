@@ -13,9 +13,9 @@ from protocol import messages, queries, topics
 from protocol.codec import decode_reply, encode
 from protocol.messages import Array, Phase
 from protocol.topics import TOPICS
-from services.bus import Outbox
-from services.identity import new_publisher
-from services.processes import PROCESS_NAMES
+from services.bus.bus import Outbox
+from services.bus.identity import new_publisher
+from services.process.processes import PROCESS_NAMES
 from tests.system import garbage
 from tests.system.harness import START_S, Command, Stranger, Witness, configured, eventually, free_endpoint
 

@@ -10,7 +10,7 @@ import pytest
 
 from protocol import queries
 from protocol.messages import Mode, Phase
-from services.arrays import motion_to_wire
+from services.bus.arrays import motion_to_wire
 from tests.system.harness import (
     EVERYBODY,
     POLL_S,

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from services.viewer.web_files import sdk_program
-from sim.scenes import SCENES
+from sim.tasks import SCENES
 from tests.system.harness import EVERYBODY, Command, configured, free_endpoint
 
 pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.sim]

@@ -11,11 +11,11 @@ import pytest
 
 from protocol import queries, topics
 from protocol.messages import AuthorityRenewal, EmergencyStop, MasterState, ModelState, OperatorInput, Phase
-from services.arrays import motion_to_wire
-from services.bus import Failed
-from services.clock import SystemClock
-from services.exceptions import BusError, NameTaken
-from services.zenoh_bus import connect
+from services.bus.arrays import motion_to_wire
+from services.bus.bus import Failed
+from services.bus.zenoh import connect
+from services.process.clock import SystemClock
+from services.process.exceptions import BusError, NameTaken
 from tests.system.harness import Command, Stranger, Witness, eventually, free_endpoint
 
 pytestmark = [pytest.mark.system, pytest.mark.zenoh]

@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from services.processes import PROCESS_NAMES
+from services.process.processes import PROCESS_NAMES
 from tests.system.harness import START_S, Command, Witness, configured, free_endpoint, reachable
 
 pytestmark = [pytest.mark.system, pytest.mark.zenoh]

@@ -5,7 +5,7 @@ import pytest
 
 from protocol import queries
 from protocol.messages import Pose
-from services.arrays import motion_from_wire
+from services.bus.arrays import motion_from_wire
 from tests.system.harness import Command, Witness, configured
 
 pytestmark = [pytest.mark.system, pytest.mark.zenoh]

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from lfd.dmp import DMP
+from lfd.models.dmp import DMP
 from tests.bench.speed.peers import peer
 from tests.bench.speed.primitives import STEPS, demonstrations
 from tests.bench.support.timing import Contender, compare
 
-COUNT = 100  # basis functions, as `lfd.dmp` takes
+COUNT = 100  # basis functions, as `lfd.models.dmp` takes
 
 
 def measure(rng, effort):

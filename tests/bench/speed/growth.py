@@ -3,8 +3,8 @@
 import sys
 import tracemalloc
 
-from lfd.adaptation import AdaptiveProMP
-from lfd.promp import ConditionedProMP
+from lfd.models.adaptive.adaptation import AdaptiveProMP
+from lfd.models.promp import ConditionedProMP
 from tests.bench.speed.primitives import demonstrations
 from tests.bench.support.results import Result
 from tests.bench.support.timing import Contender, compare

@@ -4,12 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lfd.basis import GaussianBasis, least_squares
-from lfd.demonstration import Demonstration
-from lfd.gaussian import JointGaussian, condition, welford
-from lfd.promp import ConditionedProMP, PrompOptions
-from lfd.rotations import exp_map
-from lfd.trajectory import Trajectory
+from lfd.models.basis import GaussianBasis, least_squares
+from lfd.models.gaussian import JointGaussian, condition, welford
+from lfd.models.promp import ConditionedProMP, PrompOptions
+from lfd.motion.demonstration import Demonstration
+from lfd.motion.rotations import exp_map
+from lfd.motion.trajectory import Trajectory
 from tests.bench.speed.peers import PromplibsMethod, peer
 from tests.bench.support.timing import Contender, compare
 

@@ -4,8 +4,8 @@ from importlib import import_module
 
 import numpy as np
 
-from lfd import dtw as module
-from lfd.dtw import dtw
+from lfd.motion import dtw as module
+from lfd.motion.dtw import dtw
 from tests.bench.speed.peers import peer
 from tests.bench.support.timing import Contender, compare
 

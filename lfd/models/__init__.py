@@ -1,0 +1,1 @@
+"""Models that learn motions over a condition; `model.py` is the seam."""

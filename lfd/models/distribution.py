@@ -1,0 +1,199 @@
+"""A distribution over motions: sampled, differentiated, led through via-points, blended with another.
+
+The operations of probabilistic movement primitives (Paraschos et al., "Using probabilistic movement primitives in
+robotics", Autonomous Robots 42, 2018), for whatever model the distribution comes from.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.linalg import cho_factor, cho_solve
+
+from lfd.arrays import Array, checked, frozen
+from lfd.exceptions import OutOfRange
+from lfd.models.encoding import OUTPUTS, Encoding
+from lfd.motion.demonstration import Situation
+from lfd.motion.rotations import rotate, slerp
+from lfd.motion.trajectory import Trajectory
+
+POSITION = 3  # the first outputs
+
+
+@dataclass(frozen=True, eq=False)
+class ViaPoint:
+    """A place where the end effector is to be at a time.
+
+    Attributes:
+        phase: Time as a fraction of the motion, 0 to 1.
+        position: In the base frame, shape (3,) [m].
+        covariance: How exactly, shape (3, 3), symmetric and positive semi-definite; zero for exactly [m^2].
+
+    Raises:
+        OutOfRange: The phase is not in [0, 1], or the covariance not positive semi-definite.
+        WrongShape: An array has the wrong shape.
+        NotFinite: A number is NaN or infinite.
+    """
+
+    phase: float
+    position: Array
+    covariance: Array
+
+    def __post_init__(self) -> None:
+        if not 0.0 <= self.phase <= 1.0:
+            raise OutOfRange("phase of the via-point", self.phase, "from 0 to 1")
+        object.__setattr__(self, "position", checked("position", self.position, (3,)))
+        covariance = checked("covariance", self.covariance, (3, 3))
+        least = float(np.linalg.eigvalsh(0.5 * (covariance + covariance.T)).min())
+        if least < -_ROUNDING * max(1.0, float(np.abs(covariance).max())):
+            raise OutOfRange("least eigenvalue of the via-point's covariance", least, "zero or more")
+        object.__setattr__(self, "covariance", frozen(0.5 * (covariance + covariance.T)))
+
+
+@dataclass(frozen=True, eq=False)
+class MotionDistribution:
+    """A Gaussian over the weights of a motion in one situation.
+
+    Attributes:
+        encoding: Between weights and motions.
+        situation: That the motion starts in.
+        mean: As `Encoding.encode` gives it, shape (D,).
+        covariance: Of it, shape (D, D).
+        noise_std: Of each position about the weights' motion (sigma of equation (13)) [m].
+    """
+
+    encoding: Encoding
+    situation: Situation
+    mean: Array
+    covariance: Array
+    noise_std: float = 0.0
+
+    def trajectory(self, n: int) -> Trajectory:
+        """The mean motion, n points in the base frame."""
+        return self.encoding.decode(self.mean, self.situation, n)
+
+    def position_covariances(self, n: int) -> Array:
+        """Of the positions at n equal times in the base frame, shape (n, 3, 3) [m^2]: equation (13)."""
+        covariances = position_covariances(self.encoding, self.covariance, n)
+        return covariances + self.noise_std**2 * np.eye(POSITION)
+
+    @property
+    def duration_std(self) -> float:
+        """Standard deviation of the duration, to first order [s]."""
+        return float(np.exp(self.mean[-1]) * np.sqrt(max(self.covariance[-1, -1], 0.0)))
+
+    def velocities(self, n: int) -> tuple[Array, Array]:
+        """Linear [m/s] and angular [rad/s] velocities of the mean motion at n equal times, base frame, each (n, 3)."""
+        phases, duration = np.linspace(0.0, 1.0, n), float(np.exp(self.mean[-1]))
+        outputs = self.encoding.outputs(self.mean, self.situation, phases)
+        rates = self.encoding.output_rates(self.mean, self.situation, phases) / duration
+        turning = _angular_velocity(outputs[:, POSITION:], rates[:, POSITION:])
+        return rates[:, :POSITION], rotate(self.encoding.rotation, turning)
+
+    def sample(self, rng: np.random.Generator, count: int, n: int) -> list[Trajectory]:
+        """Motions drawn from the distribution, without the noise of single points.
+
+        Args:
+            rng: Where chance comes from.
+            count: Number of motions.
+            n: Points of each.
+        """
+        values, vectors = np.linalg.eigh(self.covariance)
+        spread = vectors * np.sqrt(np.maximum(values, 0.0))
+        draws = self.mean + rng.standard_normal((count, len(values))) @ spread.T
+        return [self.encoding.decode(x, self.situation, n) for x in draws]
+
+    def through(self, via: ViaPoint) -> "MotionDistribution":
+        """The distribution given that the motion passes a via-point (Paraschos et al. 2018, eq. 15 and 16)."""
+        rows = self._position_rows(via.phase)
+        at = self.encoding.outputs(self.mean, self.situation, np.array([via.phase]))[0, :POSITION]
+        innovation = via.position - self.situation.origin - at
+        spread = rows @ self.covariance
+        # Where the motion cannot move, as at an anchored start, there is nothing to gain.
+        joint = spread @ rows.T + via.covariance + _ROUNDING * np.trace(self.covariance) * np.eye(POSITION)
+        if not np.any(joint):
+            return self
+        gain = cho_solve(cho_factor(joint), spread).T
+        remaining = np.eye(len(self.mean)) - gain @ rows
+        covariance = remaining @ self.covariance @ remaining.T + gain @ via.covariance @ gain.T
+        return replace(self, mean=frozen(self.mean + gain @ innovation), covariance=frozen(covariance))
+
+    def _position_rows(self, phase: float) -> Array:
+        """The linear map from the vector to the position at a phase, shape (3, D)."""
+        row = self.encoding.rows(np.array([phase]))[0]
+        rows = np.zeros((POSITION, len(self.mean)))
+        rows[:, :-1] = np.kron(row, np.eye(POSITION, OUTPUTS))
+        return rows
+
+
+def position_covariances(encoding: Encoding, covariance: Array, n: int) -> Array:
+    """Phi Sigma_w Phi^T of the positions at n equal times, shape (n, 3, 3) [m^2].
+
+    Args:
+        encoding: Of the vectors.
+        covariance: Of a vector, shape (D, D).
+        n: Number of points.
+    """
+    N = encoding.basis.count
+    Phi = encoding.rows(np.linspace(0.0, 1.0, n))
+    Sigma = covariance[:-1, :-1].reshape(N, OUTPUTS, N, OUTPUTS)[:, :POSITION, :, :POSITION]
+    half = np.tensordot(Phi, Sigma, axes=1)  # (n, 3, N, 3)
+    return np.asarray(np.einsum("tibj,tb->tij", half, Phi), dtype=np.float64)
+
+
+def blend(first: MotionDistribution, second: MotionDistribution, shares: Array) -> tuple[Trajectory, Array]:
+    """Two motions as one that goes over from the first to the second (Paraschos et al. 2018, eq. 21 to 23).
+
+    At each time the product of both Gaussians, each to the power of its activation: the surer one counts more.
+    Orientations and the duration go over by the activation alone.
+
+    Args:
+        first: Where the share is 0.
+        second: Where it is 1.
+        shares: Activation of the second at n equal times, 0 to 1, shape (n,), n at least 2.
+
+    Returns:
+        The motion and the covariances of its positions, shape (n, 3, 3) [m^2].
+
+    Raises:
+        OutOfRange: A share is not in [0, 1].
+        WrongShape: The shares are no vector.
+    """
+    activation = checked("shares", shares, (None,))
+    if activation.min() < 0.0 or activation.max() > 1.0:
+        wrong = activation.min() if activation.min() < 0.0 else activation.max()
+        raise OutOfRange("share", float(wrong), "from 0 to 1")
+    n = len(activation)
+    a, b = first.trajectory(n), second.trajectory(n)
+    weights = [(1.0 - activation)[:, None, None], activation[:, None, None]]
+    information = np.zeros((n, POSITION, POSITION))
+    state = np.zeros((n, POSITION))
+    for share, motion, distribution in zip(weights, (a, b), (first, second), strict=True):
+        own = distribution.position_covariances(n)
+        least = _ROUNDING * (1.0 + np.trace(own, axis1=1, axis2=2))[:, None, None]
+        inverse = share * np.linalg.inv(own + least * np.eye(POSITION))
+        information += inverse
+        state += np.einsum("tij,tj->ti", inverse, motion.positions)
+    covariances = np.asarray(np.linalg.inv(information), dtype=np.float64)
+    trajectory = Trajectory(
+        positions=np.einsum("tij,tj->ti", covariances, state),
+        orientations=slerp(a.orientations, b.orientations, activation),
+        duration=float(np.exp(np.mean(np.log(a.duration) + activation * np.log(b.duration / a.duration)))),
+    )
+    return trajectory, covariances
+
+
+def _angular_velocity(r: Array, rate: Array) -> Array:
+    """Of exp(r) turning at dr/dt, in the axes that r is in: the left Jacobian of SO(3) times the rate, (n, 3) each.
+
+    Sola et al., "A micro Lie theory for state estimation in robotics", 2018, eq. 145.
+    """
+    angle = np.linalg.norm(r, axis=1, keepdims=True)
+    safe = np.maximum(angle, 1e-4)
+    small = angle < 1e-4
+    first = np.where(small, 0.5 - angle**2 / 24.0, (1.0 - np.cos(safe)) / safe**2)
+    second = np.where(small, 1.0 / 6.0 - angle**2 / 120.0, (safe - np.sin(safe)) / safe**3)
+    once = np.cross(r, rate)
+    return np.asarray(rate + first * once + second * np.cross(r, once), dtype=np.float64)
+
+
+_ROUNDING = 1e-12

@@ -1,0 +1,122 @@
+"""How a demonstration becomes a vector of weights, and weights become a trajectory again."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from lfd.arrays import Array, checked_quaternions, frozen
+from lfd.models.basis import GaussianBasis, least_squares
+from lfd.motion.demonstration import Demonstration, Situation
+from lfd.motion.resampling import resample
+from lfd.motion.rotations import conjugate, exp_map, log_map, mean_rotation, multiply, sign_continuous
+from lfd.motion.trajectory import Trajectory
+
+
+def reference_rotation(demonstrations: Sequence[Demonstration]) -> Array:
+    """The mean rotation (4,) of all points of all demonstrations, about which orientations are linearised."""
+    return mean_rotation(np.concatenate([d.trajectory.orientations for d in demonstrations]))
+
+
+OUTPUTS = 6  # x, y, z and the rotation vector
+
+
+@dataclass(frozen=True, eq=False)
+class Encoding:
+    """Weights of positions relative to the origin, of orientations, and the duration, in one vector.
+
+    Orientations enter as rotation vectors about one reference rotation (log map), not as the quaternion components
+    of the thesis: those lose their unit norm when averaged and mix up q with -q. Durations enter as logarithms, so
+    that no prediction is negative.
+
+    Attributes:
+        basis: Of all six outputs.
+        samples: Number of points at which a trajectory is encoded.
+        rotation: The reference rotation, unit quaternion (w, x, y, z).
+        anchored: Encode what remains after a straight blend-out of the start pose, and put the known start pose back
+            at decoding: a prediction then begins exactly where the robot is.
+    """
+
+    basis: GaussianBasis
+    samples: int
+    rotation: Array
+    anchored: bool
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "rotation", checked_quaternions("rotation", self.rotation, (4,)))
+
+    def encode(self, demonstration: Demonstration) -> Array:
+        """The vector of a demonstration, shape (6 N + 1,): N x 6 weights row by row, then ln(duration / s)."""
+        trajectory = resample(demonstration.trajectory, self.samples)
+        relative = trajectory.positions - demonstration.origin  # equation (23)
+        outputs = np.hstack([relative, self._rotation_vectors(trajectory.orientations)])
+        if self.anchored:
+            outputs = outputs - np.outer(1.0 - trajectory.phases, outputs[0])
+        w = _solver(self.basis, trajectory.phases.tobytes(), self.anchored) @ outputs
+        return np.append(w.ravel(), np.log(trajectory.duration))
+
+    def decode(self, x: Array, situation: Situation, n: int) -> Trajectory:
+        """The trajectory of n points in the base frame that the vector x (6 N + 1,) stands for.
+
+        Args:
+            x: As of `encode`.
+            situation: Whose origin the motion is relative to, and whose start pose it begins at, if anchored.
+            n: Number of points.
+        """
+        outputs = self.outputs(x, situation, np.linspace(0.0, 1.0, n))
+        return Trajectory(
+            positions=outputs[:, :3] + situation.origin,
+            orientations=multiply(self.rotation, exp_map(outputs[:, 3:])),
+            duration=float(np.exp(x[-1])),
+        )
+
+    def positions(self, changes: Array, n: int) -> Array:
+        """What changes (J, D) of vectors do to the positions at n equal times, shape (J, n, 3) [m]."""
+        weights_of_positions = changes[:, :-1].reshape(len(changes), self.basis.count, OUTPUTS)[:, :, :3]
+        return np.asarray(self.rows(np.linspace(0.0, 1.0, n)) @ weights_of_positions, dtype=np.float64)
+
+    def outputs(self, x: Array, situation: Situation, phases: Array) -> Array:
+        """Positions relative to the origin [m] and rotation vectors [rad] at phases (T,), shape (T, 6)."""
+        outputs = self.rows(phases) @ x[:-1].reshape(self.basis.count, OUTPUTS)
+        if self.anchored:
+            outputs = outputs + np.outer(1.0 - phases, self._start(situation))
+        return outputs
+
+    def output_rates(self, x: Array, situation: Situation, phases: Array) -> Array:
+        """Derivatives of `outputs` by the phase, shape (T, 6)."""
+        rates = self.basis.derivative(phases) @ x[:-1].reshape(self.basis.count, OUTPUTS)
+        if self.anchored:
+            first = self.basis.matrix(np.zeros(1))[0] @ x[:-1].reshape(self.basis.count, OUTPUTS)
+            rates = rates + first - self._start(situation)
+        return rates
+
+    def rows(self, phases: Array) -> Array:
+        """The basis at phases (T,), shape (T, N); if anchored, with the value at phase 0 blended out to zero."""
+        return _rows(self.basis, phases.tobytes(), self.anchored)
+
+    def _start(self, situation: Situation) -> Array:
+        turned = self._rotation_vectors(situation.start_orientation[None])[0]
+        return np.concatenate([situation.start_position - situation.origin, turned])
+
+    def _rotation_vectors(self, orientations: Array) -> Array:
+        relative = multiply(conjugate(self.rotation), orientations)
+        first = -1.0 if relative[0, 0] < 0.0 else 1.0
+        return log_map(sign_continuous(first * relative), shortest=False)
+
+
+# Both are kept, read-only: they are the same for all motions of one number of points. Phases go by their bytes, as an
+# array has no hash.
+
+
+@lru_cache(maxsize=16)
+def _rows(basis: GaussianBasis, phases: bytes, anchored: bool) -> Array:
+    t = np.frombuffer(phases)
+    Phi = basis.matrix(t)
+    return frozen(Phi - np.outer(1.0 - t, basis.matrix(np.zeros(1))[0]) if anchored else Phi)
+
+
+@lru_cache(maxsize=16)
+def _solver(basis: GaussianBasis, phases: bytes, anchored: bool) -> Array:
+    """From the outputs at the phases (T, d) to the weights (N, d)."""
+    return frozen(least_squares(_rows(basis, phases, anchored)))

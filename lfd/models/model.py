@@ -1,0 +1,73 @@
+"""The seam between a movement model and whoever uses it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol, Self
+
+from lfd.arrays import Array, checked
+from lfd.exceptions import OutOfRange
+from lfd.models.distribution import MotionDistribution
+from lfd.motion.demonstration import Demonstration, Situation
+from lfd.motion.trajectory import Trajectory
+
+PREDICTION_POINTS = 75  # the thesis' number of way-points in a prediction
+
+
+@dataclass(frozen=True, eq=False)
+class Prediction:
+    """A motion that the model expects to reach the object, and how sure it is.
+
+    Attributes:
+        trajectory: In the base frame, n points.
+        position_covariances: Of each point in the base frame, shape (n, 3, 3) [m^2].
+        duration_std: Standard deviation of the duration [s].
+    """
+
+    trajectory: Trajectory
+    position_covariances: Array
+    duration_std: float
+
+    def __post_init__(self) -> None:
+        shape = (self.trajectory.n_points, 3, 3)
+        covariances = checked("position_covariances", self.position_covariances, shape)
+        object.__setattr__(self, "position_covariances", covariances)
+        if not self.duration_std >= 0.0:
+            raise OutOfRange("duration_std", self.duration_std, "zero or more")
+
+
+class MovementModel(Protocol):
+    """A model of reaching motions. A value: an update returns a new model and leaves the old one as it was."""
+
+    @classmethod
+    def fit(cls, demonstrations: Sequence[Demonstration]) -> Self:
+        """A model of demonstrations, at least one.
+
+        Raises:
+            TooFewDemonstrations: There is none.
+        """
+        ...
+
+    def updated(self, demonstration: Demonstration) -> Self:
+        """The model that has also learnt `demonstration`, the motion that a refinement led to."""
+        ...
+
+    def predict(self, situation: Situation, n: int = PREDICTION_POINTS) -> Prediction:
+        """The motion for a situation.
+
+        Args:
+            situation: Condition, origin and start pose.
+            n: Number of points.
+
+        Raises:
+            WrongShape: The condition has another dimension than those of the demonstrations.
+            TooFewPoints: n is less than 2.
+        """
+        ...
+
+    def distribution(self, situation: Situation) -> MotionDistribution:
+        """Everything the model expects for a situation: to sample, differentiate, lead through via-points, blend.
+
+        Raises:
+            WrongShape: The condition has another dimension than those of the demonstrations.
+        """
+        ...

@@ -1,0 +1,106 @@
+"""The thesis' model: probabilistic movement primitives, conditioned on where the object is."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+
+from lfd.arrays import Array
+from lfd.models.basis import GaussianBasis
+from lfd.models.distribution import MotionDistribution
+from lfd.models.encoding import OUTPUTS, Encoding, reference_rotation
+from lfd.models.gaussian import JointGaussian, condition, welford
+from lfd.models.model import PREDICTION_POINTS, Prediction
+from lfd.motion.alignment import Selection, align
+from lfd.motion.demonstration import Demonstration, Situation, check_demonstrations, check_dimension
+
+CONDITION_SCALE = 10.0  # the thesis' factor on the condition
+
+_BASIS = GaussianBasis(count=10, width=0.1)
+
+
+@dataclass(frozen=True)
+class PrompOptions:
+    """The thesis' parameters.
+
+    Attributes:
+        basis: N = 10 functions of width 0.1.
+        samples: n, the number of points to which a demonstration is resampled.
+        conditioning_noise: Diagonal of Sigma_n in equation (10), for the condition times 10. The text says 0.03, its
+            implementation used 0.1.
+        observation_std: sigma of equation (13) [m].
+        selection: Of the demonstrations of a condition. The thesis' is `Selection.SIMILAR_PAIR`.
+        kept: What an older motion still counts after an update; 1 is Welford's method, as in the thesis.
+    """
+
+    basis: GaussianBasis = _BASIS
+    samples: int = 10
+    conditioning_noise: float = 0.03
+    observation_std: float = 0.01
+    selection: Selection = Selection.ALL
+    kept: float = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class ConditionedProMP:
+    """Equations (1) to (13), (19) and (20).
+
+    The thesis fits one model per output. Here one Gaussian is joint over all outputs: the mean is the same, as each
+    row of the gain of equation (8) depends on its own output only, and the covariance between x, y and z comes with
+    it. Orientation and duration: see `Encoding`.
+
+    Attributes:
+        encoding: Between demonstrations and weights.
+        joint: Over x = [w, 10 s].
+        options: Parameters.
+    """
+
+    encoding: Encoding
+    joint: JointGaussian
+    options: PrompOptions
+
+    @classmethod
+    def fit(cls, demonstrations: Sequence[Demonstration], options: PrompOptions | None = None) -> Self:
+        """The model of demonstrations, those of one condition aligned in time.
+
+        Raises:
+            TooFewDemonstrations: There is none.
+            WrongShape: Two conditions differ in dimension.
+        """
+        check_demonstrations(demonstrations)
+        options = options or PrompOptions()
+        encoding = Encoding(options.basis, options.samples, reference_rotation(demonstrations), anchored=False)
+        aligned = align(demonstrations, selection=options.selection)
+        samples = np.array([_sample(encoding, d) for d in aligned])
+        return cls(encoding, JointGaussian.fit(samples), options)
+
+    def updated(self, demonstration: Demonstration) -> Self:
+        """The model after one step of Welford's method: the new motion counts as much as each earlier one.
+
+        Raises:
+            WrongShape: Its condition has another dimension than those before.
+        """
+        self._check(demonstration.condition)
+        return replace(self, joint=welford(self.joint, _sample(self.encoding, demonstration), self.options.kept))
+
+    def predict(self, situation: Situation, n: int = PREDICTION_POINTS) -> Prediction:
+        """Equations (12) and (13), see `MovementModel.predict`; the start orientation is not used."""
+        motion = self.distribution(situation)
+        return Prediction(motion.trajectory(n), motion.position_covariances(n), motion.duration_std)
+
+    def distribution(self, situation: Situation) -> MotionDistribution:
+        """Equations (8) to (11), see `MovementModel.distribution`."""
+        self._check(situation.condition)
+        s = CONDITION_SCALE * situation.condition
+        given = condition(self.joint, s, self.options.conditioning_noise)
+        return MotionDistribution(
+            self.encoding, situation, given.mean, given.covariance, noise_std=self.options.observation_std
+        )
+
+    def _check(self, s: Array) -> None:
+        check_dimension(s, len(self.joint.mean) - (OUTPUTS * self.options.basis.count + 1))
+
+
+def _sample(encoding: Encoding, demonstration: Demonstration) -> Array:
+    return np.append(encoding.encode(demonstration), CONDITION_SCALE * demonstration.condition)

@@ -1,0 +1,1 @@
+"""Motions as values, and what is done with them: sampled anew, aligned, refined, taught by waypoints."""

@@ -1,0 +1,115 @@
+"""Alignment in time of the demonstrations of one condition."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from enum import StrEnum
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import KDTree
+
+from lfd.arrays import Array
+from lfd.motion.demonstration import Demonstration, relative_to_origin, to_base
+from lfd.motion.dtw import dtw
+from lfd.motion.resampling import at_phases
+from lfd.motion.trajectory import Trajectory
+
+SAME_CONDITION = 0.01  # [m] conditions nearer than this count as one (thesis, section II-C)
+COMPARED = 30  # demonstrations of one condition among which the reference is sought: every pair of them is aligned
+
+
+class Selection(StrEnum):
+    """Which demonstrations of a condition are learnt from."""
+
+    ALL = "all"
+    SIMILAR_PAIR = "similar pair"  # the thesis': the reference, and the one most similar to it
+
+
+def warp(trajectory: Trajectory, onto: Trajectory) -> Trajectory:
+    """The trajectory in the tempo of another: point i is where the alignment met point i of `onto`.
+
+    It keeps its shape, its end points and its duration; it gets the number of points of `onto`.
+    """
+    path = dtw(onto.positions, trajectory.positions).path
+    matches = np.bincount(path[:, 0])
+    phases = np.bincount(path[:, 0], weights=path[:, 1]) / matches / (trajectory.n_points - 1)
+    phases[[0, -1]] = 0.0, 1.0
+    return at_phases(trajectory, phases)
+
+
+def distance_matrix(trajectories: Sequence[Trajectory]) -> Array:
+    """DTW distances of the positions of all trajectories to each other, shape (M, M) [m]."""
+    distances = np.zeros((len(trajectories), len(trajectories)))
+    for i, a in enumerate(trajectories):
+        for j in range(i):
+            distances[i, j] = distances[j, i] = dtw(a.positions, trajectories[j].positions).distance
+    return distances
+
+
+def reference(distances: Array) -> int:
+    """Index of the trajectory with the least summed distance to all others (equation (22)), from all of them (M, M)."""
+    return int(np.argmin(distances.sum(axis=1)))
+
+
+def most_similar(distances: Array, to: int) -> int:
+    """Index of the trajectory nearest to the trajectory `to`, from all distances (M, M) with M at least 2.
+
+    This is the choice of section II-C. Appendix D takes the trajectory with the second lowest sum of equation (22)
+    instead. For three the two agree (each sum lacks only the distance of the other two); for more they need not, and
+    the second lowest sum may belong to one that is central but unlike the reference, which is not worth matching to it.
+    """
+    others = distances[to].copy()
+    others[to] = np.inf
+    return int(np.argmin(others))
+
+
+def group_by_condition(conditions: Array, tolerance: float = SAME_CONDITION) -> list[list[int]]:
+    """Indices of equal conditions (M, c), grouped, in order of first appearance.
+
+    Transitive: a chain of conditions, each within the tolerance of the next, is one group. The thesis compares pairs
+    (equation (21)) and leaves open what follows when a = b and b = c but not a = c; its own example (equation (D.6))
+    is such a chain, and is treated as one condition.
+    """
+    if len(conditions) == 0:
+        return []
+    i, j = KDTree(conditions).query_pairs(tolerance, output_type="ndarray").T
+    equal = coo_array((np.ones(len(i)), (i, j)), shape=(len(conditions), len(conditions)))
+    groups: dict[int, list[int]] = {}
+    for index, label in enumerate(connected_components(equal, directed=False)[1]):
+        groups.setdefault(int(label), []).append(index)
+    return list(groups.values())
+
+
+def align(
+    demonstrations: Sequence[Demonstration],
+    tolerance: float = SAME_CONDITION,
+    selection: Selection = Selection.ALL,
+) -> list[Demonstration]:
+    """The demonstrations in their order, those of one condition in the tempo of their reference.
+
+    By default all are kept. The thesis keeps two of each condition, as one path matches two sequences; but all can be
+    matched to the reference, one by one, and dropping some predicts worse on the thesis' own recordings. Of more than
+    `COMPARED` at one condition, that many, evenly taken, compete for being the reference.
+
+    Args:
+        demonstrations: Of any conditions.
+        tolerance: See `group_by_condition`.
+        selection: Which of them to keep.
+    """
+    aligned: dict[int, Demonstration] = {}
+    for group in group_by_condition(np.array([d.condition for d in demonstrations]), tolerance):
+        members = [relative_to_origin(demonstrations[i].trajectory, demonstrations[i].origin) for i in group]
+        rivals = np.linspace(0, len(group) - 1, min(len(group), COMPARED)).round().astype(int).tolist()
+        distances = distance_matrix([members[rival] for rival in rivals])
+        best = reference(distances)
+        chosen = rivals[best]
+        aligned[group[chosen]] = demonstrations[group[chosen]]
+        others = [member for member in range(len(group)) if member != chosen]
+        if selection is Selection.SIMILAR_PAIR and others:
+            others = [rivals[most_similar(distances, to=best)]]
+        for member in others:
+            original = demonstrations[group[member]]
+            warped = to_base(warp(members[member], onto=members[chosen]), original.origin)
+            aligned[group[member]] = replace(original, trajectory=warped)
+    return [aligned[i] for i in sorted(aligned)]

@@ -1,0 +1,134 @@
+"""What a motion is predicted from, and a motion that was right there."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Self
+
+from lfd.arrays import Array, checked, checked_quaternions
+from lfd.exceptions import TooFewDemonstrations, WrongShape
+from lfd.motion.trajectory import Trajectory
+
+
+@dataclass(frozen=True, eq=False)
+class Situation:
+    """What is known before a motion.
+
+    Attributes:
+        condition: The external state s on which the motion depends, of any dimension, shape (c,).
+        origin: The point that the motion is learnt relative to (equation (23)): the object; zero where there is none.
+            In the base frame, shape (3,) [m].
+        start_position: Of the end effector at t = 0 in the base frame, shape (3,) [m].
+        start_orientation: The same, unit quaternion (w, x, y, z).
+
+    Raises:
+        WrongShape: An array has the wrong shape, or the condition is empty.
+        NotFinite: A number is NaN or infinite.
+        NotUnitQuaternion: The orientation is not a unit quaternion.
+    """
+
+    condition: Array
+    origin: Array
+    start_position: Array
+    start_orientation: Array
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "condition", checked_condition(self.condition))
+        object.__setattr__(self, "origin", checked("origin", self.origin, (3,)))
+        object.__setattr__(self, "start_position", checked("start_position", self.start_position, (3,)))
+        orientation = checked_quaternions("start_orientation", self.start_orientation, (4,))
+        object.__setattr__(self, "start_orientation", orientation)
+
+    @classmethod
+    def reaching(cls, object_position: Array, start_position: Array, start_orientation: Array) -> Self:
+        """The situation before reaching for an object: s is the object relative to the end effector at t = 0.
+
+        Args:
+            object_position: In the base frame, shape (3,) [m].
+            start_position: See the class.
+            start_orientation: See the class.
+        """
+        target = checked("object_position", object_position, (3,))
+        start = checked("start_position", start_position, (3,))
+        return cls(target - start, target, start, start_orientation)
+
+
+@dataclass(frozen=True, eq=False)
+class Demonstration:
+    """One motion and the external state that it was right for, in the robot's base frame.
+
+    The thesis multiplies the condition by 10. That is no property of the condition: it only divides the conditioning
+    noise of equation (10) by 100, so it stands with that noise (`lfd.models.promp`) and not here.
+
+    Attributes:
+        trajectory: The motion of the end effector in the base frame.
+        origin: See `Situation`, shape (3,) [m].
+        condition: See `Situation`, shape (c,).
+
+    Raises:
+        WrongShape: An array has the wrong shape, or the condition is empty.
+        NotFinite: A number is NaN or infinite.
+    """
+
+    trajectory: Trajectory
+    origin: Array
+    condition: Array
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "origin", checked("origin", self.origin, (3,)))
+        object.__setattr__(self, "condition", checked_condition(self.condition))
+
+    @classmethod
+    def reaching(cls, trajectory: Trajectory, object_position: Array) -> Self:
+        """A motion that reached an object at a position in the base frame, shape (3,) [m]."""
+        target = checked("object_position", object_position, (3,))
+        return cls(trajectory, target, target - trajectory.positions[0])
+
+    @property
+    def situation(self) -> Situation:
+        """What was known before the motion."""
+        start = self.trajectory
+        return Situation(self.condition, self.origin, start.positions[0], start.orientations[0])
+
+
+def checked_condition(values: Array) -> Array:
+    """A read-only copy of a condition, shape (c,) with c at least 1.
+
+    Raises:
+        WrongShape: It is no vector, or empty.
+        NotFinite: A number is NaN or infinite.
+    """
+    return checked("condition", values, (None,)) if len(values) else checked("condition", values, (1,))
+
+
+def check_demonstrations(demonstrations: Sequence[Demonstration]) -> None:
+    """Let pass what a model can be fitted to.
+
+    Raises:
+        TooFewDemonstrations: There is none.
+        WrongShape: Two conditions differ in dimension.
+    """
+    if not demonstrations:
+        raise TooFewDemonstrations
+    for demonstration in demonstrations:
+        check_dimension(demonstration.condition, len(demonstrations[0].condition))
+
+
+def check_dimension(condition: Array, dimension: int) -> None:
+    """Raise WrongShape unless a condition has that dimension."""
+    if len(condition) != dimension:
+        raise WrongShape("condition", f"({dimension},)", condition.shape)
+
+
+def relative_to_origin(trajectory: Trajectory, origin: Array) -> Trajectory:
+    """The trajectory relative to a point, base axes: equation (23), whose rotation is the identity.
+
+    Args:
+        trajectory: In the base frame.
+        origin: In the base frame, shape (3,) [m].
+    """
+    return replace(trajectory, positions=trajectory.positions - origin)
+
+
+def to_base(trajectory: Trajectory, origin: Array) -> Trajectory:
+    """The inverse of `relative_to_origin`, for an origin (3,) [m] in the base frame."""
+    return replace(trajectory, positions=trajectory.positions + origin)

@@ -1,0 +1,91 @@
+"""Resampling: the same motion at other times."""
+
+from enum import Enum
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from lfd.arrays import Array, checked, checked_quaternions
+from lfd.exceptions import TimesNotIncreasing, TooFewPoints, WrongShape
+from lfd.motion.rotations import sign_continuous, slerp
+from lfd.motion.spline import cubic_spline
+from lfd.motion.trajectory import Trajectory
+
+
+class Interpolation(Enum):
+    """How positions are interpolated; orientations always are by SLERP."""
+
+    LINEAR = "linear"  # the thesis' choice
+    CUBIC = "cubic"  # a not-a-knot cubic spline: smooth velocity
+
+
+def resample(trajectory: Trajectory, n: int, interpolation: Interpolation = Interpolation.LINEAR) -> Trajectory:
+    """The same trajectory with n points at equal times; the end points and the duration stay.
+
+    Args:
+        trajectory: Any number of points.
+        n: Number of points of the result, at least 2.
+        interpolation: Of the positions.
+
+    Raises:
+        TooFewPoints: n is less than 2.
+    """
+    if n < 2:
+        raise TooFewPoints("resampled trajectory", n)
+    return at_phases(trajectory, np.linspace(0.0, 1.0, n), interpolation)
+
+
+def at_phases(trajectory: Trajectory, phases: Array, interpolation: Interpolation = Interpolation.LINEAR) -> Trajectory:
+    """The poses of a trajectory at given phases in [0, 1], shape (n,), with the trajectory's own duration."""
+    positions = _interpolate(trajectory.phases, trajectory.positions, phases, interpolation)
+    orientations = _slerp_at(trajectory.phases, trajectory.orientations, phases)
+    return Trajectory(positions, orientations, trajectory.duration)
+
+
+def from_samples(times: ArrayLike, positions: ArrayLike, orientations: ArrayLike, n: int) -> Trajectory:
+    """A trajectory of n points at equal times from raw samples at irregular times (linear, SLERP).
+
+    Args:
+        times: Strictly increasing, shape (m,) [s], with any offset.
+        positions: Shape (m, 3) [m].
+        orientations: Unit quaternions (w, x, y, z), shape (m, 4).
+        n: Number of points of the result, at least 2.
+
+    Raises:
+        TooFewPoints: There are fewer than two samples, or n is less than 2.
+        TimesNotIncreasing: Two samples are out of order or have one time.
+        WrongShape: The arrays do not belong together.
+        NotFinite: A number is NaN or infinite.
+        NotUnitQuaternion: An orientation is not a unit quaternion.
+    """
+    t = checked("times", times, (None,))
+    p = checked("positions", positions, (None, 3))
+    q = checked_quaternions("orientations", orientations, (None, 4))
+    if len(p) != len(t):
+        raise WrongShape("positions", f"({len(t)}, 3)", p.shape)
+    if len(q) != len(t):
+        raise WrongShape("orientations", f"({len(t)}, 4)", q.shape)
+    if min(len(t), n) < 2:
+        raise TooFewPoints("samples", min(len(t), n))
+    backwards = np.flatnonzero(np.diff(t) <= 0.0)
+    if backwards.size:
+        i = int(backwards[0])
+        raise TimesNotIncreasing(i + 1, float(t[i]), float(t[i + 1]))
+    wanted = np.linspace(t[0], t[-1], n)
+    return Trajectory(
+        positions=_interpolate(t, p, wanted, Interpolation.LINEAR),
+        orientations=_slerp_at(t, sign_continuous(q), wanted),
+        duration=float(t[-1] - t[0]),
+    )
+
+
+def _interpolate(x: Array, y: Array, wanted: Array, interpolation: Interpolation) -> Array:
+    if interpolation is Interpolation.CUBIC:
+        return cubic_spline(x, y, wanted)
+    return np.column_stack([np.interp(wanted, x, column) for column in y.T])
+
+
+def _slerp_at(x: Array, q: Array, wanted: Array) -> Array:
+    left = np.clip(np.searchsorted(x, wanted, side="right") - 1, 0, len(x) - 2)
+    fraction = np.clip((wanted - x[left]) / (x[left + 1] - x[left]), 0.0, 1.0)
+    return slerp(q[left], q[left + 1], fraction)

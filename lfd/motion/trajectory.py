@@ -1,0 +1,64 @@
+"""A trajectory: poses at a uniform timing."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from lfd.arrays import Array, checked, checked_quaternions, frozen
+from lfd.exceptions import InvalidDuration, NotFinite, TooFewPoints, WrongShape
+from lfd.motion.rotations import sign_continuous
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """Poses of the end effector at n equally spaced times from 0 to `duration`, in one frame.
+
+    The arrays are copied and read-only; orientations are normalised and made sign-continuous.
+
+    Attributes:
+        positions: Shape (n, 3) [m].
+        orientations: Unit quaternions (w, x, y, z), shape (n, 4).
+        duration: Time from the first to the last point [s].
+
+    Raises:
+        WrongShape: An array has the wrong shape, or the two differ in length.
+        TooFewPoints: There are fewer than two points.
+        NotFinite: A number is NaN or infinite.
+        NotUnitQuaternion: An orientation is not a unit quaternion.
+        InvalidDuration: The duration is not positive.
+    """
+
+    positions: Array
+    orientations: Array
+    duration: float
+
+    def __post_init__(self) -> None:
+        positions = checked("positions", self.positions, (None, 3))
+        if len(positions) < 2:
+            raise TooFewPoints("positions", len(positions))
+        orientations = checked_quaternions("orientations", self.orientations, (None, 4))
+        if len(orientations) != len(positions):
+            raise WrongShape("orientations", f"({len(positions)}, 4)", orientations.shape)
+        if not math.isfinite(self.duration):
+            raise NotFinite("duration", ())
+        if self.duration <= 0.0:
+            raise InvalidDuration(self.duration)
+        object.__setattr__(self, "positions", positions)
+        object.__setattr__(self, "orientations", frozen(sign_continuous(orientations)))
+        object.__setattr__(self, "duration", float(self.duration))
+
+    @property
+    def n_points(self) -> int:
+        """Number of points n."""
+        return len(self.positions)
+
+    @property
+    def times(self) -> Array:
+        """Times of the points, shape (n,) [s]."""
+        return np.linspace(0.0, self.duration, self.n_points)
+
+    @property
+    def phases(self) -> Array:
+        """Times of the points as a fraction of the duration, shape (n,), from 0 to 1."""
+        return np.linspace(0.0, 1.0, self.n_points)

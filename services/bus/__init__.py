@@ -1,0 +1,1 @@
+"""The bus: what every process sees of the transport, in memory and over Zenoh."""

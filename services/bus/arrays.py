@@ -1,0 +1,61 @@
+"""Arrays and motions between NumPy and the wire."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from protocol.messages import Array, Motion, Quaternion, Vector3
+from services.process.exceptions import ServiceError
+
+Floats = NDArray[np.float64]
+
+
+class NotFinite(ServiceError):
+    """An array from the wire holds NaN or infinity."""
+
+    def __init__(self, count: int) -> None:
+        self.count = count
+        super().__init__(f"{count} numbers of an array are not finite")
+
+
+def to_wire(array: ArrayLike) -> Array:
+    """The array as 64-bit floats, any shape."""
+    values = np.ascontiguousarray(array, dtype="<f8")
+    return Array(dtype="<f8", shape=values.shape, data=values.tobytes())
+
+
+def from_wire(array: Array) -> Floats:
+    """The array, read-only, as 64-bit floats.
+
+    Raises:
+        NotFinite: it holds NaN or infinity.
+    """
+    values = np.frombuffer(array.data, dtype=array.dtype).reshape(array.shape).astype(np.float64, copy=False)
+    values.flags.writeable = False
+    wrong = int(np.size(values) - np.count_nonzero(np.isfinite(values)))
+    if wrong:
+        raise NotFinite(wrong)
+    return values
+
+
+def motion_to_wire(positions: ArrayLike, orientations: ArrayLike, duration: float) -> Motion:
+    """Positions (n, 3) [m], orientations (n, 4) and duration [s] as a message."""
+    return Motion(positions=to_wire(positions), orientations=to_wire(orientations), duration=duration)
+
+
+def motion_from_wire(motion: Motion) -> tuple[Floats, Floats, float]:
+    """Positions (n, 3) [m], orientations (n, 4) and duration [s] of a message; raises as `from_wire`."""
+    return from_wire(motion.positions), from_wire(motion.orientations), motion.duration
+
+
+def vector3(values: ArrayLike) -> Vector3:
+    """Three numbers as a message's vector."""
+    x, y, z = np.asarray(values, dtype=np.float64).tolist()
+    return (x, y, z)
+
+
+def quaternion(values: ArrayLike) -> Quaternion:
+    """Four numbers, scalar first, as a message's quaternion."""
+    w, x, y, z = np.asarray(values, dtype=np.float64).tolist()
+    return (w, x, y, z)

@@ -1,0 +1,103 @@
+"""The bus in one process, for tests: same codec, same judgement of freshness, a clock that is moved by hand."""
+
+from __future__ import annotations
+
+from typing import Any, TypeVar
+
+import msgspec
+
+from protocol.codec import decode_reply, encode, encode_request
+from protocol.messages import Message, TopicFigures
+from protocol.queries import Query
+from protocol.topics import Topic
+from services.bus.bus import Failed, Outbox, Pending, Server, Subscription
+from services.bus.identity import new_publisher
+from services.process.clock import Clock
+
+M = TypeVar("M", bound=Message)
+Req = TypeVar("Req", bound=msgspec.Struct)
+Rep = TypeVar("Rep", bound=msgspec.Struct)
+
+
+class MemoryNetwork:
+    """What the buses of a test have in common."""
+
+    def __init__(self, clock: Clock) -> None:
+        self.clock = clock
+        self.subscriptions: list[Subscription[Any]] = []
+        self.servers: dict[str, Server[Any, Any]] = {}
+
+    def bus(self) -> MemoryBus:
+        """A new process' way in."""
+        return MemoryBus(self)
+
+    def deliver(self, topic: Topic[Any], payload: bytes, schema: str = "") -> None:
+        """Put bytes on a topic, as any program on a network could."""
+        for subscription in self.subscriptions:
+            if subscription.topic is topic:
+                subscription.receive(payload, schema, self.clock.now_ns())
+
+
+class MemoryBus:
+    """The bus of one process under test."""
+
+    def __init__(self, network: MemoryNetwork) -> None:
+        self._network = network
+        self._outbox = Outbox(new_publisher())
+        self._own: list[Subscription[Any]] = []
+        self._servers: list[Server[Any, Any]] = []
+
+    @property
+    def identity(self) -> int:
+        """This incarnation."""
+        return self._outbox.identity
+
+    def publish(self, topic: Topic[M], message: M) -> None:
+        """Deliver at once."""
+        stamped = self._outbox.stamp(topic, message, self._network.clock.now_ns())
+        self._network.deliver(topic, encode(topic, stamped), topic.schema)
+
+    def subscribe(self, topic: Topic[M]) -> Subscription[M]:
+        """Receive what is published from now on."""
+        subscription = Subscription(topic, self.identity)
+        self._network.subscriptions.append(subscription)
+        self._own.append(subscription)
+        return subscription
+
+    def serve(self, query: Query[Req, Rep]) -> Server[Req, Rep]:
+        """Answer a query."""
+        server = Server(query)
+        self._network.servers[query.name] = server
+        self._servers.append(server)
+        return server
+
+    def ask(self, query: Query[Req, Rep], request: Req, timeout_s: float = 2.0) -> Pending[Rep]:
+        """Queue the request; a timeout cannot happen in memory, an absent server is a failure."""
+        del timeout_s
+        pending: Pending[Rep] = Pending()
+        server = self._network.servers.get(query.name)
+        if server is None:
+            pending.settle(Failed(f"nobody answers {query.name}"))
+            return pending
+        payload = encode_request(query, request)
+        server.receive(payload, query.schema, lambda reply: pending.settle(decode_reply(query, reply)))
+        return pending
+
+    def figures(self) -> tuple[TopicFigures, ...]:
+        """What was received since the last call."""
+        now = self._network.clock.now_ns()
+        return tuple(inlet.figures(now) for inlet in self._inlets)
+
+    def faults(self) -> list[str]:
+        """What was thrown away since the last call."""
+        return [fault for fault in (inlet.take_fault() for inlet in self._inlets) if fault]
+
+    @property
+    def _inlets(self) -> list[Subscription[Any] | Server[Any, Any]]:
+        return [*self._own, *self._servers]
+
+    def close(self) -> None:
+        """Leave."""
+        for subscription in self._own:
+            self._network.subscriptions.remove(subscription)
+        self._own = []

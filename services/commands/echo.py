@@ -1,0 +1,70 @@
+"""`retouch echo`: whatever passes on a key expression, decoded without any schema."""
+
+from __future__ import annotations
+
+import queue
+import sys
+import time
+from typing import Any
+
+import msgpack
+
+from services.bus.zenoh import Passing, close_session, open_session, watch
+from services.process.exceptions import CommandFailed
+from services.process.runner import stop_on_signals
+
+LONG = 64
+"""Bytes and lists longer than this are shown by their length."""
+
+
+def decoded(payload: bytes) -> Any:
+    """The payload by the plain msgpack package; what is no msgpack is shown as its bytes."""
+    try:
+        return msgpack.unpackb(payload, strict_map_key=False)
+    except (ValueError, msgpack.UnpackException, RecursionError):
+        return payload
+
+
+def shown(value: Any) -> str:
+    """A decoded value in one line."""
+    match value:
+        case bytes() if len(value) > LONG:
+            return f"<{len(value)} bytes>"
+        case dict():
+            return "{" + ", ".join(f"{k}: {shown(v)}" for k, v in value.items()) + "}"
+        case list() if len(value) > LONG:
+            return f"<{len(value)} items>"
+        case list():
+            return "[" + ", ".join(shown(v) for v in value) + "]"
+        case float():
+            return f"{value:.6g}"
+        case _:
+            return repr(value)
+
+
+def echo(connect: str, key: str, count: int | None) -> None:
+    """Print until interrupted, or `count` messages.
+
+    Raises:
+        BusError: there is no such network, or the key is no key expression.
+        CommandFailed: the count is not positive.
+    """
+    if count is not None and count < 1:
+        raise CommandFailed(f"--count must be at least 1, not {count}")
+    stop = stop_on_signals()
+    passing: queue.Queue[Passing] = queue.Queue(maxsize=10_000)
+    session = open_session(connect, timeout_s=5.0)
+    try:
+        watch(session, key, passing.put)
+        shown_count = 0
+        while not stop.is_set() and shown_count != count:
+            try:
+                message = passing.get(timeout=0.2)
+            except queue.Empty:
+                continue
+            stamp = time.strftime("%H:%M:%S")
+            sys.stdout.write(f"{stamp} {message.key} [{message.schema or '?'}] {shown(decoded(message.payload))}\n")
+            sys.stdout.flush()
+            shown_count += 1
+    finally:
+        close_session(session)

@@ -1,0 +1,199 @@
+"""`retouch map`: where a model succeeds, before and after its corrections."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Self
+
+import msgspec
+import numpy as np
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, Task, TextColumn, TimeRemainingColumn
+
+from lfd.models.model import MovementModel
+from lfd.store.database import DemonstrationStore, Kind, StoredDemonstration
+from services.model.service import learn_all
+from services.offline.first_demonstrations import first_demonstrations
+from services.reproduction.exceptions import CannotKeep, NothingToMap
+from services.reproduction.models import BY_NAME
+from services.reproduction.store import write_whole
+from services.success_map import conditions as success_map
+from services.success_map.conditions import Place, SuccessMap
+from services.success_map.figure import figure
+from services.success_map.work import Tried, conditions, corrected_once
+from sim.tasks import REACHING, AnyScene
+from sim.tasks import scene as find_scene
+from sim.tasks.scene import ReachingScene
+
+_POSITION = 3  # dimension of the condition that a map is made of
+_SCENE = "dishwasher"
+
+
+@dataclass(frozen=True)
+class Request:
+    """What to map.
+
+    Attributes:
+        scene: by name; the database's, where there is one, by default.
+        variant: of the scene; the changed one by default.
+        kind: of the model, "adaptive" or "promp".
+        database: that the model was taught into; the scene's first demonstrations by default.
+        before: newest updates that the earlier stage lacks; one, where there is one, by default.
+        teach: let the scripted operator correct the first demonstrations' model once.
+        grid: about how many conditions, as a square's side.
+        samples: how many random ones instead.
+        spread: of the starts along each axis [m].
+        seed: of all that is random.
+        jobs: processes; one a core by default.
+        out: the picture.
+        json: what became of each condition.
+    """
+
+    scene: str | None = None
+    variant: str | None = None
+    kind: str = "adaptive"
+    database: Path | None = None
+    before: int | None = None
+    teach: bool = False
+    grid: int = 16
+    samples: int | None = None
+    spread: float = 0.05
+    seed: int = 0
+    jobs: int | None = None
+    out: Path = Path("map.png")
+    json: Path | None = None
+
+    @classmethod
+    def from_arguments(cls, arguments: argparse.Namespace) -> Self:
+        """Of the command's flags."""
+        return cls(**{name: getattr(arguments, name) for name in cls.__dataclass_fields__})
+
+
+def draw_map(request: Request) -> SuccessMap:
+    """Make the map, draw it, and say what came out in a line.
+
+    Args:
+        request: what to map.
+
+    Raises:
+        NothingToMap: the flags do not go together, or the database holds no model that can be mapped.
+        CannotKeep: the picture cannot be written.
+        StorageError: the database cannot be read.
+        SimError: there is no such scene or variant.
+    """
+    _check(request)
+    stored = _stored(request)
+    scene = _with_an_object(find_scene(request.scene or (stored[-1].scene if stored else _SCENE)))
+    variant = request.variant or scene.variants[-1]
+    scene.check(variant)
+    console = Console(stderr=True, highlight=False)
+    if not stored:
+        stored = _first(request, scene, variant, console)
+    corrections, models = _stages(request, stored)
+    places = _places(request, scene)
+    jobs = request.jobs or os.cpu_count() or 1
+    with _bar(console, len(places)) as advance:
+        tried = conditions(Tried(scene.name, variant, models, places), jobs, advance)
+    found = SuccessMap(scene.name, variant, request.kind, corrections, tuple(tried))
+    _write(request.out, figure(scene, found, BY_NAME[request.kind]).image, "--out")
+    if request.json:
+        _write(request.json, msgspec.json.format(msgspec.json.encode(found)), "--json")
+    console.print(found.summary(), soft_wrap=True)
+    Console(highlight=False, soft_wrap=True).print(str(request.out.resolve()), markup=False)
+    return found
+
+
+def _check(request: Request) -> None:
+    """All that can be said before anything is simulated."""
+    if request.teach and request.database:
+        raise NothingToMap("--teach starts from the first demonstrations: leave out --database, or --teach")
+    if request.before and not request.database:
+        raise NothingToMap("--before takes back updates of a database: give --database FILE")
+    if request.out.suffix != ".png":
+        raise NothingToMap(f"--out must name a .png file, not {str(request.out)!r}")
+    for path, flag in ((request.out, "--out"), (request.json, "--json")):
+        if path and not path.parent.is_dir():
+            raise CannotKeep(path.parent, "there is no such folder", flag)
+
+
+def _with_an_object(scene: AnyScene) -> ReachingScene:
+    if not isinstance(scene, ReachingScene):
+        raise NothingToMap(f"scene {scene.name} has no object to reach: map one of {', '.join(REACHING)}")
+    return scene
+
+
+def _stored(request: Request) -> list[StoredDemonstration]:
+    """What the database holds; nothing where none was given."""
+    if request.database is None:
+        return []
+    if not request.database.is_file():  # a store would make it
+        raise NothingToMap(f"there is no file {request.database}: give the database of a model with --database")
+    with DemonstrationStore(request.database) as store:
+        stored = store.active()
+    if not stored:
+        raise NothingToMap(f"{request.database} holds no demonstration: teach the model first")
+    if any(len(one.demonstration.condition) != _POSITION for one in stored):
+        raise NothingToMap(f"{request.database} depends on more than the object's position: that cannot be mapped")
+    return stored
+
+
+def _first(request: Request, scene: ReachingScene, variant: str, console: Console) -> list[StoredDemonstration]:
+    """The scene's first demonstrations, and a correction where one is asked for."""
+    demonstrations = first_demonstrations(scene)
+    if not request.teach:
+        return [StoredDemonstration(i, Kind.INITIAL, scene.name, one) for i, one in enumerate(demonstrations, 1)]
+    with console.status("the scripted operator corrects"):
+        return corrected_once(scene, variant, request.kind, demonstrations, request.seed)
+
+
+def _stages(request: Request, stored: list[StoredDemonstration]) -> tuple[tuple[int, ...], tuple[MovementModel, ...]]:
+    """How many corrections the model has learnt at each stage, and the model."""
+    updates = sum(one.kind is Kind.UPDATE for one in stored)
+    before = min(1, updates) if request.before is None else request.before
+    if before > updates:
+        raise NothingToMap(f"--before {before} takes back more than the {updates} updates of {request.database}")
+    taken = sorted({updates - before, updates})
+    newest_last = [one for one in stored if one.kind is Kind.UPDATE]
+    initial = [one for one in stored if one.kind is Kind.INITIAL]
+    models = [learn_all(request.kind, [*initial, *newest_last[:n]]) for n in taken]
+    if any(model is None for model in models):
+        raise NothingToMap("the model knows no motion before its updates: give a smaller --before")
+    return tuple(taken), tuple(model for model in models if model is not None)
+
+
+def _places(request: Request, scene: ReachingScene) -> tuple[Place, ...]:
+    if request.samples is None:
+        return success_map.grid(scene, request.grid, request.spread)
+    return success_map.sample(scene, request.samples, request.spread, np.random.default_rng(request.seed))
+
+
+def _write(path: Path, content: bytes, flag: str) -> None:
+    try:
+        write_whole(path, content)
+    except OSError as error:
+        raise CannotKeep(path.parent, error.strerror or str(error), flag) from None
+
+
+class _Rate(TextColumn):
+    """Conditions a second."""
+
+    def __init__(self) -> None:
+        super().__init__("")
+
+    def render(self, task: Task) -> str:  # type: ignore[override]
+        """See the base."""
+        return f"{task.speed:.1f} /s" if task.speed else ""
+
+
+@contextmanager
+def _bar(console: Console, total: int) -> Iterator[Callable[[float], None]]:
+    """A bar of conditions, with their rate and the time left."""
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), _Rate(), TimeRemainingColumn())
+    with Progress(*columns, console=console, transient=True) as progress:
+        task = progress.add_task("conditions", total=total)
+        yield lambda share: progress.update(task, completed=round(share * total))

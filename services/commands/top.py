@@ -1,0 +1,101 @@
+"""`retouch top`: the live processes of a network."""
+
+from __future__ import annotations
+
+import time
+
+from rich.console import Console
+from rich.live import Live
+from rich.table import Table
+
+from protocol.codec import decode
+from protocol.exceptions import ProtocolError
+from protocol.messages import Heartbeat
+from protocol.topics import HEARTBEAT, VERSION
+from services.bus.zenoh import Passing, close_session, open_session, watch
+from services.process.clock import SystemClock
+from services.process.runner import stop_on_signals
+
+GONE_AFTER_S = 5.0
+
+
+class Beats:
+    """The newest heartbeat of each process, and when it came."""
+
+    def __init__(self) -> None:
+        self._newest: dict[tuple[str, str], tuple[Heartbeat, float, float]] = {}
+        self._clock = SystemClock()
+
+    def receive(self, passing: Passing) -> None:
+        """Keep a heartbeat; what is none is passed over."""
+        try:
+            beat = decode(HEARTBEAT, passing.payload, passing.schema)
+        except ProtocolError:
+            return
+        robot = passing.key.split("/")[2]
+        now = self._clock.now_ns() / 1e9
+        previous = self._newest.get((robot, beat.process))
+        share = 0.0
+        if previous is not None and previous[0].pid == beat.pid and now > previous[1]:
+            share = (beat.cpu_s - previous[0].cpu_s) / (now - previous[1])
+        self._newest[(robot, beat.process)] = (beat, now, share)
+
+    def table(self) -> Table:
+        """A row a process, a row a topic that it receives."""
+        table = Table(title="retouch top", expand=False)
+        for heading in (
+            "robot",
+            "process",
+            "host:pid",
+            "Hz",
+            "late",
+            "CPU",
+            "MB",
+            "receives",
+            "rate",
+            "age",
+            "latency",
+        ):
+            table.add_column(heading, justify="left" if heading in ("robot", "process", "receives") else "right")
+        table.add_column("drops", justify="right")
+        now = self._clock.now_ns() / 1e9
+        for (robot, name), (beat, seen, share) in sorted(self._newest.items()):
+            gone = now - seen > GONE_AFTER_S
+            style = "dim" if gone else ""
+            late = f"{100 * beat.late_ticks / max(1, beat.ticks):.1f} %"
+            head = [robot, name + (" (gone)" if gone else ""), f"{beat.host}:{beat.pid}", f"{beat.rate_hz:g}", late]
+            head += [f"{100 * share:.0f} %", f"{beat.memory / 1e6:.0f}"]
+            topics = [
+                [t.topic, f"{t.rate_hz:.0f}", _seconds(t.age), _seconds(t.latency), str(t.drops)] for t in beat.topics
+            ]
+            for i, row in enumerate(topics or [[""] * 5]):
+                table.add_row(*(head if i == 0 else [""] * len(head)), *row, style=style)
+        return table
+
+
+def _seconds(value: float) -> str:
+    return "-" if value < 0 else f"{1e3 * value:.1f} ms"
+
+
+def top(connect: str, *, once: bool) -> None:
+    """Show until interrupted, or one table after a few heartbeats.
+
+    Raises:
+        BusError: there is no such network.
+    """
+    stop = stop_on_signals()
+    session = open_session(connect, timeout_s=5.0)
+    beats = Beats()
+    console = Console(width=None if Console().is_terminal else 160)
+    try:
+        watch(session, f"retouch/{VERSION}/*/{HEARTBEAT.name}/*", beats.receive)
+        if once:
+            stop.wait(2.5 / HEARTBEAT.rate_hz)
+            console.print(beats.table())
+            return
+        with Live(beats.table(), console=console, screen=console.is_terminal) as live:
+            while not stop.is_set():
+                time.sleep(0.5)
+                live.update(beats.table())
+    finally:
+        close_session(session)

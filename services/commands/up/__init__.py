@@ -1,0 +1,1 @@
+"""`retouch up`: starts every process, watches over it, reports."""

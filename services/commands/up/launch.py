@@ -1,0 +1,155 @@
+"""`retouch up`: what to start, with which configuration, in which folder."""
+
+from __future__ import annotations
+
+import argparse
+import threading
+import time
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Self
+
+import msgspec
+from rich.console import Console
+
+from services.commands.up.child import Child, Job
+from services.commands.up.supervisor import ROUTER, Supervisor
+from services.process.config import Configuration, save
+from services.process.exceptions import CommandFailed
+from services.process.processes import PROCESS_NAMES
+from services.process.runner import stop_on_signals
+
+TEACHER = "teach"
+
+
+@dataclass(frozen=True)
+class Launch:
+    """How to run.
+
+    Attributes:
+        processes: which to start.
+        router: whether to start a router, rather than join one.
+        headless: a scripted operator teaches.
+        once: end when the loop has closed.
+        fresh: start from an empty model, kept in the run's folder.
+        json: where to write the report.
+        browser: open the page.
+    """
+
+    processes: tuple[str, ...] = PROCESS_NAMES
+    router: bool = True
+    headless: bool = False
+    once: bool = False
+    fresh: bool = False
+    json: Path | None = None
+    browser: bool = True
+
+    @classmethod
+    def from_arguments(cls, arguments: argparse.Namespace) -> Self:
+        """From the command line.
+
+        Raises:
+            CommandFailed: --only names a process that does not exist, or the report cannot be written.
+        """
+        names = tuple(n.strip() for n in arguments.only.split(",")) if arguments.only else PROCESS_NAMES
+        for name in names:
+            if name not in PROCESS_NAMES:
+                raise CommandFailed(f"--only: unknown process {name!r}; there are {', '.join(PROCESS_NAMES)}")
+        if arguments.json is not None and not arguments.json.parent.is_dir():
+            raise CommandFailed(f"--json: the folder {arguments.json.parent} does not exist")
+        if arguments.json is not None and arguments.json.is_dir():
+            raise CommandFailed(f"--json: {arguments.json} is a folder; name a file in it")
+        return cls(
+            processes=names,
+            router=arguments.connect is None,
+            headless=arguments.headless,
+            once=arguments.once,
+            fresh=arguments.fresh,
+            json=arguments.json,
+            browser=not arguments.headless and not arguments.no_browser and "station" in names,
+        )
+
+
+class Voice:
+    """Prints the processes' lines with their name in front, and keeps them in the run's log."""
+
+    def __init__(self, console: Console, log: Path) -> None:
+        self._console = console
+        self._log = log.open("a", encoding="utf-8")
+        self._lock = threading.Lock()
+
+    def say(self, name: str, line: str) -> None:
+        """One line of a process."""
+        with self._lock:
+            self._log.write(f"{datetime.now(UTC):%H:%M:%S.%f} {name}: {line}\n")
+            self._log.flush()
+            self._console.print(f"{name:>10} | {line}", markup=False, highlight=False, soft_wrap=True)
+
+    def close(self) -> None:
+        """Close the log."""
+        self._log.close()
+
+
+def launch(configuration: Configuration, options: Launch) -> int:
+    """Run until interrupted, or until a scripted run has ended; 0 where it did what it was started for.
+
+    Raises:
+        ServiceError: it cannot start.
+    """
+    started = time.monotonic()
+    stop = stop_on_signals()
+    folder = _run_folder(Path(configuration.viewer.folder))
+    configuration = _for_run(configuration, folder, options)
+    resolved = folder / "configuration.json"
+    save(configuration, resolved)
+    console = Console(stderr=False)
+    voice = Voice(console, folder / "log.txt")
+    children = [Child(job, voice.say) for job in _jobs(options, resolved)]
+    supervisor = Supervisor(
+        configuration,
+        children,
+        voice.say,
+        started=started,
+        report=options.json,
+        ends=options.once or options.headless,
+        interrupted=1 if options.once else 0,
+        browser=options.browser,
+    )
+    try:
+        code = supervisor.run(stop, console, table=console.is_terminal and not options.headless)
+    finally:
+        supervisor.stop()
+        voice.close()
+    return code
+
+
+def _run_folder(parent: Path) -> Path:
+    stamp = datetime.now(UTC).strftime("%Y%m%d-%H%M%S")
+    for suffix in ("", *(f"-{i}" for i in range(2, 100))):
+        folder = parent / f"{stamp}{suffix}"
+        try:
+            folder.mkdir(parents=True)
+        except FileExistsError:
+            continue
+        except OSError as error:
+            raise CommandFailed(f"cannot make the folder {folder} for this run: {error.strerror}") from None
+        return folder.resolve()
+    raise CommandFailed(f"cannot make a folder for this run in {parent}")
+
+
+def _for_run(configuration: Configuration, folder: Path, options: Launch) -> Configuration:
+    viewer = msgspec.structs.replace(configuration.viewer, folder=str(folder))
+    model = configuration.model
+    if options.fresh:
+        model = msgspec.structs.replace(model, database=str(folder / "model.sqlite"))
+    return msgspec.structs.replace(configuration, viewer=viewer, model=model)
+
+
+def _jobs(options: Launch, resolved: Path) -> list[Job]:
+    configured = ("--config", str(resolved))
+    jobs = [Job(ROUTER, (ROUTER, *configured))] if options.router else []
+    jobs += [Job(name, (name, *configured)) for name in options.processes]
+    if "model" in options.processes:
+        jobs.append(Job(TEACHER, (TEACHER, *configured), restart=False))
+    return jobs

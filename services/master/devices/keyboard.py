@@ -1,0 +1,157 @@
+"""The keys of the operator's page as a master: rate control with a dead man's switch."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+
+from protocol.messages import Figure, Vector3
+from services.master.devices.device import ZERO, Moment, Sample
+from services.process.config import Keyboard
+
+PUSH_KEYS: Mapping[str, tuple[int, int]] = {
+    "KeyQ": (0, +1),
+    "KeyA": (0, -1),
+    "KeyW": (1, +1),
+    "KeyS": (1, -1),
+    "KeyE": (2, +1),
+    "KeyD": (2, -1),
+}
+"""Physical keys (`KeyboardEvent.code`) to axis and sign of the displacement, as in the thesis."""
+
+TURN_KEYS: Mapping[str, tuple[int, int]] = {
+    "KeyR": (0, +1),
+    "KeyF": (0, -1),
+    "KeyT": (1, +1),
+    "KeyG": (1, -1),
+    "KeyY": (2, +1),
+    "KeyH": (2, -1),
+}
+"""The same of the rotation: the thesis' keys, which turn about the tool's axes there and about the base's here."""
+
+LET_GO_S = 0.2
+"""Within this time displacement and rotation are zero after focus, tab, link or process was lost [s]."""
+
+
+@dataclass(frozen=True)
+class Law:
+    """How three numbers answer their keys; their unit u is the metre or the radian.
+
+    Attributes:
+        growth: of a number while a key is held [u/s].
+        decay: towards zero without [u/s].
+        reach: largest [u].
+    """
+
+    growth: float
+    decay: float
+    reach: float
+
+
+def directions(keys: Collection[str], table: Mapping[str, tuple[int, int]]) -> tuple[int, int, int]:
+    """Which way each axis is pushed by a table's keys: -1, 0 or 1; keys against each other cancel out."""
+    axes = [0, 0, 0]
+    for key in set(keys) & table.keys():
+        axis, sign = table[key]
+        axes[axis] += sign
+    return (axes[0], axes[1], axes[2])
+
+
+def pushed(value: float, direction: int, dt: float, law: Law) -> float:
+    """One number after dt [s]: grows while a key is held, decays to zero without [u]."""
+    if direction == 0:
+        return _towards_zero(value, law.decay * dt)
+    return max(-law.reach, min(law.reach, value + direction * law.growth * dt))
+
+
+def _towards_zero(value: float, distance: float) -> float:
+    return max(0.0, value - distance) if value > 0.0 else min(0.0, value + distance)
+
+
+class _Lever:
+    """Three numbers and the keys that push them.
+
+    Args:
+        table: of the keys.
+        law: by which they push.
+    """
+
+    def __init__(self, table: Mapping[str, tuple[int, int]], law: Law) -> None:
+        self._table = table
+        self._law = law
+        self.value = ZERO
+
+    def take_over(self, value: Vector3) -> None:
+        """Go on from a value, as far as the reach allows."""
+        x, y, z = (max(-self._law.reach, min(self._law.reach, v)) for v in value)
+        self.value = (x, y, z)
+
+    def hold(self, keys: Collection[str], dt: float) -> None:
+        """Let the held keys push for dt [s]."""
+        x, y, z = (
+            pushed(v, way, dt, self._law) for v, way in zip(self.value, directions(keys, self._table), strict=True)
+        )
+        self.value = (x, y, z)
+
+    def let_go(self, dt: float) -> None:
+        """Return to zero, within `LET_GO_S` from anywhere."""
+        x, y, z = (_towards_zero(v, self._law.reach / LET_GO_S * dt) for v in self.value)
+        self.value = (x, y, z)
+
+
+class KeyboardMaster:
+    """Turns held keys into a displacement and a rotation, as fast as the clock goes and not as fast as messages come.
+
+    A key counts only while an episode is being refined and the page's newest state is fresh and focused.
+    Otherwise nobody is at the device: it disengages at once and both fall to zero within `LET_GO_S`. Whoever engages
+    it takes over the correction as the robot applies it then: a held robot does not jump back because its operator, or
+    this process, was away.
+
+    Args:
+        law: growth, decay and reach of both.
+    """
+
+    name = "keyboard"
+
+    def __init__(self, law: Keyboard) -> None:
+        self._push = _Lever(PUSH_KEYS, Law(law.growth, law.decay, law.reach))
+        self._turn = _Lever(TURN_KEYS, Law(law.turn_growth, law.turn_decay, law.turn_reach))
+        self._engaged = False
+
+    def step(self, moment: Moment) -> Sample:
+        """Advance by the time that has passed."""
+        robot, operator = moment.refining, moment.operator
+        if robot is None or operator is None or not operator.focused:
+            return self._let_go(moment.dt)
+        if not self._engaged:
+            self._push.take_over(robot.offset)
+            self._turn.take_over(robot.turn)
+        self._engaged = True
+        before = self._push.value
+        self._push.hold(operator.keys, moment.dt)
+        self._turn.hold(operator.keys, moment.dt)
+        return self._sample(before, moment.dt)
+
+    def figures(self) -> tuple[Figure, ...]:
+        """A keyboard measures nothing."""
+        return ()
+
+    def close(self) -> None:
+        """There is no hardware to let go of."""
+
+    def _let_go(self, dt: float) -> Sample:
+        self._engaged = False
+        before = self._push.value
+        self._push.let_go(dt)
+        self._turn.let_go(dt)
+        return self._sample(before, dt)
+
+    def _sample(self, before: Vector3, dt: float) -> Sample:
+        velocity = _velocity(before, self._push.value, dt)
+        return Sample(self._push.value, velocity, self._turn.value, engaged=self._engaged)
+
+
+def _velocity(before: Vector3, after: Vector3, dt: float) -> Vector3:
+    if dt <= 0.0:
+        return ZERO
+    return (after[0] - before[0]) / dt, (after[1] - before[1]) / dt, (after[2] - before[2]) / dt

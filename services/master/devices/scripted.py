@@ -1,0 +1,150 @@
+"""A simulated haptic stylus in the hand of a scripted operator, who sees what a person would see."""
+
+from __future__ import annotations
+
+import logging
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lfd.exceptions import LfdError
+from lfd.motion.trajectory import Trajectory
+from protocol.messages import ExecutionState, Figure, RobotState
+from protocol.topics import EXECUTION, OBJECT_POSE, SCENE_STATE
+from services.bus.arrays import motion_from_wire
+from services.bus.bus import Bus
+from services.master.devices.device import Moment, Sample
+from services.master.haptics import HapticLoop, HapticThread
+from services.process.clock import Clock, SystemClock
+from services.process.config import Scripted
+from services.process.exceptions import ServiceError
+from sim import tasks as scenes
+from sim.exceptions import SimError
+from sim.person.correction import Correction, plan, plan_at_equal_progress
+from sim.person.hand import Hand, Seen
+from sim.person.stylus import Stylus
+from sim.pose import Pose
+
+log = logging.getLogger(__name__)
+
+_LEFT = 0.002  # [m] a correction that is further from the prediction is not dropped
+_TURNED = 0.01  # [rad] nor one that is turned further
+
+Episode = tuple[int, int]
+"""The robot process' identity and its number for the episode."""
+
+
+class ScriptedMaster:
+    """Takes the stylus when an episode is to be refined, and lets go at its end.
+
+    The force loop has its own thread where time goes by itself; on a clock that is moved by hand it
+    advances with every step.
+
+    Args:
+        bus: where the hand's eyes are.
+        clock: of the process.
+        settings: of feedback and hand.
+        seed: of the tremor.
+    """
+
+    name = "stylus"
+
+    def __init__(self, bus: Bus, clock: Clock, settings: Scripted, seed: int) -> None:
+        self._execution = bus.subscribe(EXECUTION)
+        self._scene = bus.subscribe(SCENE_STATE)
+        self._object = bus.subscribe(OBJECT_POSE)
+        self._exaggeration = settings.exaggeration
+        self._hand = Hand(seed)
+        self._loop = HapticLoop(Stylus(), self._hand, settings.stiffness, settings.damping, clock.now_ns())
+        self._thread = HapticThread(self._loop, clock) if isinstance(clock, SystemClock) else None
+        self._gripped: Episode | None = None
+
+    def step(self, moment: Moment) -> Sample | None:
+        """Look, decide, and read the stylus; None while it is brought to where a correction was left."""
+        robot = moment.refining
+        if robot is not None:
+            self._attend(robot)
+            self._look(robot, moment.now_ns)
+        elif moment.robot is not None:  # a picture that stands still for a moment is no reason to let go
+            self._let_go()
+        rendered = self._loop.newest if self._thread else self._loop.advance_to(moment.now_ns)
+        stylus = rendered.stylus
+        if robot is not None and not self._hand.clutched and _corrected(robot):
+            return None
+        return Sample(
+            displacement=stylus.position,
+            velocity=stylus.velocity,
+            rotation=stylus.rotation,
+            force=rendered.feedback,
+            engaged=self._hand.clutched,
+        )
+
+    def figures(self) -> tuple[Figure, ...]:
+        """How regular the force loop is."""
+        return self._thread.figures() if self._thread else ()
+
+    def close(self) -> None:
+        """Stop the force loop."""
+        if self._thread:
+            self._thread.close()
+
+    def _let_go(self) -> None:
+        self._hand.release()
+        self._gripped = None
+
+    def _attend(self, robot: RobotState) -> None:
+        """Take the stylus at an episode's beginning, or where this process came up in its middle."""
+        episode = (robot.publisher, robot.episode)
+        if self._gripped == episode:
+            return
+        self._hand.release()
+        received = self._execution.latest()
+        if received is None or (received.message.publisher, received.message.episode) != episode:
+            return
+        self._gripped = episode
+        try:
+            correction = self._plan(received.message)
+        except (SimError, ServiceError, LfdError) as error:
+            log.warning("episode %d is not corrected: %s", robot.episode, error)
+            return
+        if correction is None:
+            self._gripped = None
+            return
+        self._hand.grip(correction, self._loop.newest.stylus)
+
+    def _plan(self, execution: ExecutionState) -> Correction | None:
+        """The correction of an episode; None while the scene has not been seen."""
+        scene_state = self._scene.latest()
+        if scene_state is None:
+            return None
+        arrangement = scene_state.message
+        prediction = Trajectory(*motion_from_wire(execution.prediction))
+        scene = scenes.scene(arrangement.name)
+        place = np.array(arrangement.condition or self._object_position(prediction.positions))
+        start = Pose(np.array(arrangement.start.position), np.array(arrangement.start.orientation))
+        safe = scene.corridor(arrangement.variant, place, start)
+        if not scene.freedom.tempo:
+            return plan_at_equal_progress(prediction.positions, prediction.orientations, safe, self._exaggeration)
+        ways = [scene.corridor(variant, place, start) for variant in scene.variants]
+        return plan(prediction.positions, prediction.orientations, safe, ways, self._exaggeration)
+
+    def _object_position(self, prediction: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Where the object was seen last; where it never was, the robot's guess is as good as any."""
+        seen = self._object.latest()
+        return np.array(seen.message.pose.position) if seen else prediction[-1]
+
+    def _look(self, robot: RobotState, now_ns: int) -> None:
+        measured = robot.measured
+        seen = Seen(
+            progress=robot.progress,
+            robot=Pose(np.array(measured.position), np.array(measured.orientation)),
+            offset=np.array(robot.offset),
+            turn=np.array(robot.turn),
+            stylus=self._loop.newest.stylus,
+        )
+        self._hand.observe(now_ns / 1e9, seen)
+
+
+def _corrected(robot: RobotState) -> bool:
+    """The robot is not where the prediction alone would have it."""
+    return bool(np.linalg.norm(robot.offset) > _LEFT or np.linalg.norm(robot.turn) > _TURNED)

@@ -1,0 +1,96 @@
+"""The scripted operator teaches a scene offline: steers the arm to targets, with the stylus coupled to it (OffStyl)."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lfd.motion.demonstration import Demonstration
+from lfd.motion.resampling import from_samples
+from lfd.motion.trajectory import Trajectory
+from services.offline.rollout import rollout
+from services.process.exceptions import CommandFailed
+from services.robot.arm import Arm
+from services.robot.assembly import simulated_arm
+from sim.person.steering import steer
+from sim.pose import Pose
+from sim.robots.description import prepare
+from sim.tasks import AnyScene
+from sim.tasks.particle import ParticleScene
+from sim.tasks.scene import Corridor, Freedom, ReachingScene
+
+Array = NDArray[np.float64]
+
+SEED = 0
+DURATION_S = 10.0
+"""Of a demonstration: the thesis' time of an autonomous execution."""
+
+POINTS = 75
+TRIES = 5
+
+
+def lesson(scene: AnyScene, places: Array | None = None, variant: str | None = None) -> list[Demonstration]:
+    """A demonstration for each of some places of a scene's target.
+
+    Args:
+        scene: to teach in.
+        places: of the target, shape (n, d) [m]; the scene's training positions by default.
+        variant: of the scene; the one that its model is trained in by default.
+
+    Raises:
+        CommandFailed: no motion to some place succeeded.
+        UnknownVariant: the scene has no such variant.
+    """
+    variant = variant or scene.variants[0]
+    rng = np.random.default_rng(SEED)
+    arm = simulated_arm(scene, variant, prepare())
+    return [
+        demonstrate(arm, scene, place, rng, variant=variant)
+        for place in (scene.training_positions if places is None else places)
+    ]
+
+
+def demonstrate(
+    arm: Arm,
+    scene: AnyScene,
+    place: Array,
+    rng: np.random.Generator,
+    *,
+    variant: str | None = None,
+    start: Pose | None = None,
+) -> Demonstration:
+    """Steer the arm to the target, again where that fails; the motion as measured.
+
+    Args:
+        arm: in the scene.
+        scene: whose corridor is steered through.
+        place: of the target, shape (d,) [m].
+        rng: of the person's unsteadiness.
+        variant: of the scene; its first by default.
+        start: of the motion; the scene's by default.
+
+    Raises:
+        CommandFailed: no try succeeded.
+        StartImpossible: no motion can start there.
+    """
+    variant = variant or scene.variants[0]
+    start = scene.start if start is None else start
+    for _ in range(TRIES):
+        trajectory = steered(scene.corridor(variant, place, start), rng, scene.freedom)
+        outcome = rollout(arm, trajectory, place, variant=variant, start=start)
+        if outcome.verdict.success:
+            return _demonstration(scene, place, outcome.measured)
+    raise CommandFailed(f"no motion to a target at {np.round(place, 3).tolist()} succeeded in {TRIES} tries")
+
+
+def steered(corridor: Corridor, rng: np.random.Generator | None, freedom: Freedom) -> Trajectory:
+    """A person's motion through a corridor; with a steady hand where there is no randomness."""
+    way = steer(corridor, rng, freedom=freedom)
+    times = np.linspace(0.0, DURATION_S, len(way.positions))
+    return from_samples(times, way.positions, way.orientations, POINTS)
+
+
+def _demonstration(scene: AnyScene, place: Array, motion: Trajectory) -> Demonstration:
+    match scene:
+        case ReachingScene():
+            return Demonstration.reaching(motion, place)
+        case ParticleScene():
+            return Demonstration(motion, origin=np.zeros(3), condition=place)

@@ -1,0 +1,100 @@
+"""The real services on one bus in one process, each stepped at its own rate by a clock that runs as fast as it can."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from protocol.queries import Reset
+from services.bus.memory import MemoryBus, MemoryNetwork
+from services.master.service import build as build_master
+from services.model.service import build as build_model
+from services.offline.eyes import Eyes
+from services.process.clock import ManualClock
+from services.process.config import Configuration
+from services.robot.service import build as build_robot
+from services.station.service import StationService, settings
+
+HOLDER = "rehearsal"
+
+
+class Stepped(Protocol):
+    """What has a rate and a step."""
+
+    @property
+    def rate_hz(self) -> float:
+        """At which it is stepped."""
+        ...
+
+    def step(self, now_ns: int) -> None:
+        """One step."""
+        ...
+
+
+@dataclass
+class _Turn:
+    service: Stepped
+    period_ns: int
+    due_ns: int
+
+
+class Stage:
+    """Robot, model, master and eyes, and one station after another.
+
+    Args:
+        configuration: of all services; master and station are to be scripted ones.
+    """
+
+    def __init__(self, configuration: Configuration) -> None:
+        self._clock = ManualClock()
+        self._network = MemoryNetwork(self._clock)
+        self._configuration = configuration
+        robot = build_robot(self.bus(), self._clock, configuration)
+        self._model = build_model(self.bus(), self._clock, configuration)
+        self._master = build_master(self.bus(), self._clock, configuration)
+        eyes = Eyes(self.bus(), np.random.default_rng(configuration.seed))
+        self._turns = [self._turn(service) for service in (robot, eyes, self._model, self._master)]
+
+    def bus(self) -> MemoryBus:
+        """A way in, for a service or for whoever looks on."""
+        return self._network.bus()
+
+    def run(self, until: Callable[[], bool]) -> None:
+        """Let time pass until something is the case."""
+        while not until():
+            now = min(turn.due_ns for turn in self._turns)
+            self._clock.advance((now - self._clock.now_ns()) / 1e9)
+            for turn in self._turns:
+                if turn.due_ns <= now:
+                    turn.due_ns += turn.period_ns
+                    turn.service.step(now)
+
+    def teach(self, arrangement: Reset, refinements_allowed: int, until: Callable[[], bool]) -> None:
+        """Let a station run Algorithm 1 under one arrangement.
+
+        Args:
+            arrangement: what every reset asks for.
+            refinements_allowed: attempts at one update; with 0 a failure is only seen.
+            until: says that the station has finished.
+        """
+        configured = settings(self._configuration.station)
+        chosen = replace(configured, holder=HOLDER, arrangement=arrangement, refinements_allowed=refinements_allowed)
+        bus = self.bus()
+        station = self._turn(StationService(bus, self._clock, chosen, None, self._configuration.seed))
+        self._turns.append(station)
+        try:
+            self.run(until)
+        finally:
+            self._turns.remove(station)
+            bus.close()
+
+    def close(self) -> None:
+        """Let go of the device and of the database."""
+        self._master.close()
+        self._model.close()
+
+    def _turn(self, service: Stepped) -> _Turn:
+        return _Turn(service, round(1e9 / service.rate_hz), self._clock.now_ns())

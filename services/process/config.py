@@ -1,0 +1,191 @@
+"""Configuration: TOML into frozen structs; what nobody set has a default that works on one machine."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import msgspec
+
+from protocol.queries import Adapt
+from services.process.exceptions import ConfigurationError
+
+Port = Annotated[int, msgspec.Meta(ge=1, le=65535)]
+Positive = Annotated[float, msgspec.Meta(gt=0.0)]
+
+
+class _Section(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A part of the configuration; a key that it does not know is an error."""
+
+
+class RobotSection(_Section, frozen=True):
+    """The robot process.
+
+    Attributes:
+        scene: which simulated scene it stands in: a name in `sim.tasks`.
+        variant: the scene's arrangement to start in; empty for the one that the model was trained in.
+        hold_after_s: age of the master's newest sample at which a refinement holds [s].
+        lease_s: how long the authority lasts without renewal [s].
+        velocity_scale: share of the joints' velocity limits that the robot may use.
+        self_distance_stop: distance between its own parts at which it stops [m].
+        master_gain: of the master's displacement on the reference; its rotation counts as it is.
+    """
+
+    scene: str = "dishwasher"
+    variant: str = ""
+    hold_after_s: Positive = 0.1
+    lease_s: Positive = 1.0
+    velocity_scale: Annotated[float, msgspec.Meta(gt=0.0, le=1.0)] = 0.5
+    self_distance_stop: Annotated[float, msgspec.Meta(ge=0.0)] = 0.005
+    master_gain: Positive = 1.0
+
+
+class CameraSection(_Section, frozen=True):
+    """The camera process: pictures a second and their size [pixel], JPEG quality."""
+
+    rate_hz: Positive = 15.0
+    width: Annotated[int, msgspec.Meta(ge=64, le=1920)] = 320
+    height: Annotated[int, msgspec.Meta(ge=48, le=1080)] = 240
+    quality: Annotated[int, msgspec.Meta(ge=10, le=100)] = 80
+
+
+class PerceptionSection(_Section, frozen=True):
+    """The perception process: over how many pictures the pose is filtered."""
+
+    window: Annotated[int, msgspec.Meta(ge=1, le=100)] = 9
+
+
+class Keyboard(_Section, frozen=True, tag_field="kind", tag="keyboard"):
+    """The keys of the operator's page.
+
+    Attributes:
+        growth: of the displacement while a key is held [m/s].
+        decay: of the displacement without [m/s].
+        reach: largest displacement along each axis [m].
+        turn_growth: of the rotation while a key is held [rad/s].
+        turn_decay: of the rotation without [rad/s].
+        turn_reach: largest rotation about each axis [rad].
+    """
+
+    growth: Positive = 0.12
+    decay: Positive = 0.05
+    reach: Positive = 0.25
+    turn_growth: Positive = 0.4
+    turn_decay: Positive = 0.2
+    turn_reach: Positive = 0.8
+
+
+class Scripted(_Section, frozen=True, tag_field="kind", tag="scripted"):
+    """A simulated haptic stylus moved by the forces of a simulated hand.
+
+    Attributes:
+        stiffness: of the force feedback (eq. 14) [N/m].
+        damping: of the force feedback [N s/m].
+        exaggeration: of the correction; 1 is natural.
+    """
+
+    stiffness: Positive = 50.0
+    damping: Positive = 2.0
+    exaggeration: Positive = 1.0
+
+
+class MasterSection(_Section, frozen=True):
+    """The master process: which device it owns."""
+
+    device: Keyboard | Scripted = msgspec.field(default_factory=Keyboard)
+
+
+class ModelSection(_Section, frozen=True):
+    """The model process.
+
+    Attributes:
+        kind: "adaptive", or "promp" for the thesis' own model.
+        database: file that holds every demonstration; empty for the robot's own in the user's data folder.
+    """
+
+    kind: Annotated[str, msgspec.Meta(pattern="^(adaptive|promp)$")] = "adaptive"
+    database: str = ""
+
+
+class StationSection(_Section, frozen=True):
+    """The station process.
+
+    Attributes:
+        host: address that the page listens on.
+        port: of the page.
+        refinements_allowed: attempts at one update.
+        updates_allowed: updates of one run.
+        autonomous_s: duration of an autonomous execution [s].
+        refine_s: duration of an execution under correction [s].
+        variant: arrangement of the scene that is taught; empty for the one that was changed since the first lesson.
+        adapt: which way-point a correction moves: "next" (eq. 15-17), or "current" (eq. B.7) for comparison.
+        alpha: how far the model believes a refinement (eq. 18), from 0 to 1; 1 is all the way.
+        scripted: the workflow's buttons are pressed by a script; there is no page.
+        once: finish when the loop has closed, instead of going on with another object position.
+    """
+
+    host: str = "127.0.0.1"
+    port: Port = 8080
+    refinements_allowed: Annotated[int, msgspec.Meta(ge=1)] = 10
+    updates_allowed: Annotated[int, msgspec.Meta(ge=1)] = 8
+    autonomous_s: Positive = 10.0
+    refine_s: Positive = 20.0
+    variant: str = ""
+    adapt: Adapt = Adapt.NEXT
+    alpha: Annotated[float, msgspec.Meta(ge=0.0, le=1.0)] = 1.0
+    scripted: bool = False
+    once: bool = False
+
+
+class ViewerSection(_Section, frozen=True):
+    """The viewer process: where it serves the live view, and the folder for recordings."""
+
+    host: str = "127.0.0.1"
+    web_port: Port = 9090
+    stream_port: Port = 9876
+    folder: str = "runs"
+
+
+class Configuration(_Section, frozen=True):
+    """Everything that can be set.
+
+    Attributes:
+        name: the robot's name, the first chunk of all its keys.
+        connect: the router's Zenoh endpoint.
+        listen: where `retouch up` and `retouch router` listen.
+        seed: of everything random.
+    """
+
+    name: str = "robot1"
+    connect: str = "tcp/127.0.0.1:7447"
+    listen: str = "tcp/127.0.0.1:7447"
+    seed: Annotated[int, msgspec.Meta(ge=0)] = 0
+    robot: RobotSection = RobotSection()
+    camera: CameraSection = CameraSection()
+    perception: PerceptionSection = PerceptionSection()
+    master: MasterSection = MasterSection()
+    model: ModelSection = ModelSection()
+    station: StationSection = StationSection()
+    viewer: ViewerSection = ViewerSection()
+
+
+def load(path: Path) -> Configuration:
+    """Read a configuration file: TOML, or JSON where its name ends so.
+
+    Raises:
+        ConfigurationError: it is not there, cannot be parsed, or has a wrong key, type or value; says which.
+    """
+    try:
+        content = path.read_bytes()
+        if path.suffix == ".json":
+            return msgspec.json.decode(content, type=Configuration)
+        return msgspec.toml.decode(content, type=Configuration)
+    except OSError as error:
+        raise ConfigurationError(path, error.strerror or str(error)) from None
+    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+        raise ConfigurationError(path, str(error).replace("Object contains unknown field", "unknown key")) from None
+
+
+def save(configuration: Configuration, path: Path) -> None:
+    """Write the configuration as JSON, as `load` reads it."""
+    path.write_bytes(msgspec.json.format(msgspec.json.encode(configuration)))

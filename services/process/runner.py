@@ -1,0 +1,163 @@
+"""Runs a service: absolute ticks, late ones counted, a heartbeat twice a second, a clean stop."""
+
+from __future__ import annotations
+
+import logging
+import os
+import platform
+import resource
+import signal
+import sys
+import threading
+import time
+from collections import deque
+from types import FrameType
+from typing import Protocol, runtime_checkable
+
+from protocol.messages import Figure, Heartbeat
+from protocol.topics import HEARTBEAT
+from services.bus.bus import Bus
+from services.process.clock import Clock
+
+log = logging.getLogger(__name__)
+
+SWITCH_INTERVAL_S = 5e-4
+"""Python's threads hand over within this time; the default of 5 ms delays reception under load by seconds."""
+
+
+class Service(Protocol):
+    """A thin shell around a pure step."""
+
+    @property
+    def rate_hz(self) -> float:
+        """At which `step` is called."""
+        ...
+
+    def step(self, now_ns: int) -> None:
+        """Read the latest inputs, call pure code, publish. Must not wait."""
+        ...
+
+    def figures(self) -> tuple[Figure, ...]:
+        """What the service measured since the last call, for the heartbeat."""
+        ...
+
+    def close(self) -> None:
+        """Give back what is not the bus'."""
+        ...
+
+
+@runtime_checkable
+class Paced(Protocol):
+    """A service that moves its ticks to where its input comes."""
+
+    def take_slew_ns(self) -> int:
+        """By how much the next tick is to begin later, or earlier where negative."""
+        ...
+
+
+class TickStatistics:
+    """How regular the ticks are.
+
+    Args:
+        rate_hz: at which they should come.
+    """
+
+    def __init__(self, rate_hz: float) -> None:
+        self.period_ns = round(1e9 / rate_hz)
+        self.ticks = 0
+        self.late = 0
+        self._periods: deque[int] = deque(maxlen=4096)
+        self._steps: deque[int] = deque(maxlen=4096)
+        self._previous_ns: int | None = None
+
+    def tick(self, due_ns: int, started_ns: int, ended_ns: int) -> None:
+        """Count one tick: when it was due, began and ended."""
+        self.ticks += 1
+        self.late += started_ns - due_ns > self.period_ns // 2
+        if self._previous_ns is not None:
+            self._periods.append(started_ns - self._previous_ns)
+        self._previous_ns = started_ns
+        self._steps.append(ended_ns - started_ns)
+
+    def take_quantiles(self) -> tuple[float, float, float]:
+        """Period p50 and p99 and step p99 since the last call [s]."""
+        result = (_quantile(self._periods, 0.5), _quantile(self._periods, 0.99), _quantile(self._steps, 0.99))
+        self._periods.clear()
+        self._steps.clear()
+        return result
+
+
+def _quantile(samples_ns: deque[int], q: float) -> float:
+    if not samples_ns:
+        return 0.0
+    ordered = sorted(samples_ns)
+    return ordered[min(len(ordered) - 1, int(q * len(ordered)))] / 1e9
+
+
+def stop_on_signals() -> threading.Event:
+    """An event that SIGTERM and SIGINT set."""
+    stop = threading.Event()
+
+    def set_stop(number: int, frame: FrameType | None) -> None:
+        del number, frame
+        stop.set()
+
+    signal.signal(signal.SIGTERM, set_stop)
+    signal.signal(signal.SIGINT, set_stop)
+    return stop
+
+
+def run(service: Service, bus: Bus, clock: Clock, process: str, stop: threading.Event) -> None:
+    """Step the service until `stop` is set, then close it.
+
+    A tick that could not begin within its period is skipped, not made up for: the phase stays, no burst follows.
+
+    Args:
+        service: what to run.
+        bus: where the heartbeat goes.
+        clock: what the ticks are counted on.
+        process: the name in the heartbeat.
+        stop: ends the run.
+    """
+    sys.setswitchinterval(SWITCH_INTERVAL_S)
+    ticks = TickStatistics(service.rate_hz)
+    paced = service if isinstance(service, Paced) else None
+    due = clock.now_ns()
+    heartbeat_due = due
+    try:
+        while not stop.is_set():
+            started = clock.now_ns()
+            service.step(started)
+            ended = clock.now_ns()
+            ticks.tick(due, started, ended)
+            if ended >= heartbeat_due:
+                bus.publish(HEARTBEAT, _heartbeat(service, bus, process, ticks))
+                for fault in bus.faults():
+                    log.warning("dropped: %s", fault)
+                heartbeat_due = ended + round(1e9 / HEARTBEAT.rate_hz)
+            due += ticks.period_ns + (paced.take_slew_ns() if paced is not None else 0)
+            behind = clock.now_ns() - due
+            if behind > ticks.period_ns:
+                due += behind // ticks.period_ns * ticks.period_ns
+            clock.sleep_until(due, stop)
+    finally:
+        service.close()
+
+
+def _heartbeat(service: Service, bus: Bus, process: str, ticks: TickStatistics) -> Heartbeat:
+    period_p50, period_p99, step_p99 = ticks.take_quantiles()
+    return Heartbeat(
+        process=process,
+        pid=os.getpid(),
+        host=platform.node()[:64],
+        rate_hz=service.rate_hz,
+        ticks=ticks.ticks,
+        late_ticks=ticks.late,
+        period_p50=period_p50,
+        period_p99=period_p99,
+        step_p99=step_p99,
+        cpu_s=time.process_time(),
+        memory=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024,
+        topics=bus.figures(),
+        figures=service.figures(),
+    )

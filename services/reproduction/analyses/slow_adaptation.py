@@ -1,0 +1,191 @@
+"""How many updates with one and the same refinement it takes (Appendix B, "Slow adaptation")."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+from matplotlib.patches import Rectangle
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
+
+from lfd.motion.demonstration import Demonstration
+from lfd.motion.trajectory import Trajectory
+from protocol.messages import Mode
+from services.offline.rehearsal import Plan, rehearse
+from services.offline.result import Arrangement
+from services.offline.rollout import rollout
+from services.process.exceptions import CommandFailed
+from services.reproduction import teaching
+from services.reproduction.analysis import Analysis, Context, Figure, Finding, Holds, Row
+from services.reproduction.models import KINDS, Kind
+from services.reproduction.scripted import DURATION
+from services.reproduction.style import DEMONSTRATION_LINE, OBSTACLE, REFINEMENT, Line, drawn, panels
+from services.robot.arm import Arm
+from services.robot.assembly import simulated_arm
+from sim.robots.description import prepare
+from sim.tasks.dishwasher import DISHWASHER
+from sim.tasks.scene import Group
+
+Array = NDArray[np.float64]
+
+_UPDATES_OF_THESIS = 11
+_DEMONSTRATIONS = (2, 6, 12)
+_SHOWN = 1  # of them, in the figure
+_MOST_UPDATES = 60
+_VARIANT = DISHWASHER.variants[1]
+
+
+@dataclass(frozen=True, eq=False)
+class Way:
+    """Of a model, fed with one refinement again and again.
+
+    Attributes:
+        predictions: the first one, and one after each update; the last one succeeds, unless there are too many.
+        succeeded: the last one did.
+    """
+
+    predictions: tuple[Trajectory, ...]
+    succeeded: bool
+
+    @property
+    def updates(self) -> int:
+        """That it took."""
+        return len(self.predictions) - 1
+
+
+def _slow_adaptation(context: Context) -> Finding:
+    (x0, y0, z), (x1, y1, _) = DISHWASHER.region.lower, DISHWASHER.region.upper
+    place = np.array([(x0 + x1) / 2, (y0 + y1) / 2, z])
+    demonstrations = _demonstrations(place, y0, y1, context.rng())
+    refinement = _refinement(place, demonstrations, context.seed)
+    arm = simulated_arm(DISHWASHER, _VARIANT, prepare())
+    ways: dict[int, list[Way]] = {}
+    for count in context.track(_DEMONSTRATIONS):
+        some = [demonstrations[i] for i in np.linspace(0, len(demonstrations) - 1, count).round().astype(int)]
+        ways[count] = [_fed(kind, some, refinement, arm) for kind in KINDS]
+    conditioned = [ways[count][0].updates for count in _DEMONSTRATIONS]
+    slower = all(a < b for a, b in pairwise(conditioned))
+    longest = max(ways[count][1].updates for count in _DEMONSTRATIONS)
+    return Finding(
+        Holds.YES if slower and conditioned[-1] >= _UPDATES_OF_THESIS else Holds.DIFFERS,
+        f"The thesis' method, which averages, needs {_listed(conditioned)} updates with the same refinement after"
+        f" {_listed(_DEMONSTRATIONS)} demonstrations; the default model needs {longest} at most.",
+        tuple(
+            Row(
+                f"updates until the basket is avoided, after {count} demonstrations",
+                "",
+                f"≈ {_UPDATES_OF_THESIS}" if count == _DEMONSTRATIONS[_SHOWN] else None,
+                *(_said(way) for way in ways[count]),
+            )
+            for count in _DEMONSTRATIONS
+        ),
+        (_predictions_figure(ways[_DEMONSTRATIONS[_SHOWN]], refinement), _rest_figure(ways, refinement)),
+        (
+            "The demonstrations reach objects across the basket in position b1; the object stands in their middle. The"
+            " scripted operator refined the thesis' model once in position b2, in natural size, and that refinement is"
+            f" fed again and again; every prediction is executed in the simulator. At most {_MOST_UPDATES} updates are"
+            " tried. The thesis does not say how many trajectories its initial model was trained with.",
+        ),
+    )
+
+
+def _demonstrations(place: Array, y0: float, y1: float, rng: np.random.Generator) -> tuple[Demonstration, ...]:
+    across = np.linspace(y0, y1, _DEMONSTRATIONS[-1]).tolist()
+    trained = DISHWASHER.variants[0]
+    arrangements = [Arrangement(trained, (float(place[0]), y, float(place[2]))) for y in across]
+    return teaching.taught(DISHWASHER, arrangements, rng)
+
+
+def _refinement(place: Array, demonstrations: tuple[Demonstration, ...], seed: int) -> Demonstration:
+    """What the scripted operator makes of the thesis' model's prediction, in an autonomous execution's tempo."""
+    x, y, z = place.tolist()
+    plan = Plan(
+        DISHWASHER.name, "promp", demonstrations, (Arrangement(_VARIANT, (x, y, z)),), seed=seed, updates_allowed=1
+    )
+    (course,) = rehearse(plan).first
+    for attempt in course.attempts:
+        if attempt.mode is Mode.REFINE and attempt.success:
+            return Demonstration.reaching(replace(attempt.commanded, duration=DURATION), place)
+    raise CommandFailed(f"no refinement of {course.refinements} succeeded")
+
+
+def _fed(kind: Kind, demonstrations: Sequence[Demonstration], refinement: Demonstration, arm: Arm) -> Way:
+    model = kind.fit(demonstrations)
+    situation = demonstrations[0].situation
+    asked = type(situation).reaching(refinement.origin, situation.start_position, situation.start_orientation)
+    predictions = []
+    while True:
+        predictions.append(replace(model.predict(asked).trajectory, duration=DURATION))
+        outcome = rollout(arm, predictions[-1], refinement.origin, variant=_VARIANT, to_collision=True)
+        if outcome.verdict.success or len(predictions) > _MOST_UPDATES:
+            return Way(tuple(predictions), outcome.verdict.success)
+        model = model.updated(refinement)
+
+
+def _listed(numbers: Sequence[int]) -> str:
+    return f"{', '.join(map(str, numbers[:-1]))} and {numbers[-1]}"
+
+
+def _said(way: Way) -> float | str:
+    return float(way.updates) if way.succeeded else f"more than {way.updates}"
+
+
+def _predictions_figure(ways: Sequence[Way], refinement: Demonstration) -> Figure:
+    canvas, panes = panels([kind.label for kind in KINDS], height=3.0)
+    for axes, kind, way in zip(panes, KINDS, ways, strict=True):
+        for box in DISHWASHER.boxes(_VARIANT):
+            if box.group is Group.PANEL:
+                (x, _, z), (half_x, _, half_z) = box.centre, box.half_sizes
+                corner, size = (x - half_x, z - half_z), (2.0 * half_x, 2.0 * half_z)
+                axes.add_patch(Rectangle(corner, *size, color=OBSTACLE, alpha=0.25, lw=0.0))
+        for number, prediction in enumerate(way.predictions):
+            last = number == way.updates
+            line = Line(kind.line.color, 1.8) if last else Line(kind.line.color, 0.7)
+            label = f"after {way.updates} update{'s' * (way.updates > 1)}" if last else "before"
+            p = prediction.positions
+            axes.plot(p[:, 0], p[:, 2], **line(f"{kind.label}: {label}"), alpha=1.0 if last else 0.55)
+        p = refinement.trajectory.positions
+        axes.plot(p[:, 0], p[:, 2], **Line(REFINEMENT, 1.4)("refinement"))
+        axes.set(xlabel="x [m]", xlim=(0.38, 0.95), ylim=(0.40, 0.82), aspect="equal")
+        axes.sharey(panes[0])
+    panes[0].set_ylabel("z [m]")
+    count = _DEMONSTRATIONS[_SHOWN]
+    return drawn(
+        canvas,
+        "predictions",
+        f"From the side: predictions after {count} demonstrations, and the basket in b2 (Fig. B.23).",
+    )
+
+
+def _rest_figure(ways: dict[int, list[Way]], refinement: Demonstration) -> Figure:
+    canvas, panes = panels([f"after {count} demonstrations" for count in ways], height=2.4)
+    for axes, of_kinds in zip(panes, ways.values(), strict=True):
+        for kind, way in zip(KINDS, of_kinds, strict=True):
+            rest = [1e3 * _distance(p, refinement.trajectory) for p in way.predictions]
+            axes.plot(range(len(rest)), rest, marker="o", ms=3.5, **Line(kind.line.color, 1.2)(kind.label))
+        axes.set(xlabel="updates", ylim=(0.0, None))
+        axes.xaxis.set_major_locator(MaxNLocator(6, integer=True))
+        axes.sharey(panes[0])
+        axes.grid(color=DEMONSTRATION_LINE.color, alpha=0.25)
+    panes[0].set_ylabel("distance to the refinement [mm]")
+    caption = "Greatest distance of a prediction to the refinement, until the basket is avoided."
+    return drawn(canvas, "rest", caption)
+
+
+def _distance(prediction: Trajectory, refinement: Trajectory) -> float:
+    """The furthest that a point of the prediction is from the refinement, whenever that is there [m]."""
+    apart = np.linalg.norm(prediction.positions[:, None] - refinement.positions[None], axis=2)
+    return float(apart.min(axis=1).max())
+
+
+SLOW_ADAPTATION = Analysis(
+    name="slow-adaptation",
+    reference="Fig. B.23",
+    about="How many updates with the same refinement until the prediction avoids the basket?",
+    claim="When an initial model is trained with more trajectories, the model needs to be updated ≈ 11 times with the"
+    " same refined trajectory in order to change the prediction to avoid the obstacle.",
+    run=_slow_adaptation,
+)

@@ -1,0 +1,77 @@
+"""What stands in a scene, put together: backend, kinematics, criteria, starts."""
+
+from services.robot.arm import Arm
+from services.robot.backends.backend import Backend
+from services.robot.backends.particle import ParticleBackend, ParticleKinematics
+from services.robot.backends.simulation import Simulation
+from services.robot.kinematics import Kinematics
+from services.robot.mechanism import Mechanism
+from services.robot.starts import Starts
+from services.robot.verdict import Criteria, ReachingCriteria
+from services.robot.via_points import ViaPointCriteria
+from sim.robots.description import RobotDescription
+from sim.tasks import AnyScene
+from sim.tasks.particle import ParticleScene
+from sim.tasks.scene import ReachingScene
+from sim.world.physics import World
+
+
+def kinematics_of(scene: AnyScene, description: RobotDescription) -> Mechanism:
+    """The kinematics of the robot that stands in a scene; those of an arm take half a second to make.
+
+    Args:
+        scene: of the robot.
+        description: of the arm; a particle needs none.
+    """
+    match scene:
+        case ReachingScene():
+            return Kinematics(description.urdf, scene.posture)
+        case ParticleScene():
+            return ParticleKinematics(scene.freedom.axes)
+
+
+def simulated_arm(
+    scene: AnyScene,
+    variant: str,
+    description: RobotDescription,
+    *,
+    kinematics: Mechanism | None = None,
+    velocity_scale: float = 0.5,
+    self_distance_stop: float = 0.005,
+) -> Arm:
+    """An arm in a simulated scene, at the scene's start; it takes about a second to make and is used again.
+
+    Args:
+        scene: what it stands in.
+        variant: of the scene.
+        description: of the arm; a particle needs none.
+        kinematics: of the robot; made by default.
+        velocity_scale: share of the joints' speed limits that may be used.
+        self_distance_stop: distance between the robot's parts at which it stops [m].
+
+    Raises:
+        UnknownVariant: the scene has no such variant.
+        StartImpossible: the arm cannot reach the scene's start.
+    """
+    kinematics = kinematics or kinematics_of(scene, description)
+    starts = Starts(kinematics, scene.start, scene.posture, self_distance_stop)
+    backend, criteria = _stage(scene, variant, description)
+    backend.reset(scene.training_positions[0], variant, starts.joints(scene.start))
+    return Arm(
+        backend,
+        kinematics,
+        criteria,
+        starts,
+        velocity_scale=velocity_scale,
+        self_distance_stop=self_distance_stop,
+    )
+
+
+def _stage(scene: AnyScene, variant: str, description: RobotDescription) -> tuple[Backend, Criteria]:
+    """What moves in a scene, and by what it is judged there."""
+    match scene:
+        case ReachingScene():
+            criteria = ReachingCriteria(scene.reached_radii, scene.kicked_thresholds)
+            return Simulation(World(scene, variant, description)), criteria
+        case ParticleScene():
+            return ParticleBackend(scene, variant), ViaPointCriteria(scene.via_x, scene.tolerance)

@@ -1,0 +1,133 @@
+"""The particle of the thesis' 2D example in an arm's place: three slides without mass, friction or delay."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from services.robot.backends.backend import CONTROL_PERIOD, Blocked, Observation, Touch
+from services.robot.correction import Correction
+from services.robot.mechanism import Unreachable
+from sim.pose import Pose
+from sim.tasks.particle import ParticleScene
+from sim.tasks.scene import NO_ROTATION, Box, Group
+
+Array = NDArray[np.float64]
+
+JOINTS = ("particle_x", "particle_y", "particle_z")
+
+_REACH = 0.5  # [m] of each slide, to both sides
+_SPEED = 1.0  # [m/s] of each slide
+_FLAT = 1e-6  # [m, or of a quaternion] that a start may lie beside the plane
+_APART = 1e3  # [m] what has one part only is as far from itself as can be said
+
+
+class ParticleKinematics:
+    """The joint positions are the position; the orientation never changes. See `Mechanism`.
+
+    Args:
+        axes: base axes along which an operator can displace the particle, 1 or 0 each.
+    """
+
+    def __init__(self, axes: Sequence[float]) -> None:
+        self.lower: Array = np.full(3, -_REACH)
+        self.upper: Array = np.full(3, _REACH)
+        self.velocity_limit: Array = np.full(3, _SPEED)
+        self._axes: Array = np.array(axes)
+
+    def forward(self, q: Array) -> Pose:
+        """Where the particle is."""
+        return Pose(q.copy(), np.array(NO_ROTATION))
+
+    def admitted(self, wanted: Correction) -> Correction:
+        """Its displacement along the axes; a point cannot be turned."""
+        return Correction(self._axes * wanted.offset, np.zeros(3))
+
+    def solve_step(self, q: Array, position: Array, orientation: Array, dt: float) -> tuple[Array, Array]:
+        """Straight to the position, each slide as fast as it may."""
+        del orientation
+        longest = dt * self.velocity_limit
+        step = np.clip(np.clip(position, self.lower, self.upper) - q, -longest, longest)
+        return q + step, step / dt
+
+    def solve(self, position: Array, orientation: Array, seeds: Sequence[Array], rng: np.random.Generator) -> Array:
+        """The position itself, in the plane and without a rotation."""
+        del seeds, rng
+        inside = np.all((self.lower <= position) & (position <= self.upper))
+        if not (inside and abs(position[2]) <= _FLAT and abs(orientation @ NO_ROTATION) >= 1.0 - _FLAT):
+            raise Unreachable(position)
+        return position.copy()
+
+    def self_distance(self, q: Array) -> float:
+        """As far as can be said."""
+        del q
+        return _APART
+
+
+class ParticleBackend:
+    """Is where it is told to be at the end of each period; nothing stops it, but what it touches is told.
+
+    Args:
+        scene: that it moves in.
+        variant: of the scene, at first.
+
+    Raises:
+        UnknownVariant: the scene has no such variant.
+    """
+
+    def __init__(self, scene: ParticleScene, variant: str) -> None:
+        self._scene = scene
+        self.reset(scene.training_positions[0], variant, scene.posture)
+
+    @property
+    def joint_names(self) -> tuple[str, ...]:
+        """The slides along the base axes."""
+        return JOINTS
+
+    @property
+    def variant(self) -> str:
+        """Of the scene."""
+        return self._variant
+
+    def reset(self, place: Array, variant: str, q: Array) -> None:
+        """Put the particle at q and the via-points at their y, shape (2,) [m]."""
+        solid = tuple(box for box in self._scene.boxes(variant) if box.group is not Group.DETAIL)
+        touch = self._touched(solid, q)
+        if touch is not None:
+            raise Blocked(*touch.between)
+        self._solid = solid
+        self._variant = variant
+        self._condition = place.copy()
+        self._q, self._qd, self._time = q.copy(), np.zeros(3), 0.0
+
+    def command(self, q: Array, qd: Array) -> None:
+        """One control period."""
+        self._q, self._qd = q.copy(), qd.copy()
+        self._time += CONTROL_PERIOD
+
+    def observe(self) -> Observation:
+        """Exactly where everything is; the second via-point stands in an object's place."""
+        goal = np.array([self._scene.via_x[-1], self._condition[-1], 0.0])
+        return Observation(
+            time=self._time,
+            q=self._q.copy(),
+            qd=self._qd.copy(),
+            object_pose=Pose(goal, np.array(NO_ROTATION)),
+            touch=self._touched(self._solid, self._q),
+            world=np.concatenate([self._q, self._condition]),
+            condition=self._condition.copy(),
+        )
+
+    def _touched(self, solid: Sequence[Box], q: Array) -> Touch | None:
+        """The first box that the particle at q reaches into; it weighs nothing, so that no force comes of it."""
+        for box in solid:
+            nearest = _nearest(box, q)
+            if np.linalg.norm(nearest - q) <= self._scene.radius:
+                return Touch(nearest, 0.0, ("particle", box.name))
+        return None
+
+
+def _nearest(box: Box, point: Array) -> Array:
+    """The point of an upright box that is nearest to another, shape (3,) [m]."""
+    centre, half = np.array(box.centre), np.array(box.half_sizes)
+    return np.clip(point, centre - half, centre + half)

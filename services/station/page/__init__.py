@@ -1,0 +1,1 @@
+"""The operator's page: what it shows, what comes from the browser."""

@@ -1,0 +1,144 @@
+"""The operator's page: hand it views, take input and buttons from it. Its server runs on a thread of its own."""
+
+from __future__ import annotations
+
+import gc
+import logging
+import socket
+import threading
+from pathlib import Path
+
+import uvicorn
+from fastapi import FastAPI
+from nicegui import ui
+from starlette.routing import Mount, WebSocketRoute
+from starlette.staticfiles import StaticFiles
+
+from protocol.messages import Figure, OperatorInput
+from services.process.clock import Clock
+from services.process.config import StationSection
+from services.process.exceptions import PortInUse, ServiceError
+from services.station.page.guard import Guard
+from services.station.page.input import Desk
+from services.station.page.layout import build
+from services.station.page.link import Link
+from services.station.page.view import Board, PageView
+
+log = logging.getLogger(__name__)
+
+ASSETS = Path(__file__).parent / "assets"
+START_WITHIN_S = 15.0
+STOP_POLITELY_S = 0.7
+STOP_AT_ONCE_S = 0.3
+
+
+class Page:
+    """The page and its web server. NiceGUI allows one of them in a process, started once.
+
+    Args:
+        station: where to listen.
+        robot: its name, to show.
+        clock: that input and data age by.
+    """
+
+    def __init__(self, station: StationSection, robot: str, clock: Clock) -> None:
+        self._station = station
+        self._robot = robot
+        self._clock = clock
+        self._board = Board(clock)
+        self._desk = Desk()
+        self._link = Link(self._desk, self._board, clock)
+        self._server: uvicorn.Server | None = None
+        self._thread: threading.Thread | None = None
+
+    @property
+    def url(self) -> str:
+        """Where to point a browser."""
+        return f"http://{self._station.host}:{self._station.port}"
+
+    def start(self) -> None:
+        """Listen, and return once pages are served.
+
+        Raises:
+            PortInUse: something else listens there, or the address is not this machine's.
+            ServiceError: the server did not come up.
+        """
+        listener = self._listen()
+        self._server = uvicorn.Server(self._server_configuration())
+        self._thread = threading.Thread(target=self._serve, args=(self._server, listener), name="page", daemon=True)
+        self._thread.start()
+        deadline_ns = self._clock.now_ns() + round(START_WITHIN_S * 1e9)
+        while not self._server.started:
+            if not self._thread.is_alive() or self._clock.now_ns() > deadline_ns:
+                raise ServiceError(f"the operator's page did not start on {self.url}; the log above says why")
+            self._thread.join(0.02)
+        # The web framework's objects live as long as the process: collecting them only delays the step and the exit.
+        gc.freeze()
+        log.info("the operator's page is on %s", self.url)
+
+    def show(self, view: PageView) -> None:
+        """Show this from now on."""
+        self._board.put(view)
+
+    def take_input(self) -> OperatorInput:
+        """The FULL input state; nothing is held where it is older than 150 ms, unfocused or gone."""
+        return self._desk.take_input(self._clock.now_ns())
+
+    def take_actions(self) -> list[str]:
+        """The buttons pressed since the last call, by name."""
+        return self._desk.take_actions()
+
+    def figures(self) -> tuple[Figure, ...]:
+        """Open tabs, and what was thrown away so far."""
+        return (
+            Figure("page_tabs", self._link.tabs, "1"),
+            Figure("page_dropped", self._desk.dropped, "1"),
+            Figure("page_late", self._desk.late, "1"),
+        )
+
+    def close(self) -> None:
+        """Stop serving; a browser that does not answer is not waited for."""
+        if self._server is None or self._thread is None:
+            return
+        self._server.should_exit = True
+        self._thread.join(STOP_POLITELY_S)
+        self._server.force_exit = True
+        self._thread.join(STOP_AT_ONCE_S)
+
+    def _listen(self) -> socket.socket:
+        host, port = self._station.host, self._station.port
+        try:
+            return socket.create_server((host, port))
+        except OSError as error:
+            raise PortInUse("the operator's page", host, port, "[station] port", error.strerror or "") from None
+
+    def _server_configuration(self) -> uvicorn.Config:
+        app = FastAPI(
+            openapi_url=None,
+            routes=[WebSocketRoute("/link", self._link.serve), Mount("/assets", StaticFiles(directory=ASSETS))],
+        )
+        ui.page("/")(lambda: build(self._robot, self._board))
+        ui.run_with(
+            app,
+            title=f"Retouch: {self._robot}",
+            favicon=ASSETS / "retouch.svg",
+            dark=True,
+            tailwind=False,
+            binding_refresh_interval=None,
+            show_welcome_message=False,
+        )
+        return uvicorn.Config(
+            Guard(app, self._station.host),
+            log_config=None,
+            access_log=False,
+            lifespan="on",
+            ws="websockets-sansio",
+            ws_max_size=65_536,
+            ws_per_message_deflate=False,
+            timeout_graceful_shutdown=1,
+        )
+
+    @staticmethod
+    def _serve(server: uvicorn.Server, listener: socket.socket) -> None:
+        with listener:
+            server.run(sockets=[listener])

@@ -1,0 +1,98 @@
+"""What was measured, as a person reads it on the page: pure functions."""
+
+from __future__ import annotations
+
+import math
+from urllib.parse import urlsplit, urlunsplit
+
+from protocol.messages import Light, Phase, Verdict
+from services.station.page.view import Shown
+
+STALE_AFTER_S = 0.3
+"""Age of the robot's state above which the page says so in red."""
+
+MOVING = frozenset({Phase.RAMP, Phase.EXECUTE, Phase.HOLD})
+
+LIGHT_WORDS = {Light.RED: "Watch", Light.AMBER: "Wait", Light.GREEN: "Act"}
+
+_LOOPBACK_TWINS = {"127.0.0.1": "localhost", "localhost": "127.0.0.1"}
+
+
+def span(seconds: float) -> str:
+    """A time span in three characters and a unit; "none" where it is not finite or negative."""
+    if not math.isfinite(seconds) or seconds < 0.0:
+        return "none"
+    if seconds < 0.9995:
+        return f"{seconds * 1e3:.0f} ms"
+    if seconds < 60.0:
+        return f"{seconds:.1f} s"
+    return f"{seconds / 60.0:.0f} min"
+
+
+def length(metres: float) -> str:
+    """A distance in millimetres; "none" where it is negative, which means that it is not known."""
+    return f"{metres * 1e3:.0f} mm" if metres >= 0.0 else "none"
+
+
+def is_stale(shown: Shown) -> bool:
+    """Whether the robot's state is too old to act upon."""
+    return not shown.robot_age_s <= STALE_AFTER_S
+
+
+def tone(good: bool | None) -> str:
+    """The name of a criterion's look."""
+    return {True: "good", False: "bad", None: "none"}[good]
+
+
+def criteria(shown: Shown) -> tuple[tuple[bool | None, str], ...]:
+    """The three success criteria: met, failed or not yet known, and the evidence."""
+    verdict = shown.view.verdict
+    if verdict is None:
+        return ((None, ""),) * 3
+    moved = max(abs(d) for d in verdict.object_displacement)
+    return (
+        (True if verdict.reached else _open_while_moving(shown), f"{verdict.ellipsoid_value:.2f}, at most 1"),
+        (not verdict.kicked_over, f"moved {length(moved)}"),
+        (not verdict.collision, _contact(verdict)),
+    )
+
+
+def outcome(shown: Shown) -> tuple[bool | None, str]:
+    """All three criteria in a word."""
+    met = [good for good, _ in criteria(shown)]
+    if shown.view.verdict is None:
+        return None, "No verdict yet"
+    if False in met:
+        return False, "Failure"
+    return (True, "Success") if None not in met else (None, "Under way")
+
+
+def viewer_address(url: str, page_host: str) -> str:
+    """The viewer's address to embed: under another loopback name than the page's own.
+
+    A frame from another host name runs in a process of its own, so that drawing does not delay the keys.
+
+    Returns:
+        Empty where `url` is not an address that a frame may show.
+    """
+    parts = urlsplit(url)
+    if parts.scheme not in {"http", "https"} or not parts.hostname:
+        return ""
+    twin = _LOOPBACK_TWINS.get(page_host)
+    if parts.hostname not in _LOOPBACK_TWINS or twin is None:
+        return url
+    return urlunsplit(parts._replace(netloc=parts.netloc.replace(parts.hostname, twin, 1)))
+
+
+def _open_while_moving(shown: Shown) -> bool | None:
+    robot = shown.view.robot
+    return None if robot is not None and robot.phase in MOVING else False
+
+
+def _contact(verdict: Verdict) -> str:
+    if not verdict.collision:
+        return "no contact"
+    if verdict.collision_position is None:
+        return f"{verdict.collision_force:.1f} N"
+    place = ", ".join(f"{c:.2f}" for c in verdict.collision_position)
+    return f"{verdict.collision_force:.1f} N at {place}"

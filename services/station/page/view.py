@@ -1,0 +1,93 @@
+"""What the operator's page shows: one frozen snapshot, and the board on which the newest one hangs."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from protocol.messages import (
+    AuthorityState,
+    Figure,
+    ModelState,
+    ObjectPose,
+    Recording,
+    RobotState,
+    SafetyState,
+    TeachingState,
+    Verdict,
+)
+from services.process.clock import Clock
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A camera's newest picture.
+
+    Attributes:
+        jpeg: the file; a new object means a new picture.
+        age_s: since it came [s].
+    """
+
+    jpeg: bytes
+    age_s: float
+
+
+@dataclass(frozen=True)
+class PageView:
+    """Everything that the page shows; None where it has never come.
+
+    Attributes:
+        robot_age_s: age of the robot's state [s]; infinite where there is none.
+        authority_is_mine: this station holds the authority.
+        latencies: measured delays worth showing, in seconds.
+        notice: one line about what went wrong last; empty where nothing did.
+    """
+
+    teaching: TeachingState | None = None
+    robot: RobotState | None = None
+    robot_age_s: float = math.inf
+    verdict: Verdict | None = None
+    safety: SafetyState | None = None
+    authority: AuthorityState | None = None
+    authority_is_mine: bool = False
+    model: ModelState | None = None
+    object_pose: ObjectPose | None = None
+    recording: Recording | None = None
+    head: Picture | None = None
+    wrist: Picture | None = None
+    latencies: tuple[Figure, ...] = ()
+    notice: str = ""
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A view and how long ago it was put up [s]: everything in it has aged by as much."""
+
+    view: PageView
+    elapsed_s: float
+
+    @property
+    def robot_age_s(self) -> float:
+        """Age of the robot's state now [s]."""
+        return self.view.robot_age_s + self.elapsed_s
+
+
+class Board:
+    """Where the service's thread hangs the newest view and the page's thread reads it.
+
+    Args:
+        clock: by which views age.
+    """
+
+    def __init__(self, clock: Clock) -> None:
+        self._clock = clock
+        self._newest = (PageView(), clock.now_ns())
+
+    def put(self, view: PageView) -> None:
+        """Replace the view; one assignment, so that no reader sees half of it."""
+        self._newest = (view, self._clock.now_ns())
+
+    def newest(self) -> Shown:
+        """The newest view and its age."""
+        view, put_ns = self._newest
+        return Shown(view, (self._clock.now_ns() - put_ns) / 1e9)

@@ -1,0 +1,1 @@
+"""The teaching workflow (Algorithm 1): a pure function of state and view."""

@@ -1,0 +1,1 @@
+"""Where a model succeeds, before and after a correction."""

@@ -1,0 +1,1 @@
+"""The simulated operator: a hand on a stylus that corrects as people do."""

@@ -1,0 +1,162 @@
+"""A scripted operator's hand and eyes: sees late, moves smoothly, trembles, and pushes until the robot is right.
+
+The arm is an impedance about the place where it wants the stylus to be (Hogan 1985). The wrist turns the stylus, whose
+gimbal has neither motors nor inertia worth mentioning: what the wrist does is what the stylus does (thesis, V-B: the
+device has no torque feedback). The hand has no access to anything that a person in front of the screen would not see.
+"""
+
+from collections import deque
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.person.correction import Correction
+from sim.person.limb import DELAY, Ability, Limb
+from sim.person.stylus import StylusState, Vector
+from sim.pose import Pose
+from sim.rotations import rotation_to
+
+Array = NDArray[np.float64]
+
+REACTION = 0.2  # [s] from seeing to acting on what was not expected
+STIFFNESS = 500.0  # [N/m]
+DAMPING = 15.0  # [N s/m]
+ARM = Ability(speed=0.25, push=0.06, tremor=0.0015)  # [m]
+WRIST = Ability(speed=1.0, push=0.2, tremor=0.005)  # [rad]
+_ROBOT_DELAY = 0.3  # [s] that a person learns to expect between the stylus and the robot
+_LEAD = DELAY + _ROBOT_DELAY  # [s] that a practised person acts ahead of a motion they know
+_GRIP_TOLERANCE = 0.01  # [m] between stylus and robot at which the clutch is closed
+_GRIP_TURN_TOLERANCE = 0.05  # [rad] the same of their rotations
+_LONGEST_STEP = 0.05  # [s] a hand that was not asked for longer did not move meanwhile
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """What the screen shows, and the stylus in the hand.
+
+    Attributes:
+        progress: Of the episode, from 0 to 1.
+        robot: Pose of the grasping frame.
+        offset: Of the robot from its prediction, shape (3,) [m].
+        turn: The same of its orientation, rotation vector in base axes, shape (3,) [rad].
+        stylus: Where it is and how it is turned.
+    """
+
+    progress: float
+    robot: Pose
+    offset: Array
+    turn: Array
+    stylus: StylusState
+
+
+class _Aim(NamedTuple):
+    """What a limb wants, and the robot's error that it sees, each of shape (3,)."""
+
+    wanted: Array
+    error: Array
+
+
+class Hand:
+    """Holds the stylus for one episode at a time.
+
+    Between `grip` and `release` call `observe` at about 100 Hz, and `force` at the device's own rate.
+
+    Args:
+        seed: Of the tremor.
+    """
+
+    def __init__(self, seed: int) -> None:
+        self._arm = Limb(ARM, np.random.default_rng(seed))
+        self._wrist = Limb(WRIST, np.random.default_rng((seed, 1)))
+        self._correction: Correction | None = None
+        self._memory: deque[tuple[float, Seen]] = deque()
+        self._target: Vector | None = None
+        self._rotation: Vector | None = None
+        self._clutched = False
+
+    @property
+    def clutched(self) -> bool:
+        """The stylus is where the robot is: from here on the robot may follow it."""
+        return self._clutched
+
+    @property
+    def rotation(self) -> Vector | None:
+        """How the wrist turns the stylus, rotation vector in base axes; None while the hand is off [rad]."""
+        return self._rotation
+
+    def grip(self, correction: Correction, stylus: StylusState) -> None:
+        """Take the stylus where it is, with a correction in mind."""
+        self._correction = correction
+        self._memory.clear()
+        self._arm.rest(np.array(stylus.position))
+        self._wrist.rest(np.array(stylus.rotation))
+        self._target, self._rotation = stylus.position, stylus.rotation
+        self._clutched = False
+
+    def release(self) -> None:
+        """Let go."""
+        self._correction = None
+        self._target = self._rotation = None
+        self._clutched = False
+
+    def observe(self, time: float, seen: Seen) -> Vector | None:
+        """Look at the screen and decide where the stylus should be; None while the hand is off.
+
+        Args:
+            time: Of any clock that does not go back [s].
+            seen: What it shows now.
+        """
+        if self._correction is None:
+            return None
+        dt = min(time - self._memory[-1][0], _LONGEST_STEP) if self._memory else 0.0
+        self._memory.append((time, seen))
+        while len(self._memory) > 1 and self._memory[1][0] <= time - REACTION:
+            self._memory.popleft()
+        self._clutched = self._clutched or _together(seen)
+        arm, wrist = self._follow(self._correction) if self._clutched else self._take_over()
+        self._arm.move(*arm, dt)
+        self._wrist.move(*wrist, dt)
+        self._target, self._rotation = _vector(self._arm.position), _vector(self._wrist.position)
+        return self._target
+
+    def force(self, stylus: StylusState) -> Vector:
+        """The force on the stylus, F = K_h (target - x) - D_h v, none while the hand is off [N]."""
+        target = self._target
+        if target is None:
+            return (0.0, 0.0, 0.0)
+        (tx, ty, tz), (x, y, z), (vx, vy, vz) = target, stylus.position, stylus.velocity
+        return (
+            STIFFNESS * (tx - x) - DAMPING * vx,
+            STIFFNESS * (ty - y) - DAMPING * vy,
+            STIFFNESS * (tz - z) - DAMPING * vz,
+        )
+
+    def _take_over(self) -> tuple[_Aim, _Aim]:
+        """Before the clutch closes: bring the stylus to where the robot stands."""
+        _, seen = self._memory[0]
+        return _Aim(seen.offset, seen.offset - seen.stylus.position), _Aim(seen.turn, seen.turn - seen.stylus.rotation)
+
+    def _follow(self, correction: Correction) -> tuple[_Aim, _Aim]:
+        """Act ahead of what is known, the way; react to what is not, where the robot really went."""
+        (then, seen), (now, newest) = self._memory[0], self._memory[-1]
+        pace = (newest.progress - seen.progress) / (now - then) if now > then else 0.0
+        ahead = newest.progress + _LEAD * pace
+        away = turned = np.zeros(3)
+        if pace > 0.0:  # a robot that stands still is waiting: pushing harder would only make it jump later
+            place = correction.pose(seen.progress)
+            away = place.position - seen.robot.position
+            turned = rotation_to(seen.robot.orientation, place.orientation)
+        return _Aim(correction.displacement(ahead), away), _Aim(correction.rotation(ahead), turned)
+
+
+def _together(seen: Seen) -> bool:
+    """The stylus stands as the robot's correction does."""
+    away, turned = seen.offset - seen.stylus.position, seen.turn - seen.stylus.rotation
+    return bool(np.linalg.norm(away) < _GRIP_TOLERANCE and np.linalg.norm(turned) < _GRIP_TURN_TOLERANCE)
+
+
+def _vector(values: Array) -> Vector:
+    x, y, z = values.tolist()
+    return (x, y, z)

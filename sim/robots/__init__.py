@@ -1,0 +1,1 @@
+"""The simulated robot's description, made from packages that are installed."""

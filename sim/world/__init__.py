@@ -1,0 +1,1 @@
+"""The simulated world: assembled, staged, moved by physics, looked at by cameras."""

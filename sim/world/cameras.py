@@ -1,0 +1,132 @@
+"""The robot's cameras, drawn from a published state.
+
+They hold a model of their own, so that drawing can never disturb control.
+"""
+
+from types import TracebackType
+from typing import Self
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.pose import Pose
+from sim.robots.description import RobotDescription
+from sim.tasks import AnyScene
+from sim.world.assembly import assemble
+from sim.world.drawing import Canvas, Image
+from sim.world.staging import HEAD_CAMERA, WRIST_CAMERA, select
+
+Array = NDArray[np.float64]
+
+CAMERAS = (HEAD_CAMERA, WRIST_CAMERA)
+_OPTICAL = np.diag([1.0, -1.0, -1.0])  # MuJoCo's camera axes to optical ones: half a turn about x
+
+
+class Cameras:
+    """Head and wrist camera of the robot in a scene; a context manager, used by one thread.
+
+    Args:
+        scene: What stands around the robot.
+        description: Of the arm; a particle needs none.
+        width: Of the pictures [px].
+        height: Of the pictures [px].
+
+    Raises:
+        DrawingLibraryMissing: Neither EGL nor OSMesa can be used.
+    """
+
+    def __init__(self, scene: AnyScene, description: RobotDescription, width: int = 320, height: int = 240) -> None:
+        self.scene = scene
+        self.width, self.height = width, height
+        self._model = assemble(scene, description)
+        self._data = mujoco.MjData(self._model)
+        self.show(scene.variants[0])
+        self._canvas = Canvas(self._model, width, height)
+
+    def show(self, variant: str) -> None:
+        """Draw this variant of the scene from now on.
+
+        Raises:
+            UnknownVariant: The scene has no such variant.
+        """
+        select(self._model, self.scene, variant)
+
+    def render(self, name: str, qpos: Array) -> Image:
+        """Draw what a camera sees.
+
+        Args:
+            name: One of `CAMERAS`.
+            qpos: State of the world, as `World.state` gives it.
+
+        Returns:
+            The picture in RGB, shape (height, width, 3), its first row at the top.
+        """
+        self._place(qpos)
+        camera = mujoco.MjvCamera()
+        camera.type = mujoco.mjtCamera.mjCAMERA_FIXED
+        camera.fixedcamid = self._model.camera(name).id
+        return self._canvas.draw(self._data, camera)
+
+    def render_outside(
+        self, qpos: Array, look_at: Array, distance: float = 2.2, azimuth: float = 130.0, elevation: float = -22.0
+    ) -> Image:
+        """Draw the scene as a bystander sees it.
+
+        Args:
+            qpos: State of the world, as `World.state` gives it.
+            look_at: Point in the middle of the picture, in the base frame, shape (3,) [m].
+            distance: From that point [m].
+            azimuth: Direction of view about the vertical [deg].
+            elevation: Direction of view above the horizontal [deg].
+
+        Returns:
+            The picture in RGB, shape (height, width, 3), its first row at the top.
+        """
+        self._place(qpos)
+        camera = mujoco.MjvCamera()
+        camera.type = mujoco.mjtCamera.mjCAMERA_FREE
+        camera.lookat = look_at
+        camera.distance, camera.azimuth, camera.elevation = distance, azimuth, elevation
+        return self._canvas.draw(self._data, camera)
+
+    def intrinsics(self, name: str) -> Array:
+        """Return a camera's matrix, shape (3, 3) [px], for pixel centres at whole numbers.
+
+        Args:
+            name: One of `CAMERAS`.
+        """
+        fovy = np.radians(float(self._model.camera(name).fovy[0]))
+        focal = self.height / 2 / np.tan(fovy / 2)
+        return np.array([[focal, 0.0, (self.width - 1) / 2], [0.0, focal, (self.height - 1) / 2], [0.0, 0.0, 1.0]])
+
+    def pose(self, name: str, qpos: Array) -> Pose:
+        """Return where a camera is in the base frame, with optical axes: x right, y down, z forward.
+
+        Args:
+            name: One of `CAMERAS`.
+            qpos: State of the world, as `World.state` gives it.
+        """
+        self._place(qpos)
+        seen = self._data.camera(name)
+        orientation = np.zeros(4)
+        mujoco.mju_mat2Quat(orientation, (seen.xmat.reshape(3, 3) @ _OPTICAL).ravel())
+        return Pose(seen.xpos.copy(), orientation)
+
+    def close(self) -> None:
+        """Give the drawing library's resources back."""
+        self._canvas.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def _place(self, qpos: Array) -> None:
+        self._data.qpos[:] = qpos
+        mujoco.mj_kinematics(self._model, self._data)
+        mujoco.mj_comPos(self._model, self._data)
+        mujoco.mj_camlight(self._model, self._data)

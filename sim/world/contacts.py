@@ -1,0 +1,80 @@
+"""Where the robot touches its environment, and how near it is to doing so."""
+
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.world.staging import ENVIRONMENT, ROBOT
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Contact:
+    """One point at which the robot touches its environment.
+
+    Neither the object, which is there to be touched, nor the floor, nor the robot itself counts
+    (thesis, Appendix E).
+
+    Attributes:
+        position: In the base frame, shape (3,) [m].
+        force: Magnitude [N].
+        robot_geom: Name of the robot's link.
+        environment_geom: Name of the box, without its variant.
+    """
+
+    position: Array
+    force: float
+    robot_geom: str
+    environment_geom: str
+
+
+def collisions(model: mujoco.MjModel, data: mujoco.MjData) -> tuple[Contact, ...]:
+    """Return the contacts between robot and environment in the current state."""
+    if data.ncon == 0:
+        return ()
+    pairs = data.contact.geom
+    types = model.geom_contype[pairs]
+    hits = np.flatnonzero(np.bitwise_or.reduce(types, axis=1) == ROBOT | ENVIRONMENT)
+    return tuple(_contact(model, data, int(i)) for i in hits)
+
+
+def _contact(model: mujoco.MjModel, data: mujoco.MjData, index: int) -> Contact:
+    wrench = np.zeros(6)
+    mujoco.mj_contactForce(model, data, index, wrench)
+    first, second = data.contact.geom[index]
+    robot, environment = (first, second) if model.geom_contype[first] == ROBOT else (second, first)
+    return Contact(
+        position=data.contact.pos[index].copy(),
+        force=float(np.linalg.norm(wrench[:3])),
+        robot_geom=_link_name(model, robot),
+        environment_geom=model.geom(environment).name.partition("/")[2],
+    )
+
+
+def clearance(model: mujoco.MjModel, data: mujoco.MjData, limit: float) -> tuple[float, str, str]:
+    """Return the smallest distance between robot and environment.
+
+    Args:
+        model: The model.
+        data: A state whose positions are up to date.
+        limit: Distance beyond which it need not be exact [m].
+
+    Returns:
+        Distance [m], at most `limit`, and the names of the nearest link and box ("" beyond the limit).
+    """
+    nearest = (limit, "", "")
+    robot = np.flatnonzero(model.geom_contype == ROBOT)
+    environment = np.flatnonzero(model.geom_contype == ENVIRONMENT)
+    for link in robot:
+        for box in environment:
+            distance = mujoco.mj_geomDistance(model, data, link, box, nearest[0], None)
+            if distance < nearest[0]:
+                nearest = (distance, _link_name(model, link), model.geom(box).name.partition("/")[2])
+    return nearest
+
+
+def _link_name(model: mujoco.MjModel, geom: np.integer | int) -> str:
+    return str(model.body(model.geom_bodyid[geom]).name)

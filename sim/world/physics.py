@@ -1,0 +1,156 @@
+"""The simulated arm in its scene: reset, step, observe."""
+
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.robots.description import CONTROLLED_JOINTS, HEAD_JOINTS, RobotDescription
+from sim.tasks.scene import NO_ROTATION, ReachingScene
+from sim.world.assembly import DAMPING, OBJECT, STIFFNESS, TIMESTEP, assemble
+from sim.world.contacts import Contact, clearance, collisions
+from sim.world.staging import select
+
+Array = NDArray[np.float64]
+
+CONTROL_PERIOD = 0.010  # [s]
+_STEPS = round(CONTROL_PERIOD / TIMESTEP)
+
+# A reference further away than this is not followed at once: it bounds how hard a blocked arm pushes.
+# In the order of `CONTROLLED_JOINTS` [m, then rad].
+_REACH = np.array([0.0012, 0.01, 0.01, 0.01, 0.01, 0.015, 0.015, 0.015])
+
+
+@dataclass(frozen=True, eq=False)
+class Observation:
+    """What the robot's own sensors and the simulator's referee see at one instant.
+
+    Attributes:
+        time: Simulated time since the reset [s].
+        q: Joint positions, in the order of `CONTROLLED_JOINTS`, shape (8,) [m, rad].
+        qd: Joint velocities, shape (8,) [m/s, rad/s].
+        object_position: Centre of the object in the base frame, shape (3,) [m].
+        object_orientation: Scalar first, shape (4,).
+        contacts: Of the robot with its environment.
+    """
+
+    time: float
+    q: Array
+    qd: Array
+    object_position: Array
+    object_orientation: Array
+    contacts: tuple[Contact, ...]
+
+
+class World:
+    """One arm in one scene.
+
+    Args:
+        scene: What stands around the robot.
+        variant: Of the scene, at first.
+        description: The robot.
+
+    Raises:
+        UnknownVariant: The scene has no such variant.
+    """
+
+    def __init__(self, scene: ReachingScene, variant: str, description: RobotDescription) -> None:
+        scene.check(variant)
+        self.scene = scene
+        self.variant = variant
+        _keep_log_out_of_working_directory()
+        self._model = assemble(scene, description)
+        self._data = mujoco.MjData(self._model)
+        joints = [self._model.joint(name) for name in CONTROLLED_JOINTS]
+        self._q = np.array([joint.qposadr[0] for joint in joints])
+        self._qd = np.array([joint.dofadr[0] for joint in joints])
+        self._head = np.array([self._model.joint(name).qposadr[0] for name in HEAD_JOINTS])
+        start = self._model.joint(OBJECT).qposadr[0]
+        self._object = slice(start, start + 7)
+        self._lead = (DAMPING + self._model.dof_damping[self._qd]) / STIFFNESS  # [s]
+        self.reset(scene.training_positions[0])
+
+    def reset(self, object_position: Array, variant: str | None = None, q: Array | None = None) -> None:
+        """Put everything back: the arm at rest, the object upright, the time at zero.
+
+        Args:
+            object_position: Centre of the object in the base frame, shape (3,) [m].
+            variant: Of the scene; as it was by default.
+            q: Joint positions, shape (8,) [m, rad]; the scene's start by default.
+
+        Raises:
+            UnknownVariant: The scene has no such variant.
+        """
+        if variant is not None:
+            self.scene.check(variant)
+            self.variant = variant
+        select(self._model, self.scene, self.variant)
+        mujoco.mj_resetData(self._model, self._data)
+        qpos = self._data.qpos
+        qpos[self._q] = self.scene.posture if q is None else q
+        qpos[self._head] = self.scene.head
+        qpos[self._object] = [*object_position, *NO_ROTATION]
+        self._data.ctrl[: len(CONTROLLED_JOINTS)] = qpos[self._q]
+        self._data.ctrl[len(CONTROLLED_JOINTS) :] = self.scene.head
+        mujoco.mj_forward(self._model, self._data)
+
+    def step(self, q_reference: Array, qd_reference: Array) -> None:
+        """Advance one control period of 10 ms.
+
+        The reference position holds at the period's end; the velocity leads the servos, which would
+        lag by their damping otherwise.
+
+        Args:
+            q_reference: Joint positions, shape (8,) [m, rad].
+            qd_reference: Joint velocities, shape (8,) [m/s, rad/s].
+        """
+        for remaining in reversed(range(_STEPS)):
+            q = self._data.qpos[self._q]
+            error = q_reference - remaining * TIMESTEP * qd_reference - q
+            # A blocked joint is not pushed on by the velocity that it cannot have.
+            free = np.clip(2.0 - np.abs(error) / _REACH, 0.0, 1.0)
+            pull = np.clip(error, -_REACH, _REACH) + free * self._lead * qd_reference
+            self._data.ctrl[: len(CONTROLLED_JOINTS)] = q + pull
+            mujoco.mj_step(self._model, self._data)
+        # mj_step leaves poses and contacts one step behind the joints.
+        mujoco.mj_forward(self._model, self._data)
+
+    def observe(self) -> Observation:
+        """Return what there is to be seen now."""
+        pose = self._data.qpos[self._object]
+        return Observation(
+            time=float(self._data.time),
+            q=self._data.qpos[self._q].copy(),
+            qd=self._data.qvel[self._qd].copy(),
+            object_position=pose[:3].copy(),
+            object_orientation=pose[3:].copy(),
+            contacts=collisions(self._model, self._data),
+        )
+
+    @property
+    def state(self) -> Array:
+        """All positions of the model, shape (nq,): enough to draw the world elsewhere."""
+        state: Array = self._data.qpos.copy()
+        return state
+
+    def set_state(self, qpos: Array) -> None:
+        """Put the world, at rest, where another one's `state` says.
+
+        Args:
+            qpos: All positions of the model, shape (nq,).
+        """
+        self._data.qpos[:] = qpos
+        self._data.qvel[:] = 0.0
+        mujoco.mj_forward(self._model, self._data)
+
+    def clearance(self, limit: float = 0.1) -> float:
+        """Return the smallest distance between robot and environment, at most `limit` [m]."""
+        return clearance(self._model, self._data, limit)[0]
+
+
+def _keep_log_out_of_working_directory() -> None:
+    """Stop MuJoCo from writing MUJOCO_LOG.TXT wherever the process happens to run."""
+    log = mujoco.MjLogConfig.get()
+    log.logto_file = False
+    log.set()

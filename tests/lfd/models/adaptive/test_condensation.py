@@ -1,0 +1,28 @@
+import numpy as np
+
+from lfd.models.adaptive.condensation import condensed
+
+
+def test_few_samples_stay_as_they_are(rng):
+    conditions, vectors = rng.normal(size=(7, 3)), rng.normal(size=(7, 4))
+    for kept, given in zip(condensed(conditions, vectors, 7), (conditions, vectors), strict=True):
+        np.testing.assert_array_equal(kept, given)
+
+
+def test_many_samples_become_the_means_of_what_is_nearest(rng):
+    centres = np.array([[0.0, 0.0], [10.0, 0.0], [0.0, 10.0]])
+    owners = rng.integers(3, size=200)
+    conditions = np.vstack([centres, centres[owners] + rng.uniform(-1.0, 1.0, size=(200, 2))])
+    vectors = rng.normal(size=(203, 5))
+    owners = np.concatenate([np.arange(3), owners])
+    few_conditions, few_vectors = condensed(conditions, vectors, 3)
+    for i in range(3):
+        np.testing.assert_allclose(few_conditions[i], conditions[owners == i].mean(axis=0))
+        np.testing.assert_allclose(few_vectors[i], vectors[owners == i].mean(axis=0))
+
+
+def test_the_weighted_mean_is_kept(rng):
+    conditions, vectors = rng.normal(size=(50, 2)), rng.normal(size=(50, 3))
+    few_conditions, few_vectors = condensed(conditions, vectors, 1)
+    np.testing.assert_allclose(few_conditions[0], conditions.mean(axis=0))
+    np.testing.assert_allclose(few_vectors[0], vectors.mean(axis=0))

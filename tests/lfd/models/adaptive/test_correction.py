@@ -1,0 +1,89 @@
+import numpy as np
+import pytest
+
+from lfd.models.adaptive.correction import CorrectionOptions, Corrections
+from lfd.models.adaptive.regression import Regression, RegressionOptions
+
+OPTIONS = CorrectionOptions()
+
+
+@pytest.fixture
+def none(rng):
+    """Six demonstrations of a plane, not corrected yet."""
+    conditions = rng.uniform(-0.2, 0.2, size=(6, 2))
+    vectors = conditions @ rng.normal(size=(2, 4)) + 1.0
+    return Corrections.none(Regression(conditions, vectors, np.eye(4), 0.5, RegressionOptions()), OPTIONS)
+
+
+def change(corrections, s):
+    return corrections.effect(corrections.regression.at(s)).change
+
+
+def open_share(corrections, s):
+    return corrections.effect(corrections.regression.at(s)).open_share
+
+
+def correct(corrections, s, y):
+    place = corrections.regression.at(s)
+    return corrections.added(place, place.mean + y)
+
+
+def test_without_a_correction_nothing_changes_and_everything_is_open(none):
+    s = np.array([0.05, 0.1])
+    np.testing.assert_array_equal(change(none, s), np.zeros(4))
+    assert open_share(none, s) == 1.0
+
+
+@pytest.mark.parametrize("size", [0.001, 0.01, 0.3])
+def test_at_its_own_condition_one_correction_counts_for_all_but_its_noise(none, size):
+    """C / (C + noise C), whatever C is, and so large or small a correction."""
+    s, y = np.array([0.05, 0.1]), size * np.array([1.0, -1.0, 0.5, 0.0])
+    corrected = correct(none, s, y)
+    np.testing.assert_allclose(change(corrected, s), y / (1.0 + OPTIONS.noise), rtol=1e-9)
+    assert open_share(corrected, s) == pytest.approx(OPTIONS.noise / (1.0 + OPTIONS.noise), rel=1e-6)
+
+
+def test_a_correction_within_what_was_open_is_no_surprise(none):
+    s = np.array([0.05, 0.1])
+    assert correct(none, s, 0.001 * np.ones(4)).surprise == 0.0
+    large = correct(none, s, 0.5 * np.ones(4))
+    assert large.surprise == pytest.approx(1.0 - large.openness[0, 0])
+
+
+def test_the_newest_correction_of_a_condition_wins(none):
+    s = np.array([0.05, 0.1])
+    corrected = none
+    for y in (0.3, -0.2, 0.1):
+        corrected = correct(corrected, s, y * np.ones(4))
+    np.testing.assert_allclose(change(corrected, s), 0.1, atol=0.01)
+
+
+def test_corrections_apart_are_all_kept(none):
+    places = [np.array([x, 0.0]) for x in (-0.8, 0.0, 0.8)]
+    corrected = none
+    for s, y in zip(places, (0.3, -0.2, 0.1), strict=True):
+        corrected = correct(corrected, s, y * np.ones(4))
+    for s, y in zip(places, (0.3, -0.2, 0.1), strict=True):
+        np.testing.assert_allclose(change(corrected, s), y, atol=0.02)
+
+
+def test_taking_one_back_is_as_if_it_had_not_been(none, rng):
+    places, s = rng.uniform(-0.3, 0.3, size=(3, 2)), np.array([0.1, -0.1])
+    two = correct(correct(none, places[0], 0.2 * np.ones(4)), places[1], -0.1 * np.ones(4))
+    three = correct(two, places[2], 0.4 * np.ones(4))
+    np.testing.assert_allclose(change(three.without(-1), s), change(two, s), atol=1e-12)
+    np.testing.assert_allclose(
+        change(three.without(0), s),
+        change(correct(correct(none, places[1], -0.1 * np.ones(4)), places[2], 0.4 * np.ones(4)), s),
+        atol=1e-12,
+    )
+
+
+def test_the_most_outdated_is_forgotten_first(none):
+    kept = Corrections.none(none.regression, CorrectionOptions(most=2))
+    elsewhere, here = np.array([1.0, 0.0]), np.array([0.0, 0.0])
+    for s, y in ((elsewhere, 0.1), (here, 0.2), (here, 0.3)):
+        kept = correct(kept, s, y * np.ones(4))
+    assert len(kept) == 2
+    np.testing.assert_allclose(change(kept, elsewhere), 0.1, atol=0.01)
+    np.testing.assert_allclose(change(kept, here), 0.3, atol=0.01)

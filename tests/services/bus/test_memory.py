@@ -1,0 +1,104 @@
+"""The memory bus obeys the laws of the bus."""
+
+import pytest
+
+from protocol import queries, topics
+from protocol.messages import EmergencyStop, MasterState, OperatorInput
+from services.bus.bus import Failed
+from services.bus.memory import MemoryNetwork
+from services.process.clock import ManualClock
+
+
+@pytest.fixture
+def clock():
+    return ManualClock()
+
+
+@pytest.fixture
+def network(clock):
+    return MemoryNetwork(clock)
+
+
+def test_the_latest_wins(network, clock):
+    sender, receiver = network.bus(), network.bus()
+    subscription = receiver.subscribe(topics.OPERATOR_INPUT)
+    for key in ("KeyQ", "KeyW", "KeyE"):
+        sender.publish(topics.OPERATOR_INPUT, OperatorInput(keys=(key,)))
+    assert subscription.fresh(clock.now_ns()).keys == ("KeyE",)
+    assert len(subscription.take()) == 1
+
+
+def test_what_a_topic_keeps_comes_in_order(network):
+    sender, receiver = network.bus(), network.bus()
+    subscription = receiver.subscribe(topics.EMERGENCY_STOP)
+    for name in ("a", "b", "c"):
+        sender.publish(topics.EMERGENCY_STOP, EmergencyStop(pressed=True, by=name))
+    assert [r.message.by for r in subscription.take()] == ["a", "b", "c"]
+    assert subscription.take() == []
+
+
+def test_a_sample_ages_on_the_receivers_clock(network, clock):
+    sender, receiver = network.bus(), network.bus()
+    subscription = receiver.subscribe(topics.MASTER_STATE)
+    sender.publish(topics.MASTER_STATE, MasterState())
+    clock.advance(0.099)
+    assert subscription.fresh(clock.now_ns()) is not None
+    clock.advance(0.002)
+    assert subscription.fresh(clock.now_ns()) is None
+    assert subscription.latest() is not None
+
+
+@pytest.mark.parametrize(
+    ("payload", "schema", "cause"),
+    [
+        (b"\xc1", "", "malformed"),
+        (b"\0" * 2000, "", "oversized"),
+        (b"", "MasterState/9", "wrong_version"),
+    ],
+)
+def test_what_is_thrown_away_is_counted_and_named_and_nothing_else_happens(network, clock, payload, schema, cause):
+    receiver = network.bus()
+    subscription = receiver.subscribe(topics.MASTER_STATE)
+    network.deliver(topics.MASTER_STATE, payload, schema)
+    assert subscription.latest() is None
+    assert getattr(subscription.figures(clock.now_ns()), cause) == 1
+    assert "cmd/master_state" in receiver.faults()[0]
+    assert receiver.faults() == []
+
+
+def test_a_question_is_answered(network):
+    server = network.bus().serve(queries.UNDO)
+    pending = network.bus().ask(queries.UNDO, queries.Undo())
+    assert pending.poll() is None
+    for call in server.take():
+        call.reply(queries.Refused("nothing to take back"))
+    assert pending.poll() == queries.Refused("nothing to take back")
+
+
+def test_what_is_no_request_is_refused_counted_and_named(network, clock):
+    bus = network.bus()
+    server, answers = bus.serve(queries.UNDO), []
+    for payload, schema in ((b"\xc1", ""), (bytes(queries.UNDO.max_bytes + 1), ""), (b"\x80", "Undo/9")):
+        server.receive(payload, schema, answers.append)
+    assert server.take() == []
+    assert len(answers) == 3
+    (figures,) = bus.figures()
+    assert (figures.malformed, figures.oversized, figures.wrong_version) == (1, 1, 1)
+    assert "model/undo" in bus.faults()[0]
+    assert bus.faults() == []
+
+
+def test_a_question_that_nobody_answers_fails(network):
+    assert isinstance(network.bus().ask(queries.UNDO, queries.Undo()).poll(), Failed)
+
+
+def test_rate_and_latency_are_measured(network, clock):
+    sender, receiver = network.bus(), network.bus()
+    subscription = receiver.subscribe(topics.MASTER_STATE)
+    subscription.figures(clock.now_ns())
+    for _ in range(100):
+        clock.advance(0.01)
+        sender.publish(topics.MASTER_STATE, MasterState())
+    figures = subscription.figures(clock.now_ns())
+    assert figures.rate_hz == pytest.approx(100.0)
+    assert figures.latency == 0.0

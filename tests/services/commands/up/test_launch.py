@@ -1,0 +1,73 @@
+"""What `retouch up` starts follows from its arguments."""
+
+import re
+
+import pytest
+
+from services.cli import configuration, parser, reachable
+from services.commands.up.launch import Launch
+from services.process.config import Keyboard, Scripted
+from services.process.exceptions import CommandFailed
+from services.process.processes import PROCESS_NAMES
+
+
+def arguments(*words):
+    return parser().parse_args(["up", *words])
+
+
+def launch(*words):
+    return Launch.from_arguments(arguments(*words))
+
+
+def test_everything_and_a_page_is_the_default():
+    assert launch() == Launch(processes=PROCESS_NAMES, router=True, browser=True)
+
+
+def test_a_network_that_is_named_is_joined():
+    assert not launch("--connect", "tcp/192.0.2.1:7447").router
+
+
+@pytest.mark.parametrize("words", [("--headless",), ("--no-browser",), ("--only", "robot,camera")])
+def test_there_is_no_browser_where_there_is_no_page_or_nobody_wants_it(words):
+    assert not launch(*words).browser
+
+
+def test_only_some_processes_are_started():
+    assert launch("--only", "robot, camera").processes == ("robot", "camera")
+    with pytest.raises(CommandFailed, match=r"'ghost'.*perception"):
+        launch("--only", "robot,ghost")
+
+
+def test_a_report_that_could_not_be_written_is_refused_before_anything_starts(tmp_path):
+    assert launch("--json", str(tmp_path / "out.json")).json == tmp_path / "out.json"
+    for path in (tmp_path, tmp_path / "missing" / "out.json"):
+        with pytest.raises(CommandFailed, match=re.escape(str(path.parent if path is not tmp_path else path))):
+            launch("--json", str(path))
+
+
+def test_headless_puts_a_script_in_the_operators_place():
+    by_hand, scripted = configuration(arguments()), configuration(arguments("--headless", "--once"))
+    assert isinstance(by_hand.master.device, Keyboard)
+    assert isinstance(scripted.master.device, Scripted)
+    assert (by_hand.station.scripted, by_hand.station.once) == (False, False)
+    assert (scripted.station.scripted, scripted.station.once) == (True, True)
+
+
+def test_flags_stand_above_the_file(tmp_path):
+    path = tmp_path / "retouch.toml"
+    path.write_text('name = "left"\nseed = 3\n[robot]\nscene = "table"\nlease_s = 2.0\n')
+    asked = configuration(arguments("--config", str(path), "--seed", "4", "--scene", "dishwasher"))
+    assert (asked.name, asked.seed, asked.robot.scene, asked.robot.lease_s) == ("left", 4, "dishwasher", 2.0)
+
+
+@pytest.mark.parametrize(
+    ("listen", "own"),
+    [
+        ("tcp/0.0.0.0:7447", "tcp/127.0.0.1:7447"),
+        ("tcp/[::]:7447", "tcp/[::1]:7447"),
+        ("tcp/192.0.2.1:7447", "tcp/192.0.2.1:7447"),
+    ],
+)
+def test_this_machines_processes_reach_their_own_router(listen, own):
+    assert reachable(listen) == own
+    assert configuration(arguments("--listen", listen)).connect == own

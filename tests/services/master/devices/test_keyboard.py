@@ -1,0 +1,137 @@
+import msgspec
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from protocol.messages import Mode, OperatorInput, Phase, Pose, RobotState
+from services.master.devices.device import Moment
+from services.master.devices.keyboard import LET_GO_S, PUSH_KEYS, TURN_KEYS, KeyboardMaster, Law, directions, pushed
+from services.process.config import Keyboard
+
+KEYBOARD = Keyboard(growth=0.12, decay=0.05, reach=0.25, turn_growth=0.4, turn_decay=0.2, turn_reach=0.8)
+LAW = Law(growth=0.12, decay=0.05, reach=0.25)
+POSE = Pose((0.5, 0.0, 0.5), (1.0, 0.0, 0.0, 0.0))
+REFINING = RobotState(measured=POSE, reference=POSE, phase=Phase.EXECUTE, mode=Mode.REFINE, episode=1)
+
+Displacement = st.floats(-LAW.reach, LAW.reach)
+Step = st.floats(0.0, 0.1)
+Keys = st.sets(st.sampled_from([*PUSH_KEYS, *TURN_KEYS, "KeyZ", "Space"]))
+
+
+def moment(*keys, dt=0.01, focused=True, robot=REFINING, armed=True):
+    return Moment(0, dt, OperatorInput(keys=keys, focused=focused), robot, armed)
+
+
+def hold(master, seconds, *keys, **others):
+    sample = None
+    for _ in range(round(seconds / 0.01)):
+        sample = master.step(moment(*keys, **others))
+    return sample
+
+
+@pytest.mark.parametrize(
+    ("keys", "expected"),
+    [
+        ((), (0, 0, 0)),
+        (("KeyQ",), (1, 0, 0)),
+        (("KeyA",), (-1, 0, 0)),
+        (("KeyW", "KeyE"), (0, 1, 1)),
+        (("KeyS", "KeyD", "KeyQ"), (1, -1, -1)),
+        (("KeyQ", "KeyA"), (0, 0, 0)),
+        (("KeyQ", "KeyQ", "Space"), (1, 0, 0)),
+    ],
+)
+def test_keys_push_along_their_axes_and_cancel_out(keys, expected):
+    assert directions(keys, PUSH_KEYS) == expected
+    assert directions(keys, TURN_KEYS) == (0, 0, 0)
+
+
+@pytest.mark.parametrize(
+    ("keys", "expected"),
+    [
+        (("KeyR",), (1, 0, 0)),
+        (("KeyF",), (-1, 0, 0)),
+        (("KeyT", "KeyY"), (0, 1, 1)),
+        (("KeyG", "KeyH", "KeyR"), (1, -1, -1)),
+        (("KeyT", "KeyG"), (0, 0, 0)),
+    ],
+)
+def test_the_keys_beside_them_turn_about_the_same_axes(keys, expected):
+    assert directions(keys, TURN_KEYS) == expected
+    assert directions(keys, PUSH_KEYS) == (0, 0, 0)
+
+
+@given(displacement=Displacement, direction=st.sampled_from([-1, 1]), dt=Step)
+def test_a_held_key_grows_the_displacement_up_to_the_reach(displacement, direction, dt):
+    after = pushed(displacement, direction, dt, LAW)
+    assert abs(after) <= LAW.reach
+    assert after * direction >= displacement * direction
+    assert abs(after - displacement) <= LAW.growth * dt + 1e-12
+
+
+@given(displacement=Displacement, dt=Step)
+def test_without_a_key_it_decays_and_never_passes_zero(displacement, dt):
+    after = pushed(displacement, 0, dt, LAW)
+    assert after * displacement >= 0.0
+    assert abs(after) == pytest.approx(max(0.0, abs(displacement) - LAW.decay * dt))
+
+
+@given(displacement=Displacement, keys=Keys, first=Step, second=Step)
+def test_the_speed_does_not_depend_on_how_often_it_is_asked(displacement, keys, first, second):
+    for way in directions(keys, PUSH_KEYS):
+        twice = pushed(pushed(displacement, way, first, LAW), way, second, LAW)
+        assert twice == pytest.approx(pushed(displacement, way, first + second, LAW), abs=1e-12)
+
+
+def test_diagonals_move_both_axes_at_full_growth():
+    sample = hold(KeyboardMaster(KEYBOARD), 0.5, "KeyQ", "KeyD")
+    assert sample.displacement == pytest.approx((0.06, 0.0, -0.06))
+    assert sample.velocity == pytest.approx((0.12, 0.0, -0.12))
+    assert sample.engaged
+
+
+def test_turning_has_its_own_law_and_moves_nothing():
+    master = KeyboardMaster(KEYBOARD)
+    sample = hold(master, 0.5, "KeyR", "KeyH")
+    assert sample.rotation == pytest.approx((0.2, 0.0, -0.2))
+    assert (sample.displacement, sample.velocity) == ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    assert hold(master, 10.0, "KeyR", "KeyH").rotation == pytest.approx((0.8, 0.0, -0.8))
+    assert hold(master, 1.0).rotation == pytest.approx((0.6, 0.0, -0.6))
+    assert hold(master, 3.1).rotation == (0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    "loss",
+    [
+        {"focused": False},
+        {"robot": None},
+        {"robot": msgspec.structs.replace(REFINING, mode=Mode.AUTONOMOUS)},
+        {"robot": msgspec.structs.replace(REFINING, phase=Phase.STOPPED)},
+        {"armed": False},
+    ],
+)
+def test_whatever_is_lost_disengages_at_once_and_returns_to_zero_although_keys_are_held(loss):
+    master = KeyboardMaster(KEYBOARD)
+    before = hold(master, 3.0, "KeyQ", "KeyS", "KeyT")
+    assert before.displacement == pytest.approx((0.25, -0.25, 0.0))
+    assert before.rotation == pytest.approx((0.0, 0.8, 0.0))
+    first = master.step(moment("KeyQ", "KeyS", "KeyT", **loss))
+    assert not first.engaged
+    assert abs(first.displacement[0]) < abs(before.displacement[0])
+    assert abs(first.rotation[1]) < abs(before.rotation[1])
+    last = hold(master, LET_GO_S, "KeyQ", "KeyS", "KeyT", **loss)
+    assert (last.displacement, last.rotation) == ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+
+
+def test_a_page_that_went_silent_holds_no_key():
+    master = KeyboardMaster(KEYBOARD)
+    hold(master, 1.0, "KeyQ")
+    assert not master.step(Moment(0, 0.01, None, REFINING, armed=True)).engaged
+
+
+def test_whoever_engages_takes_over_the_correction_that_the_robot_applies():
+    robot = msgspec.structs.replace(REFINING, offset=(0.1, -0.4, 0.0), turn=(0.0, 0.3, -0.9))
+    sample = KeyboardMaster(KEYBOARD).step(moment(robot=robot))
+    assert sample.displacement == pytest.approx((0.1, -LAW.reach, 0.0), abs=LAW.decay * 0.01 + 1e-9)
+    assert max(map(abs, sample.velocity)) <= LAW.decay + 1e-9
+    assert sample.rotation == pytest.approx((0.0, 0.3, -KEYBOARD.turn_reach), abs=KEYBOARD.turn_decay * 0.01 + 1e-9)

@@ -1,0 +1,97 @@
+"""The configuration: defaults that work, and one line for what is wrong, with its place."""
+
+import pytest
+
+from services.cli import configuration, parser
+from services.process.config import Configuration, Keyboard, Scripted, load, save
+from services.process.exceptions import ConfigurationError
+from sim.exceptions import UnknownVariant
+from sim.tasks import SCENES
+
+
+@pytest.fixture
+def write(tmp_path):
+    def write_(text, name="retouch.toml"):
+        path = tmp_path / name
+        path.write_text(text)
+        return path
+
+    return write_
+
+
+def test_an_empty_file_is_the_default(write):
+    assert load(write("")) == Configuration()
+
+
+def test_what_is_saved_is_what_is_loaded(tmp_path):
+    configuration_ = Configuration(name="kitchen", seed=7)
+    save(configuration_, tmp_path / "c.json")
+    assert load(tmp_path / "c.json") == configuration_
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("naem = 'x'", "unknown key `naem`"),
+        ("[robot]\nscnee = 'table'", "`$.robot`"),
+        ("seed = 'one'", "`$.seed`"),
+        ("seed = -1", "`$.seed`"),
+        ("[station]\nport = 70000", "`$.station.port`"),
+        ("[master.device]\nkind = 'mouse'", "mouse"),
+        ("[robot]\nvelocity_scale = 2.0", "`$.robot.velocity_scale`"),
+        ("seed = ", "nvalid"),
+    ],
+)
+def test_what_is_wrong_is_named_with_its_place_in_one_line(write, text, said):
+    path = write(text)
+    with pytest.raises(ConfigurationError, match=r"retouch\.toml") as caught:
+        load(path)
+    assert said in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_file_that_is_not_there_is_named(tmp_path):
+    with pytest.raises(ConfigurationError, match=r"absent\.toml"):
+        load(tmp_path / "absent.toml")
+
+
+def parsed(*argv):
+    return configuration(parser().parse_args(argv))
+
+
+def test_flags_go_before_the_file(write):
+    path = write("name = 'kitchen'\nseed = 3\n[robot]\nscene = 'dishwasher'")
+    result = parsed("up", "--config", str(path), "--seed", "5", "--scene", "table")
+    assert (result.name, result.seed, result.robot.scene) == ("kitchen", 5, "table")
+
+
+def test_a_person_has_the_keyboard_and_a_headless_run_the_script():
+    assert isinstance(parsed("up").master.device, Keyboard)
+    headless = parsed("up", "--headless", "--once")
+    assert isinstance(headless.master.device, Scripted)
+    assert headless.station.scripted
+    assert headless.station.once
+
+
+def test_who_listens_everywhere_connects_to_itself():
+    result = parsed("up", "--listen", "tcp/0.0.0.0:7999")
+    assert (result.listen, result.connect) == ("tcp/0.0.0.0:7999", "tcp/127.0.0.1:7999")
+
+
+def test_the_documented_example_is_valid(write):
+    example = "name = 'kitchen'\n[model]\nkind = 'promp'\n[master.device]\nkind = 'keyboard'\ngrowth = 0.08\n"
+    assert load(write(example)).master.device == Keyboard(growth=0.08)
+
+
+def test_the_variant_that_is_taught_is_one_of_the_scenes():
+    assert parsed("up").station.variant == ""
+    assert parsed("up", "--scene", "particle", "--variant", "free").station.variant == "free"
+    with pytest.raises(UnknownVariant, match="b1, b2"):
+        parsed("up", "--variant", "free")
+
+
+def test_the_help_names_every_scene(capsys):
+    with pytest.raises(SystemExit):
+        parser().parse_args(["up", "--help"])
+    said = capsys.readouterr().out
+    assert all(name in said for name in SCENES)

@@ -1,0 +1,82 @@
+"""The runner's ticks are absolute: none is made up for in a burst, late ones are counted."""
+
+import threading
+
+import pytest
+
+from protocol import topics
+from services.bus.memory import MemoryNetwork
+from services.process.clock import ManualClock
+from services.process.runner import TickStatistics, run
+
+MS = 1_000_000
+
+
+class Slow:
+    """A service whose steps take as long as it is told; it ends the run after the last."""
+
+    rate_hz = 100.0
+
+    def __init__(self, clock, stop, durations_ms):
+        self.clock, self.stop, self.durations = clock, stop, list(durations_ms)
+        self.started_ms = []
+        self.closed = False
+
+    def step(self, now_ns):
+        self.started_ms.append((now_ns - 1_000_000_000) / MS)
+        self.clock.advance(self.durations.pop(0) / 1e3)
+        if not self.durations:
+            self.stop.set()
+
+    def figures(self):
+        return ()
+
+    def close(self):
+        self.closed = True
+
+
+def ran(durations_ms):
+    clock, stop = ManualClock(), threading.Event()
+    network = MemoryNetwork(clock)
+    beats = network.bus().subscribe(topics.HEARTBEAT)
+    service = Slow(clock, stop, durations_ms)
+    run(service, network.bus(), clock, "slow", stop)
+    return service, beats
+
+
+def test_ticks_come_at_whole_periods_whatever_the_steps_take():
+    service, _ = ran([3, 9, 1, 5])
+    assert service.started_ms == [0, 10, 20, 30]
+
+
+def test_a_long_step_skips_ticks_and_keeps_the_phase():
+    service, _ = ran([35, 1, 1])
+    assert service.started_ms == [0, 35, 40]
+
+
+def test_late_ticks_are_counted():
+    ticks = TickStatistics(100.0)
+    for due, started in ((0, 0), (10, 14), (20, 26), (30, 39)):
+        ticks.tick(due * MS, started * MS, started * MS)
+    assert (ticks.ticks, ticks.late) == (4, 2)
+
+
+def test_quantiles_are_of_the_last_interval():
+    ticks = TickStatistics(100.0)
+    for i in range(101):
+        ticks.tick(i * 10 * MS, i * 10 * MS, i * 10 * MS + MS)
+    assert ticks.take_quantiles() == pytest.approx((0.01, 0.01, 0.001))
+    assert ticks.take_quantiles() == (0.0, 0.0, 0.0)
+
+
+def test_the_heartbeat_comes_twice_a_second():
+    _, beats = ran([1] * 200)
+    assert len(beats.take()) == 4
+
+
+def test_the_service_is_closed_where_a_step_fails():
+    clock, stop = ManualClock(), threading.Event()
+    service = Slow(clock, stop, [])
+    with pytest.raises(IndexError):
+        run(service, MemoryNetwork(clock).bus(), clock, "broken", stop)
+    assert service.closed

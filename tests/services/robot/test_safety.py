@@ -1,0 +1,93 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lfd.motion.rotations import exp_map
+from services.robot import safety
+from services.robot.correction import Correction
+from services.robot.execution import angle_between
+from services.robot.safety import EmergencyStop, JointLimits, hold_reason
+from sim.pose import Pose
+
+IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
+LIMITS = JointLimits(("lift", "elbow"), np.array([0.0, -1.0]), np.array([0.3, 1.0]), np.array([0.1, 1.0]))
+PERIOD = 0.01
+
+
+def test_the_emergency_stop_latches_with_its_first_author():
+    stop = EmergencyStop().pressed("ann", "smoke").pressed("bob", "")
+    assert (stop.latched, str(stop)) == (True, "emergency stop by ann: smoke")
+
+
+@pytest.mark.parametrize(
+    ("holder", "refining", "age", "engaged", "expected"),
+    [
+        ("ann", False, None, False, ""),
+        ("ann", True, 0.1, True, ""),
+        ("ann", True, 0.1, False, "nobody is at the master"),
+        ("ann", True, 0.1001, True, "not been heard"),
+        ("ann", True, None, False, "no master state"),
+        ("", False, None, False, "nobody holds"),
+        ("", True, 0.0, True, "nobody holds"),
+    ],
+)
+def test_the_watchdog_holds_where_nobody_is_in_command(holder, refining, age, engaged, expected):
+    reason = hold_reason(holder=holder, refining=refining, sample_age_s=age, engaged=engaged, hold_after_s=0.1)
+    assert expected in reason
+    assert bool(reason) == bool(expected)
+
+
+@given(st.tuples(*[st.floats(-2.0, 2.0)] * 2), st.tuples(st.floats(0.0, 0.3), st.floats(-1.0, 1.0)))
+def test_no_step_leaves_the_joint_limits_and_each_clamp_is_named(wanted, q):
+    q, wanted = np.array(q), np.array(wanted)
+    result, names = LIMITS.clamp(q, wanted, PERIOD)
+    assert np.all(result >= LIMITS.lower - 1e-12)
+    assert np.all(result <= LIMITS.upper + 1e-12)
+    assert np.all(np.abs(result - q) <= LIMITS.speed * PERIOD * (1 + 1e-9))
+    assert bool(names) == bool(np.max(np.abs(result - wanted)) > 1e-9)
+
+
+def test_a_step_that_is_too_fast_keeps_its_direction():
+    result, names = LIMITS.clamp(np.array([0.1, 0.0]), np.array([0.102, 0.01]), PERIOD)
+    np.testing.assert_allclose(result, [0.101, 0.005])
+    assert names == ("speed lift",)
+
+
+def test_the_reference_cannot_jump():
+    far = Pose(np.array([1.0, 0.0, 0.0]), IDENTITY)
+    near, clamped = safety.clamp_reference(Pose(np.zeros(3), IDENTITY), far, PERIOD)
+    assert clamped == ("reference speed",)
+    assert np.linalg.norm(near.position) == pytest.approx(safety.REFERENCE_SPEED * PERIOD)
+    assert safety.clamp_reference(near, near, PERIOD) == (near, ())
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_the_reference_cannot_spin_whatever_the_sign_of_its_quaternion(sign):
+    widest = safety.REFERENCE_TURN_SPEED * PERIOD
+    pose, turned = Pose(np.zeros(3), IDENTITY), Pose(np.zeros(3), sign * exp_map(np.array([0.0, 10.5 * widest, 0.0])))
+    for _ in range(10):
+        before = pose
+        pose, clamped = safety.clamp_reference(before, turned, PERIOD)
+        assert clamped == ("reference turn speed",)
+        assert angle_between(before.orientation, pose.orientation) == pytest.approx(widest)
+    assert safety.clamp_reference(pose, turned, PERIOD) == (turned, ())
+
+
+@given(st.tuples(*[st.floats(-2.0, 2.0)] * 3), st.tuples(*[st.floats(-4.0, 4.0)] * 3))
+def test_a_correction_keeps_to_its_reach_and_its_direction_and_each_clamp_is_named(offset, turn):
+    wanted = Correction(np.array(offset), np.array(turn))
+    within, names = safety.clamp_correction(wanted)
+    for vector, clamped, reach, name in (
+        (wanted.offset, within.offset, safety.DISPLACEMENT_REACH, "displacement"),
+        (wanted.turn, within.turn, safety.ROTATION_REACH, "rotation"),
+    ):
+        assert np.linalg.norm(clamped) <= reach * (1.0 + 1e-9)
+        assert (name in names) == (np.linalg.norm(vector) > reach * (1.0 + 1e-9))
+        np.testing.assert_allclose(np.cross(vector, clamped), 0.0, atol=1e-12)
+
+
+def test_a_robot_too_close_to_itself_may_only_move_away():
+    assert safety.self_collision(distance=0.004, previous=0.006, limit=0.005)
+    assert not safety.self_collision(distance=0.004, previous=0.003, limit=0.005)
+    assert not safety.self_collision(distance=0.006, previous=0.007, limit=0.005)

@@ -1,0 +1,54 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lfd.motion.rotations import exp_map, rotate
+from services.robot.backends.backend import Touch
+from services.robot.verdict import ReachingCriteria, ReachingJudge, ellipsoid_value
+from sim.pose import Pose
+
+RADII = np.array([0.05, 0.065, 0.05])
+CRITERIA = ReachingCriteria(RADII, np.array([0.15, 0.1, 0.05]))
+UPRIGHT = Pose(np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]))
+VECTORS = st.tuples(*[st.floats(-3.0, 3.0)] * 3).map(np.array)
+
+
+@given(VECTORS, VECTORS, st.floats(0.0, 3.1), st.floats(0.0, 6.2))
+def test_the_ellipsoid_equation_is_one_on_its_boundary_in_any_pose(position, turn, polar, azimuth):
+    orientation = exp_map(turn)
+    unit = np.array([np.sin(polar) * np.cos(azimuth), np.sin(polar) * np.sin(azimuth), np.cos(polar)])
+    on_boundary = position + rotate(orientation, RADII * unit)
+    assert ellipsoid_value(Pose(position, orientation), on_boundary, RADII) == pytest.approx(1.0, rel=1e-9)
+
+
+@pytest.mark.parametrize("axis", range(3))
+def test_the_boundary_counts_as_reached(axis):
+    judge = ReachingJudge(CRITERIA, np.zeros(3))
+    on, outside = np.zeros(3), np.zeros(3)
+    on[axis], outside[axis] = RADII[axis], RADII[axis] * 1.001
+    assert judge.judge(UPRIGHT, on, None).reached
+    assert not judge.judge(UPRIGHT, outside, None).reached
+
+
+@pytest.mark.parametrize("axis", range(3))
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_kicked_over_is_more_than_the_threshold_on_any_axis(axis, sign):
+    placed = np.array([0.8, 0.0, 0.5])
+    judge = ReachingJudge(CRITERIA, placed)
+    moved = placed.copy()
+    moved[axis] += sign * CRITERIA.thresholds[axis] * 0.999
+    assert not judge.judge(UPRIGHT, moved, None).kicked_over
+    moved[axis] += sign * CRITERIA.thresholds[axis] * 0.002
+    assert judge.judge(UPRIGHT, moved, None).kicked_over
+
+
+def test_the_first_collision_stays_with_its_place():
+    judge = ReachingJudge(CRITERIA, np.zeros(3))
+    first, second = (Touch(np.full(3, x), 10.0 * x, ("finger", "basket")) for x in (1.0, 2.0))
+    assert judge.judge(UPRIGHT, np.zeros(3), None).success
+    judge.judge(UPRIGHT, np.zeros(3), first)
+    judge.judge(UPRIGHT, np.zeros(3), second)
+    verdict = judge.judge(UPRIGHT, np.zeros(3), None)
+    assert verdict.collision is first
+    assert not verdict.success

@@ -1,0 +1,75 @@
+"""What the page says about measurements."""
+
+import math
+
+import pytest
+
+from protocol.messages import Phase, Pose, RobotState, Verdict
+from services.process.clock import ManualClock
+from services.station.page.readout import criteria, is_stale, outcome, span, viewer_address
+from services.station.page.view import Board, PageView, Shown
+
+POSE = Pose((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
+
+
+def robot(phase):
+    return RobotState(measured=POSE, reference=POSE, phase=phase)
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"),
+    [(0.0, "0 ms"), (0.0123, "12 ms"), (1.25, "1.2 s"), (180.0, "3 min"), (-1.0, "none"), (math.inf, "none")],
+)
+def test_a_span_is_said_in_a_few_characters(seconds, words):
+    assert span(seconds) == words
+
+
+def test_a_view_ages_while_it_hangs():
+    clock = ManualClock()
+    board = Board(clock)
+    board.put(PageView(robot=robot(Phase.IDLE), robot_age_s=0.1))
+    assert not is_stale(board.newest())
+    clock.advance(0.25)
+    assert board.newest().robot_age_s == pytest.approx(0.35)
+    assert is_stale(board.newest())
+
+
+def test_data_that_never_came_is_stale():
+    assert is_stale(Shown(PageView(), 0.0))
+
+
+@pytest.mark.parametrize(
+    ("phase", "verdict", "expected"),
+    [
+        (Phase.EXECUTE, Verdict(reached=False, kicked_over=False, collision=False), (None, "Under way")),
+        (Phase.IDLE, Verdict(reached=False, kicked_over=False, collision=False), (False, "Failure")),
+        (Phase.EXECUTE, Verdict(reached=False, kicked_over=False, collision=True), (False, "Failure")),
+        (Phase.IDLE, Verdict(reached=True, kicked_over=True, collision=False), (False, "Failure")),
+        (Phase.IDLE, Verdict(reached=True, kicked_over=False, collision=False), (True, "Success")),
+        (Phase.IDLE, None, (None, "No verdict yet")),
+    ],
+)
+def test_the_outcome_is_all_three_criteria_and_not_reached_is_open_while_it_moves(phase, verdict, expected):
+    assert outcome(Shown(PageView(robot=robot(phase), verdict=verdict), 0.0)) == expected
+
+
+def test_a_collision_says_where_and_how_hard():
+    verdict = Verdict(
+        reached=False, kicked_over=False, collision=True, collision_position=(0.5, 0.1, 0.25), collision_force=4.2
+    )
+    assert criteria(Shown(PageView(verdict=verdict), 0.0))[2] == (False, "4.2 N at 0.50, 0.10, 0.25")
+
+
+@pytest.mark.parametrize(
+    ("url", "page_host", "embedded"),
+    [
+        ("http://127.0.0.1:9090/v?a=1", "127.0.0.1", "http://localhost:9090/v?a=1"),
+        ("http://localhost:9090/", "localhost", "http://127.0.0.1:9090/"),
+        ("http://localhost:9090/", "127.0.0.1", "http://localhost:9090/"),
+        ("https://desk.example/view", "127.0.0.1", "https://desk.example/view"),
+        ("javascript:alert(1)", "127.0.0.1", ""),
+        ("", "127.0.0.1", ""),
+    ],
+)
+def test_the_viewer_is_embedded_under_another_loopback_name_than_the_page(url, page_host, embedded):
+    assert viewer_address(url, page_host) == embedded

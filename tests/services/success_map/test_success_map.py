@@ -1,0 +1,227 @@
+"""Maps of success: their conditions, what they come to, what cannot be mapped, and a tiny one simulated."""
+
+import io
+
+import matplotlib.image
+import msgspec
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lfd.motion.demonstration import Demonstration
+from lfd.store.database import DemonstrationStore, Kind
+from services.cli import main
+from services.commands.map import Request, draw_map
+from services.model.service import MODELS, learn_all
+from services.offline.first_demonstrations import first_demonstrations
+from services.reproduction.models import BY_NAME, DEFAULT
+from services.reproduction.scripted import demonstrate
+from services.success_map.conditions import Condition, Outcome, Place, SuccessMap, Trial, grid, sample, stage_name
+from services.success_map.figure import figure
+from services.success_map.work import Tried, conditions
+from sim.tasks import DISHWASHER, REACHING, TABLE
+
+SCENE = pytest.mark.parametrize("scene", REACHING.values(), ids=REACHING)
+HOME = tuple(DISHWASHER.training_positions[0].tolist())
+
+
+def within(places, scene, spread):
+    inside = all(scene.region.contains(np.array(place.object_position)) for place in places)
+    return inside and np.max(np.abs([place.offset for place in places])) <= spread
+
+
+def mapped(*outcomes, corrections=(0, 1)):
+    places = [Place((0.8, 0.01 * i, 0.55), (0.001 * i, 0.0, 0.0)) for i in range(len(outcomes))]
+    tried = [Condition(p, tuple(Trial(one) for one in of)) for p, of in zip(places, outcomes, strict=True)]
+    return SuccessMap("dishwasher", "b2", "adaptive", corrections, tuple(tried))
+
+
+@SCENE
+@given(n=st.integers(1, 20), spread=st.floats(0.0, 0.2))
+def test_a_grid_has_about_its_square_of_places_evenly_all_over_the_region(scene, n, spread):
+    places = grid(scene, n, spread)
+    assert within(places, scene, spread)
+    positions = np.array([place.object_position for place in places])
+    assert len(np.unique(positions, axis=0)) == len(places)
+    assert abs(len(places) - n * n) <= n + 2 * n * max(1.0, np.sqrt(6.0)) / 2
+    middle = (np.array(scene.region.lower) + scene.region.upper) / 2
+    np.testing.assert_allclose(positions.mean(axis=0), middle, atol=1e-9)
+
+
+def test_starts_of_a_grid_are_on_all_sides():
+    offsets = np.array([place.offset for place in grid(TABLE, 8, 0.05)])
+    octants = {tuple(side) for side in np.sign(offsets)}
+    assert {side for side in octants if 0.0 not in side} == {
+        (a, b, c) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)
+    }
+
+
+@SCENE
+def test_random_places_are_the_same_for_the_same_seed_only(scene):
+    one, again, other = (sample(scene, 30, 0.05, np.random.default_rng(seed)) for seed in (3, 3, 4))
+    assert one == again != other
+    assert within(one, scene, 0.05)
+    assert len(one) == 30
+
+
+def test_a_start_is_moved_from_the_scenes_and_not_turned():
+    start = Place(HOME, (0.01, -0.02, 0.03)).start(DISHWASHER)
+    np.testing.assert_allclose(start.position - DISHWASHER.start.position, [0.01, -0.02, 0.03])
+    np.testing.assert_array_equal(start.orientation, DISHWASHER.start.orientation)
+
+
+R, C, U = Outcome.REACHED, Outcome.COLLISION, Outcome.UNREACHABLE
+
+
+def test_a_summary_counts_among_what_is_reachable():
+    found = mapped((C, R), (C, R), (R, R), (Outcome.KICKED_OVER, Outcome.NOT_REACHED), (U, U))
+    assert found.reachable == 4
+    assert found.summary() == "after 1 correction: 3 of 4 reachable conditions succeed (75.0 %); before: 1 (25.0 %)"
+    for stage in (0, 1):
+        assert sum(found.count(stage, outcome) for outcome in Outcome) == len(found.conditions)
+
+
+def test_a_summary_of_one_stage_and_of_nothing():
+    found = mapped((R,), (C,), corrections=(0,))
+    assert found.summary() == "without correction: 1 of 2 reachable conditions succeed (50.0 %)"
+    nothing = mapped((U,), corrections=(2,))
+    assert nothing.summary() == "after 2 corrections: 0 of 0 reachable conditions succeed (none is reachable)"
+    assert stage_name(3, before=True) == "after 3 corrections"
+
+
+@pytest.mark.sim
+@pytest.mark.parametrize("outcomes", [[(C, R), (Outcome.KICKED_OVER, Outcome.NOT_REACHED), (U, U)], [(R,), (U,)]])
+def test_a_picture_shows_what_there_is(outcomes):
+    found = mapped(*outcomes, corrections=tuple(range(len(outcomes[0]))))
+    picture = matplotlib.image.imread(io.BytesIO(figure(DISHWASHER, found, DEFAULT).image))
+    height, width, _ = picture.shape
+    assert width > height > 600
+    colors = {tuple(color) for color in np.round(255 * picture[..., :3].reshape(-1, 3)).astype(int)}
+    assert (0x00, 0x9E, 0x73) in colors, "a condition that succeeded is green"
+
+
+def test_a_map_is_kept_and_read_again():
+    found = mapped((C, R), (U, U))
+    assert msgspec.json.decode(msgspec.json.encode(found), type=SuccessMap) == found
+
+
+def test_models_are_known_by_the_names_of_the_model_process():
+    assert BY_NAME.keys() == MODELS.keys()
+
+
+@pytest.fixture
+def database(tmp_path):
+    """Of a model with as many updates as asked for."""
+
+    def database_(updates=0, initial=1, condition=None):
+        path = tmp_path / "model.sqlite"
+        shown = demonstrate(DISHWASHER, DISHWASHER.training_positions[0], None)
+        if condition is not None:
+            shown = Demonstration(shown.trajectory, shown.origin, np.array(condition))
+        with DemonstrationStore(path) as store:
+            for kind in [Kind.INITIAL] * initial + [Kind.UPDATE] * updates:
+                store.add(shown, kind, "dishwasher")
+        return str(path)
+
+    return database_
+
+
+def said(capsys, *flags):
+    """The only line that a refusal says."""
+    try:
+        code = main(["map", *flags])
+    except SystemExit as ended:
+        code = ended.code
+    assert code == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    return line
+
+
+@pytest.mark.parametrize(
+    ("flags", "words"),
+    [
+        (["--grid", "0"], "--grid: must be a whole number, at least 1"),
+        (["--grid", "3", "--samples", "4"], "not allowed with"),
+        (["--samples", "many"], "--samples: must be a whole number"),
+        (["--spread", "-0.1"], "--spread: must be metres, from 0 to 0.5"),
+        (["--spread", "nan"], "--spread: must be metres"),
+        (["--kind", "dmp"], "invalid choice: 'dmp'"),
+        (["--jobs", "0"], "--jobs: must be a whole number"),
+        (["--scene", "kitchen"], "kitchen"),
+        (["--scene", "particle"], "scene particle has no object to reach: map one of dishwasher, table"),
+        (["--variant", "b3"], "b3"),
+        (["--before", "2"], "--before takes back updates of a database"),
+        (["--teach", "--database", "x.sqlite"], "leave out --database, or --teach"),
+        (["--database", "nowhere.sqlite"], "there is no file nowhere.sqlite"),
+        (["--out", "map.pdf"], "--out must name a .png file"),
+        (["--out", "nowhere/map.png"], "there is no such folder; choose another folder with --out"),
+        (["--json", "nowhere/map.json"], "there is no such folder; choose another folder with --json"),
+    ],
+)
+def test_a_wrong_flag_is_one_line(flags, words, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert words in said(capsys, *flags)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_database_that_cannot_be_mapped_is_one_line(database, capsys):
+    assert "holds no demonstration" in said(capsys, "--database", database(initial=0))
+
+
+def test_a_database_with_fewer_updates_is_one_line(database, capsys):
+    assert "takes back more than the 2 updates" in said(capsys, "--database", database(updates=2), "--before", "3")
+
+
+def test_a_model_of_another_condition_is_one_line(database, capsys):
+    assert "more than the object's position" in said(capsys, "--database", database(condition=[1.0, 2.0]))
+
+
+def test_a_model_that_began_with_its_updates_has_no_stage_before_all_of_them(database, capsys):
+    assert "knows no motion" in said(capsys, "--database", database(initial=0, updates=1))
+
+
+@pytest.mark.sim
+def test_what_becomes_of_a_condition_is_the_models_doing_where_a_motion_can_succeed():
+    demonstrations = first_demonstrations(DISHWASHER)
+    model = DEFAULT.fit(demonstrations)
+    far, blocked = Place((1.3, 0.07, HOME[2])), Place(HOME, (0.09, 0.04, 0.01))
+    trained = conditions(Tried("dishwasher", "b1", (model,), (Place(HOME), far, blocked)), jobs=1)
+    assert [one.trials[0].outcome for one in trained] == [R, U, R]
+    changed, impossible = conditions(Tried("dishwasher", "b2", (model, model), (Place(HOME), blocked)), jobs=1)
+    assert [trial.outcome for trial in impossible.trials] == [U, U]
+    assert changed.trials[0] == changed.trials[1]
+    assert changed.trials[0].outcome is C
+    robot, thing = changed.trials[0].touched
+    assert robot.startswith("gripper")
+    assert thing.startswith("basket")
+
+
+@pytest.mark.sim
+def test_a_database_without_its_last_update_and_with_it(tmp_path, capsys):
+    database = tmp_path / "model.sqlite"
+    taught = first_demonstrations(DISHWASHER)
+    with DemonstrationStore(database) as store:
+        for demonstration in taught:
+            store.add(demonstration, Kind.INITIAL, "dishwasher")
+        # The second basket position's way, as a correction would lead.
+        for position in DISHWASHER.training_positions:
+            store.add(demonstrate(DISHWASHER, position, None, variant="b2"), Kind.UPDATE, "dishwasher")
+        assert learn_all("adaptive", store.active()) is not None
+    out, json = tmp_path / "map.png", tmp_path / "map.json"
+    flags = ["--before", "2", "--grid", "1", "--spread", "0", "--jobs", "1", "--out", str(out), "--json", str(json)]
+    assert main(["map", "--database", str(database), *flags]) == 0
+    found = msgspec.json.decode(json.read_bytes(), type=SuccessMap)
+    assert found.corrections == (0, 2)
+    said = capsys.readouterr()
+    assert f"after 2 corrections: {found.reachable} of {found.reachable} reachable" in said.err
+    assert "before: 0 (0.0 %)" in said.err
+    assert said.out.strip() == str(out)
+    assert out.read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.sim
+def test_the_operator_corrects_once_and_that_is_seen(tmp_path):
+    found = draw_map(Request(teach=True, grid=1, spread=0.0, jobs=1, out=tmp_path / "map.png"))
+    assert found.corrections == (0, 1)
+    assert found.count(0, C) == len(found.conditions) == found.count(1, R)

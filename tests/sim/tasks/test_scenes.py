@@ -1,0 +1,83 @@
+import numpy as np
+import pytest
+
+from sim.exceptions import UnknownScene, UnknownVariant, WrongPlace
+from sim.pose import Pose
+from sim.tasks import REACHING, SCENES, scene
+from sim.tasks.scene import OBJECT_SIZE, ReachingScene, Scene, pitched_down
+
+SCENE = pytest.mark.parametrize("place", SCENES.values(), ids=SCENES)
+REACHING_SCENE = pytest.mark.parametrize("place", REACHING.values(), ids=REACHING)
+
+
+def corners(place: ReachingScene) -> list[np.ndarray]:
+    lower, upper = place.region.lower, place.region.upper
+    return [np.array([x, y, lower[2]]) for x in (lower[0], upper[0]) for y in (lower[1], upper[1])]
+
+
+@SCENE
+def test_training_positions_lie_in_the_region(place: Scene) -> None:
+    assert all(place.region.contains(position) for position in place.training_positions)
+
+
+@SCENE
+def test_samples_lie_in_the_region(place: Scene) -> None:
+    rng = np.random.default_rng(0)
+    assert all(place.region.contains(place.region.sample(rng)) for _ in range(100))
+
+
+@SCENE
+def test_boxes_have_unique_names_and_unit_quaternions(place: Scene) -> None:
+    for variant in place.variants:
+        boxes = place.boxes(variant)
+        assert len({box.name for box in boxes}) == len(boxes)
+        np.testing.assert_allclose([np.linalg.norm(box.quaternion) for box in boxes], 1.0, atol=1e-12)
+
+
+@REACHING_SCENE
+def test_every_corridor_leads_from_the_start_into_the_object(place: ReachingScene) -> None:
+    for variant in place.variants:
+        for position in corners(place):
+            corridor = place.corridor(variant, position)
+            np.testing.assert_array_equal(corridor.positions[0], place.start.position)
+            np.testing.assert_allclose(corridor.orientations[0], place.start.orientation)
+            assert np.all(np.abs(corridor.positions[-1] - position) <= np.array(OBJECT_SIZE) / 2)
+
+
+@REACHING_SCENE
+def test_a_corridor_from_another_start_joins_the_scenes_own(place: ReachingScene) -> None:
+    start = Pose(place.start.position + np.array([-0.05, 0.08, 0.03]), -pitched_down(0.5))
+    for variant in place.variants:
+        own, other = (place.corridor(variant, place.training_positions[0], s) for s in (place.start, start))
+        plain = place.corridor(variant, place.training_positions[0])
+        np.testing.assert_array_equal(own.positions, plain.positions)
+        np.testing.assert_array_equal(own.orientations, plain.orientations)
+        np.testing.assert_array_equal(other.positions[0], start.position)
+        half = len(own.positions) // 2
+        np.testing.assert_array_equal(other.positions[half:], own.positions[half:])
+        np.testing.assert_array_equal(other.orientations[1:], own.orientations[1:])
+        np.testing.assert_array_equal(other.orientations[0], -start.orientation)
+
+
+@REACHING_SCENE
+def test_the_correction_between_the_variants_is_within_an_operators_reach(place: ReachingScene) -> None:
+    """A refinement that displaces the trained motion by at most 0.20 m gives the changed one."""
+    trained, changed = place.variants
+    for position in corners(place):
+        before, after = place.corridor(trained, position), place.corridor(changed, position)
+        np.testing.assert_array_equal(before.orientations, after.orientations)
+        displacement = np.linalg.norm(after.positions - before.positions, axis=1)
+        assert 0.10 < displacement.max() <= 0.20
+
+
+def test_unknown_names_are_refused_with_those_that_are_known() -> None:
+    with pytest.raises(UnknownScene, match="dishwasher, table, particle"):
+        scene("kitchen")
+    with pytest.raises(UnknownVariant, match="b1, b2"):
+        scene("dishwasher").boxes("b3")
+
+
+@SCENE
+def test_a_place_of_another_dimension_is_refused(place: Scene) -> None:
+    with pytest.raises(WrongPlace, match="not 5"):
+        place.corridor(place.variants[0], np.zeros(5))
