@@ -1,0 +1,84 @@
+"""The messages: frozen structs that travel as MessagePack maps.
+
+Units are SI, angles radians, frames stand in the field's name (`base` where nothing else is said), quaternions are
+scalar first (w, x, y, z). A new field needs a default; any other change to a message needs the next `@v` in the key.
+Numbers are bounded, so that a NaN or an infinity never passes the codec.
+"""
+
+from protocol.messages.authority import AuthorityRenewal, AuthorityState
+from protocol.messages.camera import CameraImage
+from protocol.messages.command import MasterState, OperatorInput
+from protocol.messages.health import Figure, Heartbeat, TopicFigures
+from protocol.messages.model import ModelState, Prediction
+from protocol.messages.safety import EmergencyStop, SafetyState
+from protocol.messages.state import (
+    Box,
+    EpisodeResult,
+    ExecutionState,
+    Mode,
+    ObjectPose,
+    Phase,
+    RobotState,
+    SceneState,
+    Verdict,
+    WorldState,
+)
+from protocol.messages.teaching import Attempt, Light, Outcome, Recording, TeachingState
+from protocol.messages.values import (
+    ITEM_SIZES,
+    Array,
+    Condition,
+    Count,
+    Joints,
+    Message,
+    Motion,
+    Name,
+    Pose,
+    Quaternion,
+    Real,
+    Text,
+    Vector3,
+)
+
+__all__ = [
+    "ITEM_SIZES",
+    "Array",
+    "Attempt",
+    "AuthorityRenewal",
+    "AuthorityState",
+    "Box",
+    "CameraImage",
+    "Condition",
+    "Count",
+    "EmergencyStop",
+    "EpisodeResult",
+    "ExecutionState",
+    "Figure",
+    "Heartbeat",
+    "Joints",
+    "Light",
+    "MasterState",
+    "Message",
+    "Mode",
+    "ModelState",
+    "Motion",
+    "Name",
+    "ObjectPose",
+    "OperatorInput",
+    "Outcome",
+    "Phase",
+    "Pose",
+    "Prediction",
+    "Quaternion",
+    "Real",
+    "Recording",
+    "RobotState",
+    "SafetyState",
+    "SceneState",
+    "TeachingState",
+    "Text",
+    "TopicFigures",
+    "Vector3",
+    "Verdict",
+    "WorldState",
+]

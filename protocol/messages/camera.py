@@ -1,0 +1,33 @@
+"""Pictures: the class `cam`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import msgspec
+
+from protocol.messages.values import Count, Message, Name, Pose, Real
+
+
+class CameraImage(Message, frozen=True, kw_only=True):
+    """One picture as JPEG.
+
+    Attributes:
+        camera: "head" or "wrist".
+        width: [pixel].
+        height: [pixel].
+        data: the JPEG file.
+        intrinsics: of the pinhole: fx, fy, cx, cy [pixel].
+        pose: of the optical frame (x right, y down, z forward) in the base frame.
+        captured_ns: stamp of the state that the picture shows, in the robot's monotonic clock [ns].
+        object_pose: in simulation the true pose of the object in this picture, else none.
+    """
+
+    camera: Name
+    width: Count
+    height: Count
+    data: Annotated[bytes, msgspec.Meta(max_length=1_000_000)]
+    intrinsics: tuple[Real, Real, Real, Real]
+    pose: Pose
+    captured_ns: Count = 0
+    object_pose: Pose | None = None

@@ -1,0 +1,74 @@
+"""What a process says about itself: the class `health`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import msgspec
+
+from protocol.messages.values import Count, Message, Name, Real
+
+
+class Figure(msgspec.Struct, frozen=True):
+    """A measured number with its unit."""
+
+    name: Name
+    value: Real
+    unit: Name
+
+
+class TopicFigures(msgspec.Struct, frozen=True):
+    """What a process saw on one topic in the last interval: rate [Hz], age and latency [s], drops by cause so far.
+
+    A negative latency means that the clocks are not comparable.
+    """
+
+    topic: Name
+    rate_hz: Real
+    age: Real
+    latency: Real
+    malformed: Count = 0
+    oversized: Count = 0
+    wrong_version: Count = 0
+    stale: Count = 0
+    repeated: Count = 0
+    future: Count = 0
+
+    @property
+    def drops(self) -> int:
+        """All drops together."""
+        return self.malformed + self.oversized + self.wrong_version + self.stale + self.repeated + self.future
+
+
+class Heartbeat(Message, frozen=True, kw_only=True):
+    """A process about itself, twice a second.
+
+    Attributes:
+        process: its name.
+        pid: its process id.
+        host: its machine.
+        rate_hz: that it should step at.
+        ticks: since the start.
+        late_ticks: that began more than half a period late.
+        period_p50: of the last interval [s].
+        period_p99: of the last interval [s].
+        step_p99: time that a step took, of the last interval [s].
+        cpu_s: processor time since the start [s].
+        memory: resident [byte].
+        topics: what it receives.
+        figures: what it measured besides.
+    """
+
+    process: Name
+    pid: Count
+    host: Name
+    rate_hz: Real
+    ticks: Count
+    late_ticks: Count
+    period_p50: Real
+    period_p99: Real
+    step_p99: Real
+    cpu_s: Real
+    memory: Count
+    topics: Annotated[tuple[TopicFigures, ...], msgspec.Meta(max_length=64)] = ()
+    figures: Annotated[tuple[Figure, ...], msgspec.Meta(max_length=64)] = ()

@@ -1,0 +1,39 @@
+"""What the model says: the class `model`."""
+
+from __future__ import annotations
+
+from protocol.messages.values import Array, Count, Message, Motion, Name, Vector3
+
+
+class Prediction(Message, frozen=True, kw_only=True):
+    """What the model would do.
+
+    Attributes:
+        motion: in the base frame.
+        deviations: one standard deviation on each axis, shape (n, 3) [m].
+        model_version: of the model that predicts.
+        object_position: the condition, in the base frame [m].
+    """
+
+    motion: Motion
+    deviations: Array
+    model_version: Count
+    object_position: Vector3
+
+
+class ModelState(Message, frozen=True, kw_only=True):
+    """The learnt model as it lies on disk.
+
+    Attributes:
+        kind: which model.
+        version: grows with every change, undo included.
+        demonstrations: that it started from.
+        updates: since then.
+        scene: that it was taught in.
+    """
+
+    kind: Name
+    version: Count
+    demonstrations: Count
+    updates: Count
+    scene: Name

@@ -1,0 +1,29 @@
+"""What keeps the robot from moving: the class `safety`."""
+
+from __future__ import annotations
+
+from protocol.messages.values import Message, Name, Real, Text
+
+
+class EmergencyStop(Message, frozen=True, kw_only=True):
+    """Pressed: every robot process that hears it latches a stop. Repeated while pressed."""
+
+    pressed: bool
+    by: Name
+    reason: Text = ""
+
+
+class SafetyState(Message, frozen=True, kw_only=True):
+    """What keeps the robot from moving, as measured.
+
+    Attributes:
+        emergency_stop: latched; release and a new authority are needed to move again.
+        by: who pressed it.
+        reason: for people.
+        self_distance: least distance between parts of the robot [m].
+    """
+
+    emergency_stop: bool
+    by: Name = ""
+    reason: Text = ""
+    self_distance: Real = 0.0

@@ -1,0 +1,230 @@
+"""What the robot and its scene are doing: the class `state`."""
+
+from __future__ import annotations
+
+import enum
+from typing import Annotated
+
+import msgspec
+
+from protocol.messages.values import (
+    Array,
+    Condition,
+    Count,
+    Joints,
+    Message,
+    Motion,
+    Name,
+    Pose,
+    Quaternion,
+    Real,
+    Text,
+    Vector3,
+)
+
+
+class Phase(enum.Enum):
+    """What the robot is doing."""
+
+    IDLE = "idle"
+    RAMP = "ramp"
+    EXECUTE = "execute"
+    HOLD = "hold"
+    STOPPED = "stopped"
+
+
+class Mode(enum.Enum):
+    """Who shapes the motion: the prediction alone, or the operator on top of it."""
+
+    AUTONOMOUS = "autonomous"
+    REFINE = "refine"
+
+
+class RobotState(Message, frozen=True, kw_only=True):
+    """The robot as measured, beside what it was told.
+
+    Attributes:
+        joint_names: of `q` and `qd`.
+        q: measured joint positions [rad, torso m].
+        qd: measured joint velocities [rad/s, torso m/s].
+        measured: pose of the grasping frame, from `q`.
+        reference: pose that the controller was told to reach in this period.
+        phase: what the robot is doing.
+        mode: of the episode that runs, or of the last one.
+        episode: its number since the robot process started; 0 before the first.
+        progress: of the episode, from 0 to 1.
+        offset: the correction of the position as it is applied now, base axes [m].
+        turn: the correction of the orientation as it is applied now, rotation vector in base axes [rad]; the
+            reference's orientation is the predicted one, then rotated by it.
+        hold_reason: why the robot holds, empty where it does not.
+        clamped: what was clamped in this period, each a short word with the place.
+        applied_sequence: of the last master state that took effect.
+        applied_latency: from that sample's stamp to its effect [s]; negative where the clocks are not comparable.
+    """
+
+    joint_names: Annotated[tuple[Name, ...], msgspec.Meta(max_length=64)] = ()
+    q: Joints = ()
+    qd: Joints = ()
+    measured: Pose
+    reference: Pose
+    phase: Phase
+    mode: Mode = Mode.AUTONOMOUS
+    episode: Count = 0
+    progress: Real = 0.0
+    offset: Vector3 = (0.0, 0.0, 0.0)
+    turn: Vector3 = (0.0, 0.0, 0.0)
+    hold_reason: Text = ""
+    clamped: Annotated[tuple[Text, ...], msgspec.Meta(max_length=16)] = ()
+    applied_sequence: Count = 0
+    applied_latency: Real = -1.0
+
+
+class WorldState(Message, frozen=True, kw_only=True):
+    """The simulated world's generalised positions, for whoever draws it, and the truth about the object.
+
+    Attributes:
+        time: simulated [s].
+        qpos: shape (nq,), MuJoCo's order.
+        object_pose: the true pose in the base frame.
+    """
+
+    time: Real
+    qpos: Array
+    object_pose: Pose
+
+
+class Box(msgspec.Struct, frozen=True):
+    """A box of the scene, in the base frame; half sizes [m], colour with alpha from 0 to 1."""
+
+    name: Name
+    centre: Vector3
+    half_sizes: Vector3
+    orientation: Quaternion
+    rgba: tuple[Real, Real, Real, Real]
+
+
+class SceneState(Message, frozen=True, kw_only=True):
+    """The scene that the robot stands in and by what it judges success (thesis, Appendix E).
+
+    Attributes:
+        name: of the scene.
+        variant: which of the scene's arrangements stands there now.
+        variants: all of them, the one that the model was trained in first.
+        boxes: the environment, to draw.
+        object_size: full edge lengths [m]; zero where there is no object.
+        ellipsoid_radii: of the reached ellipsoid about the grasping frame [m].
+        kicked_over_thresholds: largest displacement on each axis [m].
+        start: pose of the grasping frame from which the next motion starts.
+        object_region: least and greatest corner of where objects may stand [m].
+        condition: the external state that the motion depends on; empty where it is the object relative to the gripper
+            at the start.
+        condition_region: least and greatest of the conditions that are drawn, where there are any.
+    """
+
+    name: Name
+    variant: Name
+    boxes: Annotated[tuple[Box, ...], msgspec.Meta(max_length=512)]
+    object_size: Vector3
+    ellipsoid_radii: Vector3
+    kicked_over_thresholds: Vector3
+    start: Pose
+    object_region: tuple[Vector3, Vector3]
+    variants: Annotated[tuple[Name, ...], msgspec.Meta(max_length=16)] = ()
+    condition: Condition = ()
+    condition_region: tuple[Condition, Condition] = ((), ())
+
+
+class Verdict(Message, frozen=True, kw_only=True):
+    """The success criteria (thesis, Appendix E), judged now; a collision stays until the next episode.
+
+    Attributes:
+        reached: the object's centre lies in the gripper's ellipsoid, or all via-points were passed through.
+        kicked_over: the object moved further than its threshold on some axis.
+        collision: the robot touched the environment.
+        collision_position: where first, base frame [m].
+        collision_force: normal force of the first contact [N].
+        collision_between: the robot's link and the thing that it touched first.
+        ellipsoid_value: of eq. E.1, or the greatest (error / tolerance)^2 at a via-point; at most 1 where reached.
+        object_displacement: since the episode started [m].
+    """
+
+    reached: bool
+    kicked_over: bool
+    collision: bool
+    collision_position: Vector3 | None = None
+    collision_force: Real = 0.0
+    collision_between: tuple[Name, Name] | None = None
+    ellipsoid_value: Real = 0.0
+    object_displacement: Vector3 = (0.0, 0.0, 0.0)
+
+
+class ExecutionState(Message, frozen=True, kw_only=True):
+    """The motion under way, for whoever looks on or corrects it.
+
+    Attributes:
+        episode: its number.
+        mode: who shapes it.
+        prediction: what was asked for.
+        progress: from 0 to 1.
+        refined: the way-points that lie behind, shape (k, 3) [m].
+    """
+
+    episode: Count
+    mode: Mode
+    prediction: Motion
+    progress: Real
+    refined: Array
+
+
+class EpisodeResult(Message, frozen=True, kw_only=True):
+    """What became of an episode; repeated until the next one starts.
+
+    Attributes:
+        episode: its number.
+        request: the number that the asker gave it.
+        mode: who shaped it.
+        completed: it ran to its end and was not cut short.
+        reason: why not, empty where it was.
+        prediction: what was asked for.
+        refined: the reference including the operator's correction.
+        commanded: what the joints were told, as a motion of the grasping frame.
+        measured: what the arm did.
+        verdict: at its end.
+        operator_input: the operator displaced or rotated the master at some time.
+        clamped: ticks in which something was clamped.
+        held: time spent holding [s].
+        duration: from the first motion to the verdict [s].
+    """
+
+    episode: Count
+    request: Count
+    mode: Mode
+    completed: bool
+    reason: Text
+    prediction: Motion
+    refined: Motion
+    commanded: Motion
+    measured: Motion
+    verdict: Verdict
+    operator_input: bool
+    clamped: Count
+    held: Real
+    duration: Real
+
+
+class ObjectPose(Message, frozen=True, kw_only=True):
+    """The object as seen by a camera.
+
+    Attributes:
+        pose: of the object's centre in the base frame.
+        tag: the marker's id.
+        error: distance to the true position [m]; negative where there is no truth to compare with.
+        rejected: pose flips filtered since the start.
+        pictures: how many pictures the filtered pose rests on.
+    """
+
+    pose: Pose
+    tag: Count
+    error: Real = -1.0
+    rejected: Count = 0
+    pictures: Count = 0

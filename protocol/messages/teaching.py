@@ -1,0 +1,98 @@
+"""Where the teaching stands and what shows it, also of the class `state`."""
+
+from __future__ import annotations
+
+import enum
+from typing import Annotated
+
+import msgspec
+
+from protocol.messages.state import Mode
+from protocol.messages.values import Condition, Count, Message, Name, Real, Text, Vector3
+
+
+class Light(enum.Enum):
+    """The operator's traffic light: red watch, amber wait, green act."""
+
+    RED = "red"
+    AMBER = "amber"
+    GREEN = "green"
+
+
+class Outcome(msgspec.Struct, frozen=True):
+    """The three criteria, without their evidence."""
+
+    reached: bool
+    kicked_over: bool
+    collision: bool
+
+    @property
+    def success(self) -> bool:
+        """Reached, and neither kicked over nor collided."""
+        return self.reached and not self.kicked_over and not self.collision
+
+
+class Attempt(msgspec.Struct, frozen=True):
+    """One episode of a teaching run.
+
+    The motion was relative to the object's position, and right or wrong for the condition; that is empty where it is
+    the object relative to the start.
+    """
+
+    scene: Name
+    object_position: Vector3
+    model_version: Count
+    operator_input: bool
+    verdict: Outcome
+    duration_s: Real
+    variant: Name
+    mode: Mode
+    condition: Condition = ()
+
+
+class TeachingState(Message, frozen=True, kw_only=True):
+    """Where the teaching workflow (Algorithm 1) stands.
+
+    Attributes:
+        phase: a word for the state.
+        text: what the operator should know or do.
+        light: may the operator act?
+        refinements: attempts at this update so far.
+        refinements_allowed: at most.
+        updates: of the model in this run.
+        updates_allowed: at most.
+        attempts: every episode in order.
+        finished: nothing more will happen.
+        loop_closed: a prediction failed, was refined, learnt, and a later one succeeded by itself.
+        reason: why not, empty where it did.
+        actions: what the operator may do now, by name.
+    """
+
+    phase: Name
+    text: Text
+    light: Light
+    refinements: Count = 0
+    refinements_allowed: Count = 0
+    updates: Count = 0
+    updates_allowed: Count = 0
+    attempts: Annotated[tuple[Attempt, ...], msgspec.Meta(max_length=1000)] = ()
+    finished: bool = False
+    loop_closed: bool = False
+    reason: Text = ""
+    actions: Annotated[tuple[Name, ...], msgspec.Meta(max_length=16)] = ()
+
+
+class Recording(Message, frozen=True, kw_only=True):
+    """Where the viewer shows and records.
+
+    Attributes:
+        path: of the .rrd file on the viewer's machine.
+        viewer_url: of the page that shows the live view.
+        recording_id: changes when the view has to be loaded anew.
+        logged_ns: stamp of the newest robot state in the view [ns].
+    """
+
+    path: Text
+    viewer_url: Text
+    recording_id: Name
+    logged_ns: Count = 0
