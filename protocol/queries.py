@@ -25,10 +25,22 @@ class Accepted(msgspec.Struct, frozen=True, tag_field="reply", tag="accepted"):
     """The request is carried out."""
 
 
-class AcquireAuthority(msgspec.Struct, frozen=True):
+class Change(msgspec.Struct, frozen=True, kw_only=True):
+    """A request that changes something: asked twice, done once.
+
+    Attributes:
+        request: a random number by which the request is known again, so that a repeated one gets the kept answer and
+            changes nothing; 0 for a request that is never repeated.
+    """
+
+    request: Count = 0
+
+
+class AcquireAuthority(Change, frozen=True):
     """Ask for the authority to command; `take_over` ends another holder's lease."""
 
     holder: Name
+    operator: Name = ""
     take_over: bool = False
 
 
@@ -39,7 +51,7 @@ class AuthorityGranted(msgspec.Struct, frozen=True, tag_field="reply", tag="gran
     lease_s: float
 
 
-class ReleaseAuthority(msgspec.Struct, frozen=True):
+class ReleaseAuthority(Change, frozen=True):
     """Give the authority back."""
 
     holder: Name
@@ -53,19 +65,17 @@ class Adapt(Enum):
     CURRENT = "current"
 
 
-class Execute(msgspec.Struct, frozen=True):
+class Execute(Change, frozen=True):
     """Execute a prediction; its end is announced on the topic state/episode_result.
 
     Attributes:
         epoch: of the authority.
-        request: a number by which the asker knows the episode again.
         mode: autonomous, or with the operator's correction.
         prediction: in the base frame; its duration is the episode's.
         adapt: which way-point the correction moves.
     """
 
     epoch: Count
-    request: Count
     mode: Mode
     prediction: Motion
     adapt: Adapt = Adapt.NEXT
@@ -77,13 +87,19 @@ class EpisodeStarted(msgspec.Struct, frozen=True, tag_field="reply", tag="starte
     episode: Count
 
 
-class Finish(msgspec.Struct, frozen=True):
+class Finish(Change, frozen=True):
     """End the running episode here: the operator is satisfied, or gives up."""
 
     epoch: Count
 
 
-class Reset(msgspec.Struct, frozen=True):
+class Resume(Change, frozen=True):
+    """Go on with an episode that waits after a hold: somebody pressed for it."""
+
+    epoch: Count
+
+
+class Reset(Change, frozen=True):
     """Back to the start. In simulation the object and the scene are arranged anew.
 
     What is left out stays as it was put last.
@@ -103,7 +119,7 @@ class Reset(msgspec.Struct, frozen=True):
     start: Pose | None = None
 
 
-class ReleaseStop(msgspec.Struct, frozen=True):
+class ReleaseStop(Change, frozen=True):
     """Release the latched emergency stop; moving again needs a new authority."""
 
     by: Name
@@ -136,7 +152,7 @@ class Kind(Enum):
     UPDATE = "update"
 
 
-class AddDemonstration(msgspec.Struct, frozen=True):
+class AddDemonstration(Change, frozen=True):
     """Learn from a motion that reached the object.
 
     Attributes:
@@ -158,7 +174,7 @@ class AddDemonstration(msgspec.Struct, frozen=True):
     alpha: Annotated[float, msgspec.Meta(ge=0.0, le=1.0)] = 1.0
 
 
-class Undo(msgspec.Struct, frozen=True):
+class Undo(Change, frozen=True):
     """Take the newest update back."""
 
 
@@ -206,6 +222,7 @@ ACQUIRE = Query("authority/acquire", AcquireAuthority, AuthorityGranted, "robot"
 RELEASE = Query("authority/release", ReleaseAuthority, Accepted, "robot", 4_096, "give the authority back")
 EXECUTE = Query("cmd/execute", Execute, EpisodeStarted, "robot", 1_048_576, "execute a prediction")
 FINISH = Query("cmd/finish", Finish, Accepted, "robot", 4_096, "end the episode here")
+RESUME = Query("cmd/resume", Resume, Accepted, "robot", 4_096, "go on after a hold")
 RESET = Query("cmd/reset", Reset, Accepted, "robot", 4_096, "back to the start")
 RELEASE_STOP = Query("safety/release_stop", ReleaseStop, Accepted, "robot", 4_096, "release the emergency stop")
 PREDICT = Query("model/predict", Predict, Predicted, "model", 1_048_576, "predict a motion")
@@ -220,6 +237,7 @@ QUERIES: tuple[Query[Any, Any], ...] = (
     RELEASE,
     EXECUTE,
     FINISH,
+    RESUME,
     RESET,
     RELEASE_STOP,
     PREDICT,

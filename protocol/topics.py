@@ -21,12 +21,14 @@ _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
 class QoS(Enum):
     """How a topic travels, named by stance; the bus translates it.
 
+    SAFETY: before everything else, at once; every message counts, however late and whatever its stamp.
     REALTIME: the newest sample only, at once, rather lost than late.
     STATE: the newest sample only, ahead of pictures.
     PICTURE: large, the newest only, behind everything that moves.
     EVENT: every message counts, however late; its publisher repeats what must not be lost.
     """
 
+    SAFETY = "safety"
     REALTIME = "realtime"
     STATE = "state"
     PICTURE = "picture"
@@ -64,8 +66,8 @@ class Topic(Generic[M]):
 
     @property
     def stale_after_ns(self) -> int | None:
-        """Age at which a sample counts as lost: ten periods, at least 100 ms; events never."""
-        if self.qos is QoS.EVENT:
+        """Age at which a sample counts as lost: ten periods, at least 100 ms; events and stops never."""
+        if self.qos in (QoS.EVENT, QoS.SAFETY):
             return None
         return int(max(0.1, 10.0 / self.rate_hz) * 1e9)
 
@@ -101,7 +103,7 @@ EMERGENCY_STOP = Topic(
     "safety/emergency_stop",
     messages.EmergencyStop,
     10.0,
-    QoS.EVENT,
+    QoS.SAFETY,
     "any",
     8_192,
     "stop, repeated while pressed",

@@ -6,8 +6,9 @@ from protocol.messages.values import Count, Message, Name, Real
 
 
 class AuthorityRenewal(Message, frozen=True, kw_only=True):
-    """The holder's sign of life; without it the lease runs out."""
+    """The holder's sign of life while an operator is present; without it the robot holds, then the lease runs out."""
 
+    operator: Name = ""
     holder: Name
     epoch: Count
 
@@ -16,11 +17,13 @@ class AuthorityState(Message, frozen=True, kw_only=True):
     """Who may command; an empty holder means nobody.
 
     Attributes:
-        holder: its name.
+        operator: the person who holds it.
+        holder: the name of that person's station.
         epoch: grows with every change of holder; commands of another epoch are refused.
         expires_in: until the lease runs out if it is not renewed [s].
     """
 
+    operator: Name = ""
     holder: Name
     epoch: Count
     expires_in: Real

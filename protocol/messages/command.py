@@ -13,11 +13,19 @@ class OperatorInput(Message, frozen=True, kw_only=True):
     """The FULL state of the operator's page inputs, never a change of it.
 
     Attributes:
+        operator: the person at the page.
+        holder: the station's name as holder of the authority.
+        epoch: of the authority that the station holds; 0 while it holds none.
+        present: the page is alive, visible and was heard within the last second.
         keys: the physical keys held down, by their `KeyboardEvent.code`.
         focused: the page has the focus; without it no key counts.
         axes: gamepad or pointer axes, each from -1 to 1.
     """
 
+    operator: Name = ""
+    holder: Name = ""
+    epoch: Count = 0
+    present: bool = False
     keys: Annotated[tuple[Name, ...], msgspec.Meta(max_length=32)] = ()
     focused: bool = False
     axes: Annotated[tuple[Real, ...], msgspec.Meta(max_length=16)] = ()
@@ -32,7 +40,9 @@ class MasterState(Message, frozen=True, kw_only=True):
         rotation: from the device's neutral orientation, rotation vector in base axes [rad].
         force: what the device renders to the hand (eq. 14) [N].
         engaged: a hand is on the device and the clutch is closed; displacement and rotation count only then.
-        epoch: of the authority under which the master commands.
+        operator: the person whose hand it is, as the station says.
+        holder: of the authority under which the master commands.
+        epoch: of that authority.
         device: what kind of device this is.
     """
 
@@ -41,5 +51,7 @@ class MasterState(Message, frozen=True, kw_only=True):
     rotation: Vector3 = (0.0, 0.0, 0.0)
     force: Vector3 = (0.0, 0.0, 0.0)
     engaged: bool = False
+    operator: Name = ""
+    holder: Name = ""
     epoch: Count = 0
     device: Name = ""

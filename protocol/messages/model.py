@@ -9,12 +9,14 @@ class Prediction(Message, frozen=True, kw_only=True):
     """What the model would do.
 
     Attributes:
+        id: by which it is asked for and spoken of; the motion crosses the wire once.
         motion: in the base frame.
         deviations: one standard deviation on each axis, shape (n, 3) [m].
         model_version: of the model that predicts.
         object_position: the condition, in the base frame [m].
     """
 
+    id: Count = 0
     motion: Motion
     deviations: Array
     model_version: Count

@@ -20,10 +20,16 @@ class SafetyState(Message, frozen=True, kw_only=True):
         emergency_stop: latched; release and a new authority are needed to move again.
         by: who pressed it.
         reason: for people.
+        at: when it was latched, or released where it is not: UTC by the robot's clock, ISO 8601; empty for never.
+        released_by: who released it last; empty while it is latched, or for never.
+        standing: every joint was measured to stand still.
         self_distance: least distance between parts of the robot [m].
     """
 
     emergency_stop: bool
     by: Name = ""
     reason: Text = ""
+    at: Name = ""
+    released_by: Name = ""
+    standing: bool = False
     self_distance: Real = 0.0

@@ -57,6 +57,7 @@ class RobotState(Message, frozen=True, kw_only=True):
         turn: the correction of the orientation as it is applied now, rotation vector in base axes [rad]; the
             reference's orientation is the predicted one, then rotated by it.
         hold_reason: why the robot holds, empty where it does not.
+        waiting: it has held for so long that it goes on only when it is asked to (`cmd/resume`).
         clamped: what was clamped in this period, each a short word with the place.
         applied_sequence: of the last master state that took effect.
         applied_latency: from that sample's stamp to its effect [s]; negative where the clocks are not comparable.
@@ -74,6 +75,7 @@ class RobotState(Message, frozen=True, kw_only=True):
     offset: Vector3 = (0.0, 0.0, 0.0)
     turn: Vector3 = (0.0, 0.0, 0.0)
     hold_reason: Text = ""
+    waiting: bool = False
     clamped: Annotated[tuple[Text, ...], msgspec.Meta(max_length=16)] = ()
     applied_sequence: Count = 0
     applied_latency: Real = -1.0

@@ -78,12 +78,21 @@ class Motion(msgspec.Struct, frozen=True):
 class Message(msgspec.Struct, frozen=True, kw_only=True):
     """What every message on a topic carries; the bus fills it in.
 
+    A message names where it belongs, because a transport was seen to deliver samples under another key: the receiver
+    checks robot, topic and process against what it subscribed to.
+
     Attributes:
+        robot: whose topic it was published on.
+        topic: its name.
+        process: that published it.
         publisher: the sender's incarnation: the upper 16 bits name its machine since boot, the rest is random.
         sequence: counts the publisher's messages on this topic, from 1.
         stamp_ns: the sender's monotonic clock [ns].
     """
 
+    robot: Name = ""
+    topic: Name = ""
+    process: Name = ""
     publisher: Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)] = 0
     sequence: Count = 0
     stamp_ns: Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)] = 0

@@ -45,10 +45,11 @@ class _Transport:
 
 # Nothing blocks: a full link must not stop a control loop. What must not be lost is repeated by its publisher.
 _TRANSPORTS = {
-    QoS.REALTIME: _Transport(zenoh.Priority.REAL_TIME, zenoh.CongestionControl.DROP, True),
-    QoS.STATE: _Transport(zenoh.Priority.INTERACTIVE_HIGH, zenoh.CongestionControl.DROP, True),
+    QoS.SAFETY: _Transport(zenoh.Priority.REAL_TIME, zenoh.CongestionControl.DROP, True),
+    QoS.REALTIME: _Transport(zenoh.Priority.INTERACTIVE_HIGH, zenoh.CongestionControl.DROP, True),
+    QoS.STATE: _Transport(zenoh.Priority.INTERACTIVE_LOW, zenoh.CongestionControl.DROP, True),
     QoS.PICTURE: _Transport(zenoh.Priority.DATA_LOW, zenoh.CongestionControl.DROP, False),
-    QoS.EVENT: _Transport(zenoh.Priority.INTERACTIVE_LOW, zenoh.CongestionControl.DROP, False),
+    QoS.EVENT: _Transport(zenoh.Priority.DATA_HIGH, zenoh.CongestionControl.DROP, False),
 }
 
 

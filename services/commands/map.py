@@ -19,9 +19,9 @@ from lfd.models.model import MovementModel
 from lfd.store.database import DemonstrationStore, Kind, StoredDemonstration
 from services.model.service import learn_all
 from services.offline.first_demonstrations import first_demonstrations
+from services.process.files import write_whole
 from services.reproduction.exceptions import CannotKeep, NothingToMap
 from services.reproduction.models import BY_NAME
-from services.reproduction.store import write_whole
 from services.success_map import conditions as success_map
 from services.success_map.conditions import Place, SuccessMap
 from services.success_map.figure import figure

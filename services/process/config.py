@@ -151,12 +151,14 @@ class Configuration(_Section, frozen=True):
 
     Attributes:
         name: the robot's name, the first chunk of all its keys.
+        operator: who is at this station; stands in everything that a hand or a press causes.
         connect: the router's Zenoh endpoint.
         listen: where `retouch up` and `retouch router` listen.
         seed: of everything random.
     """
 
     name: str = "robot1"
+    operator: str = "operator"
     connect: str = "tcp/127.0.0.1:7447"
     listen: str = "tcp/127.0.0.1:7447"
     seed: Annotated[int, msgspec.Meta(ge=0)] = 0

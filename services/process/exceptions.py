@@ -8,6 +8,7 @@ ServiceError
 │   └── NameTaken        a process of this name is on the network already
 ├── PortInUse            another program listens where a page should be served
 ├── RoomMissing          a role whose packages are not installed
+├── FolderUnusable       a folder of the user's that cannot be made or written
 └── CommandFailed        a command ended without what it was started for
 """
 
@@ -82,6 +83,16 @@ class RoomMissing(ServiceError):
         self.role = role
         self.module = module
         super().__init__(f"the {role} needs the package {module!r}: install retouch[{role}]")
+
+
+class FolderUnusable(ServiceError):
+    """A folder where the user's files belong cannot be made or written."""
+
+    def __init__(self, folder: Path, variable: str, reason: str) -> None:
+        self.folder = folder
+        self.variable = variable
+        self.reason = reason
+        super().__init__(f"cannot use the folder {folder}: {reason.lower()}; set {variable} to one that can be written")
 
 
 class CommandFailed(ServiceError):

@@ -13,9 +13,10 @@ import jinja2
 import matplotlib as mpl
 import numpy as np
 
+from services.process.files import write_whole
 from services.reproduction.analysis import Analysis, Holds, Value
 from services.reproduction.exceptions import CannotKeep
-from services.reproduction.store import Done, Failed, Outcome, is_svg, write_whole
+from services.reproduction.store import Done, Failed, Outcome, is_svg
 from services.reproduction.style import ADAPTIVE, CONDITIONED
 
 REPORT = "report.html"

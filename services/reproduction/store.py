@@ -14,6 +14,7 @@ import numpy as np
 import lfd
 import services
 import sim
+from services.process.files import write_whole
 from services.reproduction.analysis import Figure, Finding
 from services.reproduction.exceptions import CannotKeep
 
@@ -140,10 +141,3 @@ def _plain(value: object) -> object:
 def is_svg(image: bytes) -> bool:
     """Whether an image is an SVG, otherwise it is a PNG."""
     return image.startswith(_SVG_BEGINS)
-
-
-def write_whole(path: Path, content: bytes) -> None:
-    """Write a file whole or not at all."""
-    beside = path.with_name(f".{path.name}.part")
-    beside.write_bytes(content)
-    beside.replace(path)

@@ -182,7 +182,7 @@ def test_every_query_refuses_what_is_no_request(network, unmoved):
 def test_a_command_without_authority_is_refused(network, unmoved):
     motion = motion_of(network.samples)
     for query, request in (
-        (queries.EXECUTE, queries.Execute(0, 1, messages.Mode.AUTONOMOUS, motion)),
+        (queries.EXECUTE, queries.Execute(0, messages.Mode.AUTONOMOUS, motion, request=1)),
         (queries.RESET, queries.Reset(0)),
         (queries.FINISH, queries.Finish(0)),
         (queries.RELEASE, queries.ReleaseAuthority("station", 0)),

@@ -7,6 +7,7 @@ from pathlib import Path
 import msgspec
 
 from protocol.messages import Attempt, Mode, TeachingState, Vector3
+from services.process.files import write_whole
 
 
 class VerdictReport(msgspec.Struct, frozen=True):
@@ -73,9 +74,7 @@ def attempt_reports(teaching: TeachingState | None) -> list[AttemptReport]:
 
 def write(report: Report, path: Path) -> None:
     """Write the report as JSON, whole or not at all."""
-    beside = path.with_name(f".{path.name}.part")
-    beside.write_bytes(msgspec.json.format(msgspec.json.encode(report)) + b"\n")
-    beside.replace(path)
+    write_whole(path, msgspec.json.format(msgspec.json.encode(report)) + b"\n")
 
 
 def attempt_line(number: int, attempt: Attempt) -> str:

@@ -182,7 +182,7 @@ def _starting(state: Workflow, view: View, settings: Settings) -> Step:
     if not state.asking:
         state = replace(state, request=state.request + 1)
     motion = msgspec.structs.replace(prediction.motion, duration=_duration(state.mode, settings))
-    request = queries.Execute(state.epoch, state.request, state.mode, motion, settings.adapt)
+    request = queries.Execute(state.epoch, state.mode, motion, settings.adapt, request=state.request)
     reply = _asked(state, view, queries.EXECUTE, request)
     return reply if isinstance(reply, Step) else Step(_to(state, Phase.EXECUTING, view))
 

@@ -92,7 +92,7 @@ class Site:
     def execute(self, mode, motion, duration):
         motion = msgspec.structs.replace(motion, duration=duration)
         self.results.take()
-        started = self.ask(queries.EXECUTE, queries.Execute(self.epoch, 1, mode, motion))
+        started = self.ask(queries.EXECUTE, queries.Execute(self.epoch, mode, motion, request=1))
         assert isinstance(started, queries.EpisodeStarted)
         while not (results := self.results.take()):
             self.tick()

@@ -200,7 +200,7 @@ def test_a_reset_takes_a_start_beside_a_condition(site):
 def test_an_operator_refines_it_over_the_bus(site):
     site.ask(queries.RESET, queries.Reset(site.epoch, FREE, condition=(0.05, 0.05)))
     motion = motion_to_wire(straight().positions, straight().orientations, 4.0)
-    started = site.ask(queries.EXECUTE, queries.Execute(site.epoch, 1, Mode.REFINE, motion))
+    started = site.ask(queries.EXECUTE, queries.Execute(site.epoch, Mode.REFINE, motion, request=1))
     assert isinstance(started, EpisodeStarted)
     site.run(6.0, master=(0.02, 0.05, 0.0))
     result = site.results.latest().message

@@ -58,7 +58,7 @@ class Site:
 
     def execute(self, mode=Mode.AUTONOMOUS, *, request=1, motion=None, adapt=queries.Adapt.NEXT):
         motion = self.lift() if motion is None else motion
-        return self.ask(queries.EXECUTE, queries.Execute(self.epoch, request, mode, motion, adapt))
+        return self.ask(queries.EXECUTE, queries.Execute(self.epoch, mode, motion, adapt, request=request))
 
     def lift(self, height=0.03, n=75, duration=DURATION):
         """A motion from the start backwards and up, clear of everything."""

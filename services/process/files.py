@@ -1,0 +1,64 @@
+"""Files that are written whole or not at all, and the folders where a user's files belong (XDG base directories)."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path
+
+from services.process.exceptions import FolderUnusable
+
+
+def write_whole(path: Path, content: bytes) -> None:
+    """Write a file whole or not at all; when this returns it outlives a power cut.
+
+    Raises:
+        OSError: it cannot be written; what was there before is untouched.
+    """
+    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}-", suffix=".part")
+    part = Path(name)
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        part.chmod(0o644)
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)
+    folder = os.open(path.parent, os.O_RDONLY)
+    try:
+        os.fsync(folder)
+    finally:
+        os.close(folder)
+
+
+def data_folder() -> Path:
+    """Where what was learnt belongs: `$XDG_DATA_HOME/retouch` or `~/.local/share/retouch`.
+
+    Raises:
+        FolderUnusable: it cannot be made or written.
+    """
+    return _folder("XDG_DATA_HOME", ".local/share")
+
+
+def state_folder() -> Path:
+    """Where what has to outlive the process belongs: `$XDG_STATE_HOME/retouch` or `~/.local/state/retouch`.
+
+    Raises:
+        FolderUnusable: it cannot be made or written.
+    """
+    return _folder("XDG_STATE_HOME", ".local/state")
+
+
+def _folder(variable: str, under_home: str) -> Path:
+    configured = os.environ.get(variable)
+    folder = (Path(configured) if configured else Path.home() / under_home) / "retouch"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        usable = os.access(folder, os.W_OK | os.X_OK)
+    except OSError as error:
+        raise FolderUnusable(folder, variable, error.strerror or str(error)) from None
+    if not usable:
+        raise FolderUnusable(folder, variable, "Permission denied")
+    return folder
