@@ -8,7 +8,19 @@ from typing import Annotated, Any, Generic, TypeVar
 
 import msgspec
 
-from protocol.messages import Condition, Count, Mode, ModelState, Motion, Name, Pose, Prediction, Text, Vector3
+from protocol.messages import (
+    Condition,
+    Count,
+    Duration,
+    Mode,
+    ModelState,
+    Motion,
+    Name,
+    Pose,
+    Prediction,
+    Text,
+    Vector3,
+)
 from protocol.topics import VERSION, checked_name
 
 Req = TypeVar("Req", bound=msgspec.Struct)
@@ -71,13 +83,15 @@ class Execute(Change, frozen=True):
     Attributes:
         epoch: of the authority.
         mode: autonomous, or with the operator's correction.
-        prediction: in the base frame; its duration is the episode's.
+        prediction: the id of the model's prediction, as it was announced on the topic model/prediction.
+        duration: that the motion is to take [s].
         adapt: which way-point the correction moves.
     """
 
     epoch: Count
     mode: Mode
-    prediction: Motion
+    prediction: Count
+    duration: Duration
     adapt: Adapt = Adapt.NEXT
 
 
@@ -220,7 +234,7 @@ class Query(Generic[Req, Rep]):
 
 ACQUIRE = Query("authority/acquire", AcquireAuthority, AuthorityGranted, "robot", 4_096, "ask for the authority")
 RELEASE = Query("authority/release", ReleaseAuthority, Accepted, "robot", 4_096, "give the authority back")
-EXECUTE = Query("cmd/execute", Execute, EpisodeStarted, "robot", 1_048_576, "execute a prediction")
+EXECUTE = Query("cmd/execute", Execute, EpisodeStarted, "robot", 4_096, "execute a prediction")
 FINISH = Query("cmd/finish", Finish, Accepted, "robot", 4_096, "end the episode here")
 RESUME = Query("cmd/resume", Resume, Accepted, "robot", 4_096, "go on after a hold")
 RESET = Query("cmd/reset", Reset, Accepted, "robot", 4_096, "back to the start")

@@ -122,9 +122,7 @@ SCENE_STATE = Topic(
     "state/scene", messages.SceneState, 1.0, QoS.STATE, "robot", 262_144, "the scene and its success criteria"
 )
 VERDICT = Topic("state/verdict", messages.Verdict, 30.0, QoS.STATE, "robot", 1_024, "reached, kicked over, collision")
-EXECUTION = Topic(
-    "state/execution", messages.ExecutionState, 10.0, QoS.STATE, "robot", 1_048_576, "the motion under way"
-)
+EXECUTION = Topic("state/execution", messages.ExecutionState, 10.0, QoS.STATE, "robot", 512, "the motion under way")
 EPISODE_RESULT = Topic(
     "state/episode_result",
     messages.EpisodeResult,

@@ -6,10 +6,10 @@ from protocol.messages.values import Array, Count, Message, Motion, Name, Vector
 
 
 class Prediction(Message, frozen=True, kw_only=True):
-    """What the model would do.
+    """What the model would do; repeated until the next one is made.
 
     Attributes:
-        id: by which it is asked for and spoken of; the motion crosses the wire once.
+        id: by which everybody speaks of it; another one in every prediction, of every model process. 0 for none.
         motion: in the base frame.
         deviations: one standard deviation on each axis, shape (n, 3) [m].
         model_version: of the model that predicts.

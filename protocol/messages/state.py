@@ -166,16 +166,14 @@ class ExecutionState(Message, frozen=True, kw_only=True):
     Attributes:
         episode: its number.
         mode: who shapes it.
-        prediction: what was asked for.
+        prediction: id of what was asked for.
         progress: from 0 to 1.
-        refined: the way-points that lie behind, shape (k, 3) [m].
     """
 
     episode: Count
     mode: Mode
-    prediction: Motion
+    prediction: Count
     progress: Real
-    refined: Array
 
 
 class EpisodeResult(Message, frozen=True, kw_only=True):
@@ -187,7 +185,7 @@ class EpisodeResult(Message, frozen=True, kw_only=True):
         mode: who shaped it.
         completed: it ran to its end and was not cut short.
         reason: why not, empty where it was.
-        prediction: what was asked for.
+        prediction: id of what was asked for.
         refined: the reference including the operator's correction.
         commanded: what the joints were told, as a motion of the grasping frame.
         measured: what the arm did.
@@ -203,7 +201,7 @@ class EpisodeResult(Message, frozen=True, kw_only=True):
     mode: Mode
     completed: bool
     reason: Text
-    prediction: Motion
+    prediction: Count
     refined: Motion
     commanded: Motion
     measured: Motion

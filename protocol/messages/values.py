@@ -13,6 +13,7 @@ Quaternion = tuple[Real, Real, Real, Real]
 Text = Annotated[str, msgspec.Meta(max_length=4096)]
 Name = Annotated[str, msgspec.Meta(max_length=64)]
 Count = Annotated[int, msgspec.Meta(ge=0, le=2**53)]
+Duration = Annotated[float, msgspec.Meta(gt=0.0, le=3600.0)]
 Joints = Annotated[tuple[Real, ...], msgspec.Meta(max_length=64)]
 Condition = Annotated[tuple[Real, ...], msgspec.Meta(max_length=64)]
 
@@ -63,7 +64,7 @@ class Motion(msgspec.Struct, frozen=True):
 
     positions: Array
     orientations: Array
-    duration: Annotated[float, msgspec.Meta(gt=0.0, le=3600.0)]
+    duration: Duration
 
     def __post_init__(self) -> None:
         n = self.positions.shape[0] if self.positions.shape else 0

@@ -21,6 +21,11 @@ def new_publisher() -> int:
     return boot_identity() << _LOW_BITS | secrets.randbits(_LOW_BITS)
 
 
+def new_number() -> int:
+    """A number that nobody else comes upon, in this run or another, and never 0; 53 bits, as a message counts."""
+    return secrets.randbits(53) or 1
+
+
 def same_clock(publisher: int, other: int) -> bool:
     """Whether the stamps of two publishers come from the same monotonic clock."""
     return publisher >> _LOW_BITS == other >> _LOW_BITS

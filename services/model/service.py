@@ -22,6 +22,7 @@ from protocol import messages, queries, topics
 from protocol.queries import AddDemonstration, Predict, Predicted, Refused
 from services.bus.arrays import motion_from_wire, motion_to_wire, to_wire
 from services.bus.bus import Bus, Rep, Req, Server
+from services.bus.identity import new_number
 from services.process.clock import Clock
 from services.process.config import Configuration, ModelSection
 from services.process.exceptions import ServiceError
@@ -96,6 +97,7 @@ class ModelService:
         self._undo = bus.serve(queries.UNDO)
         self._describe = bus.serve(queries.DESCRIBE)
         self._announced_ns = 0
+        self._newest: messages.Prediction | None = None
         log.info("model version %d: %d demonstrations", store.version, len(self._stored))
 
     def step(self, now_ns: int) -> None:
@@ -107,6 +109,8 @@ class ModelService:
         if now_ns - self._announced_ns >= 1e9 / topics.MODEL_STATE.rate_hz:
             self._announced_ns = now_ns
             self._bus.publish(topics.MODEL_STATE, self._state())
+            if self._newest is not None:
+                self._bus.publish(topics.PREDICTION, self._newest)
 
     def figures(self) -> tuple[messages.Figure, ...]:
         """The model's size."""
@@ -122,14 +126,15 @@ class ModelService:
         prediction = self._model.predict(_situation(request))
         variances = np.diagonal(prediction.position_covariances, axis1=1, axis2=2)
         motion = prediction.trajectory
-        message = messages.Prediction(
+        self._newest = messages.Prediction(
+            id=new_number(),
             motion=motion_to_wire(motion.positions, motion.orientations, motion.duration),
             deviations=to_wire(np.sqrt(np.maximum(variances, 0.0))),
             model_version=self._store.version,
             object_position=request.object_position,
         )
-        self._bus.publish(topics.PREDICTION, message)
-        return Predicted(message)
+        self._bus.publish(topics.PREDICTION, self._newest)
+        return Predicted(self._newest)
 
     def _learnt(self, request: AddDemonstration) -> queries.Learnt:
         positions, orientations, duration = motion_from_wire(request.motion)

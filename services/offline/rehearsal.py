@@ -16,6 +16,7 @@ from protocol.messages import EpisodeResult, TeachingState
 from protocol.queries import AddDemonstration, Kind, Learnt
 from protocol.topics import EPISODE_RESULT, TEACHING_STATE
 from services.bus.arrays import from_wire, motion_to_wire, vector3
+from services.bus.predictions import Predictions
 from services.offline.pool import Progress, each
 from services.offline.result import Arrangement, Attempt, Course
 from services.offline.stage import Stage
@@ -132,6 +133,7 @@ class Rehearsal:
         self._scene = find_scene(plan.scene)
         self._stage = Stage(plan.configuration(database))
         self._bus = self._stage.bus()
+        self._predictions = Predictions(self._bus)
         self._results = self._bus.subscribe(EPISODE_RESULT)
         self._teaching = self._bus.subscribe(TEACHING_STATE)
 
@@ -171,8 +173,11 @@ class Rehearsal:
             updates = state.updates
             if len(state.attempts) > len(attempts):
                 result = self._result()
+                predicted = self._predictions.motion(result.prediction)
+                if predicted is None:
+                    raise CommandFailed("a motion was executed whose prediction nobody heard")
                 miss = missed_by(self._scene, arrangement, result)
-                attempts.append(Attempt.of(result, state.attempts[-1].model_version, miss))
+                attempts.append(Attempt.of(result, predicted, state.attempts[-1].model_version, miss))
             return state.finished
 
         self._stage.teach(arrangement.reset(), refinements_allowed, finished)

@@ -66,14 +66,14 @@ class Attempt:
     miss: float
 
     @classmethod
-    def of(cls, result: EpisodeResult, model_version: int, miss: float) -> Attempt:
-        """From the robot's message, and what it does not know."""
+    def of(cls, result: EpisodeResult, predicted: Motion, model_version: int, miss: float) -> Attempt:
+        """From the robot's message, and what it does not say."""
         return cls(
             mode=result.mode,
             model_version=model_version,
             verdict=result.verdict,
             reason=result.reason,
-            prediction=_trajectory(result.prediction),
+            prediction=_trajectory(predicted),
             refined=_trajectory(result.refined),
             commanded=_trajectory(result.commanded),
             measured=_trajectory(result.measured),

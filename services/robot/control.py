@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from protocol import messages
-from protocol.messages import MasterState, Mode, Phase
+from protocol.messages import MasterState, Mode, Motion, Phase
 from protocol.queries import AcquireAuthority, Adapt, Execute, Finish, ReleaseAuthority, ReleaseStop, Reset
 from services.bus.arrays import motion_from_wire
 from services.bus.bus import Received
@@ -86,14 +86,21 @@ class Control:
         """Take the authority back from its holder."""
         self.lease.release(request.holder, request.epoch)
 
-    def execute(self, request: Execute) -> int:
-        """Begin an episode; its number."""
+    def execute(self, request: Execute, predicted: Motion | None) -> int:
+        """Begin an episode; its number.
+
+        Args:
+            request: what to execute, and how.
+            predicted: the prediction of the id that the request names; None where none was heard.
+        """
         self._check(request.epoch)
+        if predicted is None:
+            raise Refusal(f"no prediction {request.prediction} was heard from the model: predict again")
         try:
-            motion = motion_from_wire(request.prediction)
+            positions, orientations, _ = motion_from_wire(predicted)
         except ServiceError as error:
             raise Refusal(f"the prediction cannot be executed: {error}") from error
-        prediction = admit_prediction(*motion, self.arm.measured)
+        prediction = admit_prediction(positions, orientations, request.duration, self.arm.measured)
         self.order = Order(self.order.episode + 1 if self.order is not None else 1, request, self.lease.holder)
         self.finished = None
         self.arm.begin(prediction, look_ahead(prediction) if request.adapt is Adapt.NEXT else 0.0)

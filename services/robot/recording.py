@@ -1,6 +1,5 @@
 """What was asked of the arm and what it did, as motions with the prediction's number of way-points."""
 
-from bisect import bisect_left
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,9 +10,6 @@ from lfd.motion.trajectory import Trajectory
 from sim.pose import Pose
 
 Array = NDArray[np.float64]
-
-ROUNDING = 1e-9
-"""Two times closer than this are the same [s]."""
 
 
 @dataclass(frozen=True)
@@ -44,17 +40,6 @@ class Recording:
             poses = (refined, commanded, measured)
             self._times.append(time)
             self._rows.append(np.concatenate([part for pose in poses for part in (pose.position, pose.orientation)]))
-
-    def refined_until_now(self, n: int, duration: float) -> Array:
-        """The reference at those of n way-points that lie behind, shape (k, 3) [m].
-
-        Args:
-            n: number of way-points of the whole prediction.
-            duration: of the whole prediction [s].
-        """
-        way_points = np.linspace(0.0, duration, n) - ROUNDING
-        indices = [bisect_left(self._times, time) for time in way_points.tolist()]
-        return np.array([self._rows[i][:3] for i in indices if i < len(self._times)]).reshape(-1, 3)
 
     def motions(self, n: int, standing: Pose, period: float) -> Motions:
         """The part that was executed, at n way-points of equal time.

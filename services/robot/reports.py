@@ -81,13 +81,11 @@ class Reports:
         order, episode = self._control.order, self._control.arm.episode
         if order is None or episode is None:
             return
-        prediction = episode.prediction
         state = messages.ExecutionState(
             episode=order.episode,
             mode=order.execute.mode,
             prediction=order.execute.prediction,
             progress=episode.execution.progress,
-            refined=to_wire(episode.recording.refined_until_now(prediction.n_points, prediction.duration)),
         )
         self._bus.publish(topics.EXECUTION, state)
 

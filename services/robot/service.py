@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from protocol import queries, topics
 from protocol.messages import Figure, MasterState, Phase
-from protocol.queries import Accepted, AuthorityGranted, EpisodeStarted, Refused
+from protocol.queries import Accepted, AuthorityGranted, EpisodeStarted, Execute, Refused
 from services.bus.bus import Bus, Received, Rep, Req, Server
 from services.bus.identity import same_clock
+from services.bus.predictions import Predictions
 from services.process.clock import Clock
 from services.process.config import Configuration
 from services.robot.arm import Tick
@@ -106,6 +107,7 @@ class RobotService:
         self._master = bus.subscribe(topics.MASTER_STATE)
         self._renewal = bus.subscribe(topics.AUTHORITY_RENEWAL)
         self._emergency_stop = bus.subscribe(topics.EMERGENCY_STOP)
+        self._predictions = Predictions(bus)
         self._acquire = bus.serve(queries.ACQUIRE)
         self._release = bus.serve(queries.RELEASE)
         self._execute = bus.serve(queries.EXECUTE)
@@ -170,10 +172,13 @@ class RobotService:
         lease_s = control.lease.duration_s
         self._answer(self._acquire, lambda request: AuthorityGranted(control.acquire(request, now_ns), lease_s))
         self._answer(self._release, _accepting(control.release))
-        self._answer(self._execute, lambda request: EpisodeStarted(control.execute(request)))
+        self._answer(self._execute, self._executed)
         self._answer(self._finish, _accepting(control.finish))
         self._answer(self._reset, _accepting(control.reset))
         self._answer(self._release_stop, _accepting(control.release_stop))
+
+    def _executed(self, request: Execute) -> EpisodeStarted:
+        return EpisodeStarted(self._control.execute(request, self._predictions.motion(request.prediction)))
 
     def _answer(self, server: Server[Req, Rep], answer: Callable[[Req], Rep]) -> None:
         for call in server.take():

@@ -38,6 +38,6 @@ def log_prediction(recording: rr.RecordingStream, positions: Floats, deviations:
 
 
 def log_refined(recording: rr.RecordingStream, positions: Floats) -> None:
-    """Draw the way-points that the refined motion has behind it, shape (k, 3) [m]."""
+    """Draw the part of the refined motion that lies behind, shape (k, 3) [m]."""
     strips = [positions] if len(positions) > 1 else []
     recording.log(entities.REFINED, rr.LineStrips3D(strips, radii=[0.0045], colors=[palette.REFINED]))

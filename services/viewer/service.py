@@ -9,7 +9,6 @@ import rerun as rr
 
 from protocol.messages import CameraImage, Figure, Pose, Recording
 from protocol.topics import (
-    EXECUTION,
     HEAD_IMAGE,
     MASTER_STATE,
     OBJECT_POSE,
@@ -32,6 +31,7 @@ from services.viewer.journal import Entry, Journal
 from services.viewer.news import Changes, News
 from services.viewer.recording import Recording as Run
 from services.viewer.robot_model import RobotModel
+from services.viewer.trace import Trace
 from services.viewer.web import WebServer
 from services.viewer.web_files import web_files
 from sim.exceptions import SimError
@@ -92,7 +92,7 @@ class ViewerService:
         self._object = News(bus.subscribe(OBJECT_POSE))
         self._verdict = News(bus.subscribe(VERDICT))
         self._prediction = News(bus.subscribe(PREDICTION), _REPEAT_S)
-        self._execution = News(bus.subscribe(EXECUTION), _REPEAT_S)
+        self._trace = Trace()
         self._teaching = News(bus.subscribe(TEACHING_STATE))
         self._images = (News(bus.subscribe(HEAD_IMAGE)), News(bus.subscribe(WRIST_IMAGE)))
         self._changes = Changes(_REPEAT_S)
@@ -144,6 +144,7 @@ class ViewerService:
         robot = self._robot.take(now_ns)
         if robot is None:
             return
+        self._trace.see(robot)
         if robot.joint_names != self._joint_names:
             self._joint_names = robot.joint_names
             series.log_joint_legend(self._stream, robot.joint_names)
@@ -181,15 +182,16 @@ class ViewerService:
             series.log_pose_error(self._stream, seen.error)
 
     def _log_motions(self, now_ns: int) -> None:
-        prediction, execution = self._prediction.take(now_ns), self._execution.take(now_ns)
+        prediction = self._prediction.take(now_ns)
         try:
             if prediction is not None:
                 positions = from_wire(prediction.motion.positions)
                 motions.log_prediction(self._stream, positions, from_wire(prediction.deviations))
-            if execution is not None:
-                motions.log_refined(self._stream, from_wire(execution.refined))
         except NotFinite:
             self._unusable += 1
+        refined = self._trace.points
+        if self._changes.due("refined", refined.tobytes(), now_ns):
+            motions.log_refined(self._stream, refined)
 
     def _log_verdict(self, now_ns: int) -> None:
         verdict = self._verdict.take(now_ns)

@@ -6,6 +6,7 @@ import pytest
 from protocol import topics
 from protocol.messages import Mode, Phase
 from services.bus.arrays import motion_from_wire
+from services.bus.predictions import Predictions
 from services.process.config import load
 from sim.person.correction import plan
 from sim.tasks import DISHWASHER
@@ -31,6 +32,7 @@ class Person:
     def __init__(self, page, witness):
         self._page = page
         self._witness = witness
+        self._predictions = Predictions(witness.bus)
         self._execution = witness.bus.subscribe(topics.EXECUTION)
         self._seen = witness.bus.subscribe(topics.OBJECT_POSE)
         self._held = set()
@@ -55,7 +57,10 @@ class Person:
                 return None
             place = np.array(seen.message.pose.position)
             ways = [DISHWASHER.corridor(variant, place) for variant in DISHWASHER.variants]
-            positions, orientations, _ = motion_from_wire(received.message.prediction)
+            predicted = self._predictions.motion(received.message.prediction)
+            if predicted is None:
+                return None
+            positions, orientations, _ = motion_from_wire(predicted)
             self._correction = plan(positions, orientations, ways[1], ways)
         return self._correction.displacement(min(1.0, progress + LEAD))
 

@@ -180,9 +180,9 @@ def test_every_query_refuses_what_is_no_request(network, unmoved):
 
 
 def test_a_command_without_authority_is_refused(network, unmoved):
-    motion = motion_of(network.samples)
+    predicted = prediction_of(network.samples)
     for query, request in (
-        (queries.EXECUTE, queries.Execute(0, messages.Mode.AUTONOMOUS, motion, request=1)),
+        (queries.EXECUTE, queries.Execute(0, messages.Mode.AUTONOMOUS, predicted.id, 10.0, request=1)),
         (queries.RESET, queries.Reset(0)),
         (queries.FINISH, queries.Finish(0)),
         (queries.RELEASE, queries.ReleaseAuthority("station", 0)),
@@ -191,7 +191,7 @@ def test_a_command_without_authority_is_refused(network, unmoved):
         (queries.UNDO, queries.Undo()),
         (
             queries.ADD_DEMONSTRATION,
-            queries.AddDemonstration(queries.Kind.UPDATE, hollow(motion), (0.7, 0.0, 0.5), "x"),
+            queries.AddDemonstration(queries.Kind.UPDATE, hollow(predicted.motion), (0.7, 0.0, 0.5), "x"),
         ),
     ):
         outcome = network.witness.ask(query, request)
@@ -199,9 +199,9 @@ def test_a_command_without_authority_is_refused(network, unmoved):
         assert outcome.reason
 
 
-def motion_of(samples):
+def prediction_of(samples):
     """The prediction that was executed."""
-    return msgspec.msgpack.decode(samples[topics.PREDICTION.name], type=messages.Prediction).motion
+    return msgspec.msgpack.decode(samples[topics.PREDICTION.name], type=messages.Prediction)
 
 
 def nonsense(*shape):
@@ -237,14 +237,13 @@ def test_sound_messages_with_senseless_content_stop_nobody(network, unmoved):
     senseless = [
         *((topics.WORLD_STATE, replace(world, qpos=array)) for array in odd),
         *((topics.PREDICTION, replace(prediction, deviations=array)) for array in odd),
-        *((topics.EXECUTION, replace(execution, refined=array)) for array in odd),
         *((topics.HEAD_IMAGE, replace(image, data=data)) for data in bytes_of_no_picture),
         *((topics.WRIST_IMAGE, replace(image, data=data, camera="wrist")) for data in bytes_of_no_picture),
         (topics.HEAD_IMAGE, replace(image, intrinsics=(0.0, 0.0, 0.0, 0.0))),
         (topics.HEAD_IMAGE, replace(image, width=2**53, height=0, camera="/../..")),
         (topics.PREDICTION, replace(prediction, motion=hollow(motion))),
-        (topics.EXECUTION, replace(execution, prediction=hollow(motion))),
-        (topics.EPISODE_RESULT, replace(result, request=0, commanded=hollow(motion), reason="x" * 4096)),
+        (topics.EXECUTION, replace(execution, prediction=2**53, progress=-1e9)),
+        (topics.EPISODE_RESULT, replace(result, request=0, prediction=0, commanded=hollow(motion), reason="x" * 4096)),
         (topics.SCENE_STATE, replace(scene, name="nowhere", variant="none", variants=(), boxes=())),
         (topics.SCENE_STATE, replace(scene, ellipsoid_radii=(0.0, -1.0, 1e9), object_size=(-1.0, 0.0, 1e9))),
         (topics.ROBOT_STATE, replace(robot, joint_names=("a",), q=(), qd=(1e9,), hold_reason="\0\x1b[2J\n")),

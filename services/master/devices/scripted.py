@@ -13,6 +13,7 @@ from protocol.messages import ExecutionState, Figure, RobotState
 from protocol.topics import EXECUTION, OBJECT_POSE, SCENE_STATE
 from services.bus.arrays import motion_from_wire
 from services.bus.bus import Bus
+from services.bus.predictions import Predictions
 from services.master.devices.device import Moment, Sample
 from services.master.haptics import HapticLoop, HapticThread
 from services.process.clock import Clock, SystemClock
@@ -51,6 +52,7 @@ class ScriptedMaster:
 
     def __init__(self, bus: Bus, clock: Clock, settings: Scripted, seed: int) -> None:
         self._execution = bus.subscribe(EXECUTION)
+        self._predictions = Predictions(bus)
         self._scene = bus.subscribe(SCENE_STATE)
         self._object = bus.subscribe(OBJECT_POSE)
         self._exaggeration = settings.exaggeration
@@ -113,12 +115,12 @@ class ScriptedMaster:
         self._hand.grip(correction, self._loop.newest.stylus)
 
     def _plan(self, execution: ExecutionState) -> Correction | None:
-        """The correction of an episode; None while the scene has not been seen."""
-        scene_state = self._scene.latest()
-        if scene_state is None:
+        """The correction of an episode; None while the scene or the prediction has not been seen."""
+        scene_state, predicted = self._scene.latest(), self._predictions.motion(execution.prediction)
+        if scene_state is None or predicted is None:
             return None
         arrangement = scene_state.message
-        prediction = Trajectory(*motion_from_wire(execution.prediction))
+        prediction = Trajectory(*motion_from_wire(predicted))
         scene = scenes.scene(arrangement.name)
         place = np.array(arrangement.condition or self._object_position(prediction.positions))
         start = Pose(np.array(arrangement.start.position), np.array(arrangement.start.orientation))

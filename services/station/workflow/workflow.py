@@ -181,9 +181,12 @@ def _starting(state: Workflow, view: View, settings: Settings) -> Step:
         return Step(_to(state, Phase.LOOKING, view))
     if not state.asking:
         state = replace(state, request=state.request + 1)
-    motion = msgspec.structs.replace(prediction.motion, duration=_duration(state.mode, settings))
-    request = queries.Execute(state.epoch, state.mode, motion, settings.adapt, request=state.request)
+    duration = _duration(state.mode, settings)
+    request = queries.Execute(state.epoch, state.mode, prediction.id, duration, settings.adapt, request=state.request)
     reply = _asked(state, view, queries.EXECUTE, request)
+    if state.asking and isinstance(view.outcome, queries.Refused) and isinstance(reply, Step):
+        # The robot has moved since, or has not heard this prediction: another one is as quickly made.
+        return Step(_to(state, Phase.PREDICTING, view, retry_s=reply.state.retry_s, notice=reply.state.notice))
     return reply if isinstance(reply, Step) else Step(_to(state, Phase.EXECUTING, view))
 
 
@@ -236,7 +239,9 @@ def _learning(state: Workflow, view: View, settings: Settings) -> Step:
         return Step(_to(state, Phase.DECIDING, view))
     motion = learnable(state.taught, settings.autonomous_s)
     scene = view.scene.name if view.scene is not None else ""
-    refined = learnable(state.prediction.motion, settings.autonomous_s) if state.prediction is not None else None
+    # The model needs the refined prediction only where it is to believe the refinement in part.
+    believed_in_part = state.prediction if settings.alpha < 1.0 else None
+    refined = learnable(believed_in_part.motion, settings.autonomous_s) if believed_in_part is not None else None
     request = queries.AddDemonstration(
         queries.Kind.UPDATE, motion, state.looked, scene, state.condition, prediction=refined, alpha=settings.alpha
     )

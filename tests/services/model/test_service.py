@@ -72,8 +72,28 @@ def test_a_prediction_leads_from_the_start_to_the_object(rig):
 def test_a_prediction_is_announced_with_the_version_that_made_it(rig):
     subscription = rig.network.bus().subscribe(topics.PREDICTION)
     version = rig.teach(Kind.INITIAL).state.version
+    predicted = rig.predict().prediction
+    announced = subscription.latest().message
+    assert (announced.id, announced.motion) == (predicted.id, predicted.motion)
+    assert announced.model_version == version
+
+
+def test_every_prediction_has_an_id_of_its_own(rig):
+    rig.teach(Kind.INITIAL)
+    identities = {rig.predict().prediction.id for _ in range(5)}
+    assert len(identities) == 5
+    assert 0 not in identities
+
+
+def test_the_newest_prediction_is_repeated_for_whoever_did_not_hear_it(rig):
+    rig.teach(Kind.INITIAL)
     rig.predict()
-    assert subscription.latest().message.model_version == version
+    newest = rig.predict().prediction
+    late = rig.network.bus().subscribe(topics.PREDICTION)
+    for _ in range(300):
+        rig.clock.advance(0.01)
+        rig.service.step(rig.clock.now_ns())
+    assert [received.message.id for received in late.take()] == [newest.id] * 3
 
 
 def test_a_correction_changes_the_prediction_at_its_condition_and_undo_takes_it_back(rig):

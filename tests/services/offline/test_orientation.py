@@ -87,12 +87,11 @@ class Site:
     def predict(self):
         self.ask(queries.RESET, queries.Reset(self.epoch, self.variant, vector3(self.place)))
         measured = self.robot.latest().message.measured
-        return self.ask(queries.PREDICT, queries.Predict(vector3(self.place), measured)).prediction.motion
+        return self.ask(queries.PREDICT, queries.Predict(vector3(self.place), measured)).prediction
 
-    def execute(self, mode, motion, duration):
-        motion = msgspec.structs.replace(motion, duration=duration)
+    def execute(self, mode, prediction, duration):
         self.results.take()
-        started = self.ask(queries.EXECUTE, queries.Execute(self.epoch, mode, motion, request=1))
+        started = self.ask(queries.EXECUTE, queries.Execute(self.epoch, mode, prediction.id, duration, request=1))
         assert isinstance(started, queries.EpisodeStarted)
         while not (results := self.results.take()):
             self.tick()
@@ -120,7 +119,7 @@ def site(request, tmp_path):
 
 def test_an_orientation_that_was_taught_wrongly_is_corrected_once_and_learnt(site):
     wrong = site.predict()
-    _, before = site.errors(wrong)
+    _, before = site.errors(wrong.motion)
     assert before[-1] == pytest.approx(0.5, abs=0.01)
 
     refinement = site.execute(Mode.REFINE, wrong, REFINE_S)
@@ -137,7 +136,7 @@ def test_an_orientation_that_was_taught_wrongly_is_corrected_once_and_learnt(sit
     learnt = msgspec.structs.replace(refinement.commanded, duration=AUTONOMOUS_S)
     site.learn(queries.Kind.UPDATE, learnt, site.place)
     right = site.predict()
-    distances, angles = site.errors(right)
+    distances, angles = site.errors(right.motion)
     assert np.max(angles) < 0.1 * np.max(before)
     assert np.max(distances) < 0.01
 

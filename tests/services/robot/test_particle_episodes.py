@@ -25,6 +25,7 @@ from sim.robots.description import prepare
 from sim.tasks import PARTICLE
 from sim.tasks.particle import OBSTACLE_TRAINING
 from sim.tasks.scene import pitched_down
+from tests.services.predictions import announce
 
 pytestmark = pytest.mark.sim
 
@@ -200,7 +201,9 @@ def test_a_reset_takes_a_start_beside_a_condition(site):
 def test_an_operator_refines_it_over_the_bus(site):
     site.ask(queries.RESET, queries.Reset(site.epoch, FREE, condition=(0.05, 0.05)))
     motion = motion_to_wire(straight().positions, straight().orientations, 4.0)
-    started = site.ask(queries.EXECUTE, queries.Execute(site.epoch, Mode.REFINE, motion, request=1))
+    started = site.ask(
+        queries.EXECUTE, queries.Execute(site.epoch, Mode.REFINE, announce(site.operator, motion), 4.0, request=1)
+    )
     assert isinstance(started, EpisodeStarted)
     site.run(6.0, master=(0.02, 0.05, 0.0))
     result = site.results.latest().message

@@ -35,9 +35,3 @@ def test_an_execution_that_never_moved_is_a_motion_that_stands():
     motions = Recording().motions(75, pose(3.0), 0.01)
     np.testing.assert_allclose(motions.measured.positions, np.tile([3.0, 0.0, 0.0], (75, 1)))
     assert motions.measured.duration == 0.01
-
-
-def test_only_the_way_points_behind_are_shown():
-    behind = recorded(51).refined_until_now(n=11, duration=1.0)
-    np.testing.assert_allclose(behind[:, 0], np.linspace(0.0, 5.0, 6))
-    assert Recording().refined_until_now(n=11, duration=1.0).shape == (0, 3)

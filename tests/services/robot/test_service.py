@@ -12,6 +12,7 @@ from services.process.config import Configuration
 from services.robot import safety
 from services.robot.service import build
 from sim.tasks import scene
+from tests.services.predictions import announce
 
 pytestmark = pytest.mark.sim
 
@@ -52,13 +53,15 @@ class Site:
         return pending.poll()
 
     def acquire(self, holder="ann", *, take_over=False):
-        reply = self.ask(queries.ACQUIRE, queries.AcquireAuthority(holder, take_over))
+        reply = self.ask(queries.ACQUIRE, queries.AcquireAuthority(holder, take_over=take_over))
         assert isinstance(reply, AuthorityGranted)
         self.epoch = reply.epoch
 
     def execute(self, mode=Mode.AUTONOMOUS, *, request=1, motion=None, adapt=queries.Adapt.NEXT):
         motion = self.lift() if motion is None else motion
-        return self.ask(queries.EXECUTE, queries.Execute(self.epoch, mode, motion, adapt, request=request))
+        self.predicted, self.identity = motion, announce(self.operator, motion)
+        asked = queries.Execute(self.epoch, mode, self.identity, motion.duration, adapt, request=request)
+        return self.ask(queries.EXECUTE, asked)
 
     def lift(self, height=0.03, n=75, duration=DURATION):
         """A motion from the start backwards and up, clear of everything."""
@@ -86,14 +89,16 @@ def test_an_autonomous_episode_runs_to_its_end_and_is_reported_until_the_next_on
     site.run(1.0)
     assert site.state.phase is Phase.EXECUTE
     shown = site.execution.latest().message
-    assert 0 < from_wire(shown.refined).shape[0] < 75
+    assert (shown.episode, shown.prediction) == (1, site.identity)
+    assert 0.0 < shown.progress < 1.0
     site.run(2.0)
     results = site.take_results()
     assert (results[0].episode, results[0].request, results[0].completed) == (1, 42, True)
+    assert results[0].prediction == site.identity
     assert not results[0].operator_input
     assert results[0].verdict.collision is False
     refined, measured = (from_wire(m.positions) for m in (results[0].refined, results[0].measured))
-    np.testing.assert_allclose(refined, from_wire(results[0].prediction.positions), atol=1e-6)
+    np.testing.assert_allclose(refined, from_wire(site.predicted.positions), atol=1e-6)
     np.testing.assert_allclose(measured, refined, atol=1e-3)
     assert results[0].refined.duration == pytest.approx(DURATION)
     assert site.state.phase is Phase.IDLE
@@ -103,6 +108,22 @@ def test_an_autonomous_episode_runs_to_its_end_and_is_reported_until_the_next_on
     site.take_results()
     site.run(1.5)
     assert site.take_results() == []
+
+
+def test_a_prediction_that_was_not_heard_is_refused_with_what_to_do(site):
+    site.acquire()
+    refused = site.ask(queries.EXECUTE, queries.Execute(site.epoch, Mode.AUTONOMOUS, 12345, DURATION, request=1))
+    assert refused == Refused("no prediction 12345 was heard from the model: predict again")
+    assert site.state.phase is Phase.IDLE
+
+
+def test_a_prediction_is_executed_in_the_time_that_was_asked_for(site):
+    site.acquire()
+    identity = announce(site.operator, site.lift())
+    asked = queries.Execute(site.epoch, Mode.AUTONOMOUS, identity, 2.0 * DURATION, request=1)
+    assert site.ask(queries.EXECUTE, asked) == EpisodeStarted(1)
+    site.run(6.0)
+    assert site.take_results()[0].refined.duration == pytest.approx(2.0 * DURATION)
 
 
 def test_an_episode_does_not_go_on_under_another_operator(site):
@@ -135,7 +156,7 @@ def test_the_operators_displacement_becomes_the_refinement(site):
     result = site.take_results()[0]
     assert result.operator_input
     assert result.completed
-    correction = from_wire(result.refined.positions) - from_wire(result.prediction.positions)
+    correction = from_wire(result.refined.positions) - from_wire(site.predicted.positions)
     np.testing.assert_allclose(correction[[0, -1]], [[0.0, 0.0, 0.0], [0.0, 0.0, 0.02]], atol=1e-5)
     assert site.state.applied_sequence > 0
     assert site.state.applied_latency >= 0.0
@@ -158,7 +179,7 @@ def test_the_operators_rotation_becomes_the_refinement_s_orientation(site, adapt
         orientations = from_wire(motion.orientations)
         np.testing.assert_allclose(np.linalg.norm(orientations, axis=1), 1.0, atol=1e-12)
         assert abs(orientations[-1] @ wanted) == pytest.approx(1.0, abs=1e-5)
-    moved = from_wire(result.commanded.positions) - from_wire(result.prediction.positions)
+    moved = from_wire(result.commanded.positions) - from_wire(site.predicted.positions)
     np.testing.assert_allclose(moved, 0.0, atol=3e-3)
     np.testing.assert_allclose(moved[-1], 0.0, atol=1e-4)
 
@@ -228,7 +249,7 @@ def test_the_emergency_stop_latches_and_asks_for_release_and_a_new_authority(sit
     for refused in (
         site.execute(),
         site.ask(queries.RESET, queries.Reset(site.epoch)),
-        site.ask(queries.ACQUIRE, queries.AcquireAuthority("ann", True)),
+        site.ask(queries.ACQUIRE, queries.AcquireAuthority("ann", take_over=True)),
     ):
         assert isinstance(refused, Refused)
         assert "smoke" in refused.reason

@@ -9,10 +9,11 @@ from protocol.messages import (
     ObjectPose,
     Phase,
     Pose,
+    Prediction,
     RobotState,
     SceneState,
 )
-from protocol.topics import AUTHORITY_STATE, EXECUTION, MASTER_STATE, OBJECT_POSE, ROBOT_STATE, SCENE_STATE
+from protocol.topics import AUTHORITY_STATE, EXECUTION, MASTER_STATE, OBJECT_POSE, PREDICTION, ROBOT_STATE, SCENE_STATE
 from services.bus.arrays import motion_to_wire, quaternion, to_wire, vector3
 from services.bus.memory import MemoryNetwork
 from services.master.haptics import HapticLoop, HapticThread
@@ -61,7 +62,7 @@ class Site:
         self.bus = self.network.bus()
         self.states = self.bus.subscribe(MASTER_STATE)
         self.prediction, self.orientations = even(LEARNT)
-        self.announced = self.prediction
+        self.announced, self.announced_id = self.prediction, 5
         self.progress, self.offset, self.turn = 0.0, np.zeros(3), np.zeros(3)
         self.ticks = 0
         self.phase, self.episode = Phase.EXECUTE, 1
@@ -105,11 +106,18 @@ class Site:
         execution = ExecutionState(
             episode=self.episode,
             mode=Mode.REFINE,
-            prediction=motion,
+            prediction=self.announced_id,
             progress=self.progress,
-            refined=to_wire(np.zeros((0, 3))),
         )
         self.bus.publish(EXECUTION, execution)
+        prediction = Prediction(
+            id=self.announced_id,
+            motion=motion,
+            deviations=to_wire(np.zeros((POINTS, 3))),
+            model_version=1,
+            object_position=vector3(OBJECT),
+        )
+        self.bus.publish(PREDICTION, prediction)
         region = (vector3(DISHWASHER.region.lower), vector3(DISHWASHER.region.upper))
         scene = SceneState(
             name=self.scene,

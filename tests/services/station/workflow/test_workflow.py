@@ -82,6 +82,7 @@ class Site:
             case queries.PREDICT:
                 return queries.Predicted(
                     messages.Prediction(
+                        id=len(self.asked),
                         motion=MOTION,
                         deviations=to_wire([[0.0] * 3] * 2),
                         model_version=self.version,
@@ -107,7 +108,7 @@ class Site:
             mode=self.state.mode,
             completed=True,
             reason="",
-            prediction=MOTION,
+            prediction=self.state.prediction.id,
             refined=MOTION,
             commanded=MOTION,
             measured=MOTION,
@@ -189,7 +190,7 @@ def test_a_run_without_refinements_executes_once():
 def test_refinements_run_slower_than_predictions_and_are_learnt_in_a_predictions_tempo():
     site = Site(SCRIPTED, [COLLIDED, REACHED, REACHED])
     site.run_to(Phase.FINISHED)
-    durations = [ask.request.prediction.duration for ask in site.asked if ask.query is queries.EXECUTE]
+    durations = [ask.request.duration for ask in site.asked if ask.query is queries.EXECUTE]
     learnt = [ask.request.motion.duration for ask in site.asked if ask.query is queries.ADD_DEMONSTRATION]
     assert (durations, learnt) == ([10.0, 20.0, 10.0], [10.0])
 
@@ -200,6 +201,25 @@ def test_a_refinement_is_learnt_with_the_prediction_that_it_refines_as_far_as_it
     (learnt,) = [ask.request for ask in site.asked if ask.query is queries.ADD_DEMONSTRATION]
     assert learnt.alpha == 0.5
     assert learnt.prediction == learnable(MOTION, SCRIPTED.autonomous_s)
+
+
+def test_a_refinement_that_is_believed_wholly_is_learnt_without_the_prediction():
+    site = Site(SCRIPTED, [COLLIDED, REACHED, REACHED])
+    site.run_to(Phase.FINISHED)
+    (learnt,) = [ask.request for ask in site.asked if ask.query is queries.ADD_DEMONSTRATION]
+    assert learnt.prediction is None
+
+
+def test_a_robot_that_does_not_know_the_prediction_is_given_another_one():
+    site = Site(BY_HAND)
+    site.run_to(Phase.STARTING)
+    site.step()
+    site.step(outcome=queries.Refused("no prediction 7 was heard from the model: predict again"))
+    assert site.state.phase is Phase.PREDICTING
+    assert "no prediction 7 was heard" in site.state.notice
+    site.run_to(Phase.EXECUTING)
+    executed = [ask.request.prediction for ask in site.asked if ask.query is queries.EXECUTE]
+    assert len(set(executed)) == len(executed) == 2
 
 
 def test_too_many_refinements_end_the_run_with_the_reason():

@@ -1,0 +1,41 @@
+"""Where the robot's reference went in an episode, point by point as it is seen."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+
+import numpy as np
+
+from protocol.messages import Phase, RobotState, Vector3
+from services.bus.arrays import Floats
+
+SPACING = 0.005
+"""Points closer than this are one [m]: a line through them looks the same."""
+
+POINTS_KEPT = 1000
+
+
+class Trace:
+    """The way of the episode that runs, or that ran last."""
+
+    def __init__(self) -> None:
+        self._episode: tuple[int, int] | None = None
+        self._points: deque[Vector3] = deque(maxlen=POINTS_KEPT)
+
+    def see(self, robot: RobotState) -> None:
+        """Follow the reference; another episode begins another trace."""
+        episode = (robot.publisher, robot.episode)
+        if episode != self._episode:
+            self._episode = episode
+            self._points.clear()
+        if robot.phase is not Phase.EXECUTE:
+            return
+        position = robot.reference.position
+        if not self._points or math.dist(self._points[-1], position) >= SPACING:
+            self._points.append(position)
+
+    @property
+    def points(self) -> Floats:
+        """Shape (k, 3) [m]."""
+        return np.array(self._points, dtype=np.float64).reshape(-1, 3)

@@ -1,0 +1,44 @@
+"""The way of an episode is followed while it is executed, and never grows without bound."""
+
+import numpy as np
+
+from protocol.messages import Phase, Pose, RobotState
+from services.viewer.trace import POINTS_KEPT, SPACING, Trace
+
+UPRIGHT = (1.0, 0.0, 0.0, 0.0)
+
+
+def robot(x, phase=Phase.EXECUTE, episode=1):
+    return RobotState(
+        measured=Pose((9.0, 0.0, 0.0), UPRIGHT),
+        reference=Pose((x, 0.0, 0.0), UPRIGHT),
+        phase=phase,
+        episode=episode,
+        publisher=1,
+    )
+
+
+def test_it_follows_the_reference_while_an_episode_is_executed():
+    trace = Trace()
+    for phase, x in ((Phase.RAMP, -1.0), (Phase.EXECUTE, 0.0), (Phase.EXECUTE, 0.1), (Phase.HOLD, 0.3)):
+        trace.see(robot(x, phase))
+    np.testing.assert_array_equal(trace.points, [[0.0, 0.0, 0.0], [0.1, 0.0, 0.0]])
+
+
+def test_another_episode_begins_another_way():
+    trace = Trace()
+    trace.see(robot(0.0))
+    trace.see(robot(0.5, episode=2))
+    np.testing.assert_array_equal(trace.points, [[0.5, 0.0, 0.0]])
+    trace.see(robot(0.7, Phase.RAMP, episode=3))
+    assert trace.points.shape == (0, 3)
+
+
+def test_points_that_nobody_tells_apart_are_one_and_an_endless_episode_has_no_more_than_are_kept():
+    trace = Trace()
+    trace.see(robot(0.0))
+    trace.see(robot(0.9 * SPACING))
+    assert len(trace.points) == 1
+    for i in range(2 * POINTS_KEPT):
+        trace.see(robot(2.0 * SPACING * (i + 1)))
+    assert len(trace.points) == POINTS_KEPT
