@@ -89,14 +89,21 @@ def checked_name(name: str) -> str:
     return name
 
 
-OPERATOR_INPUT = Topic(
-    "cmd/operator_input", messages.OperatorInput, 50.0, QoS.REALTIME, "station", 4_096, "keys and axes held on the page"
+OPERATOR_INPUT = Topic(  # kept: between two steps of the master another station must not hide its own
+    "cmd/operator_input",
+    messages.OperatorInput,
+    50.0,
+    QoS.REALTIME,
+    "station",
+    4_096,
+    "who is at the page, and what is held there",
+    kept=8,
 )
 MASTER_STATE = Topic(  # kept: between two steps of the robot a master without authority must not hide the holder's
     "cmd/master_state", messages.MasterState, 100.0, QoS.REALTIME, "master", 1_024, "the operator's correction", kept=8
 )
 AUTHORITY_RENEWAL = Topic(
-    "authority/renewal", messages.AuthorityRenewal, 10.0, QoS.STATE, "station", 512, "the holder is alive", kept=8
+    "authority/renewal", messages.AuthorityRenewal, 50.0, QoS.STATE, "station", 512, "an operator is present", kept=8
 )
 AUTHORITY_STATE = Topic("authority/state", messages.AuthorityState, 10.0, QoS.STATE, "robot", 512, "who may command")
 EMERGENCY_STOP = Topic(

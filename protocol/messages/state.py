@@ -54,6 +54,7 @@ class RobotState(Message, frozen=True, kw_only=True):
         episode: its number since the robot process started; 0 before the first.
         progress: of the episode, from 0 to 1.
         offset: the correction of the position as it is applied now, base axes [m].
+        master_gain: of the master's displacement on `offset`.
         turn: the correction of the orientation as it is applied now, rotation vector in base axes [rad]; the
             reference's orientation is the predicted one, then rotated by it.
         hold_reason: why the robot holds, empty where it does not.
@@ -73,6 +74,7 @@ class RobotState(Message, frozen=True, kw_only=True):
     episode: Count = 0
     progress: Real = 0.0
     offset: Vector3 = (0.0, 0.0, 0.0)
+    master_gain: Real = 1.0
     turn: Vector3 = (0.0, 0.0, 0.0)
     hold_reason: Text = ""
     waiting: bool = False

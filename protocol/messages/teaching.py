@@ -36,7 +36,7 @@ class Attempt(msgspec.Struct, frozen=True):
     """One episode of a teaching run.
 
     The motion was relative to the object's position, and right or wrong for the condition; that is empty where it is
-    the object relative to the start.
+    the object relative to the start. Attempts of a run are numbered from 1.
     """
 
     scene: Name
@@ -48,6 +48,7 @@ class Attempt(msgspec.Struct, frozen=True):
     variant: Name
     mode: Mode
     condition: Condition = ()
+    number: Count = 0
 
 
 class TeachingState(Message, frozen=True, kw_only=True):
@@ -61,7 +62,7 @@ class TeachingState(Message, frozen=True, kw_only=True):
         refinements_allowed: at most.
         updates: of the model in this run.
         updates_allowed: at most.
-        attempts: every episode in order.
+        attempts: the newest episodes in order; `number` tells which of the run's they are.
         finished: nothing more will happen.
         loop_closed: a prediction failed, was refined, learnt, and a later one succeeded by itself.
         reason: why not, empty where it did.
@@ -75,7 +76,7 @@ class TeachingState(Message, frozen=True, kw_only=True):
     refinements_allowed: Count = 0
     updates: Count = 0
     updates_allowed: Count = 0
-    attempts: Annotated[tuple[Attempt, ...], msgspec.Meta(max_length=1000)] = ()
+    attempts: Annotated[tuple[Attempt, ...], msgspec.Meta(max_length=100)] = ()
     finished: bool = False
     loop_closed: bool = False
     reason: Text = ""

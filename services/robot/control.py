@@ -71,7 +71,7 @@ class Control:
         self.order: Order | None = None
         self.finished: Finished | None = None
         self._hold_after_s = hold_after_s
-        self._master_gain = master_gain
+        self.master_gain = master_gain
         self._place: Array = scene.training_positions[0]
 
     def acquire(self, request: AcquireAuthority, now_ns: int) -> int:
@@ -160,7 +160,7 @@ class Control:
         wanted = UNCORRECTED
         if self.refining and sample is not None and not reason:
             master = sample.message
-            wanted = Correction(self._master_gain * np.array(master.displacement), np.array(master.rotation))
+            wanted = Correction(self.master_gain * np.array(master.displacement), np.array(master.rotation))
         tick = self.arm.tick(wanted, reason)
         self._end(tick.outcome)
         return tick

@@ -109,6 +109,7 @@ class Reports:
             episode=order.episode if order is not None else 0,
             progress=tick.progress,
             offset=vector3(tick.correction.offset),
+            master_gain=self._control.master_gain,
             turn=vector3(tick.correction.turn),
             hold_reason=tick.hold_reason,
             clamped=tick.clamped[:16],

@@ -60,11 +60,14 @@ def heard(sender, topic, message, subscription):
 
 
 def test_the_latest_wins(bus):
-    sender, subscription = bus("a"), bus("b").subscribe(topics.OPERATOR_INPUT)
-    heard(sender, topics.OPERATOR_INPUT, OperatorInput(), subscription)
-    for key in ("KeyQ", "KeyW", "KeyE"):
-        sender.publish(topics.OPERATOR_INPUT, OperatorInput(keys=(key,)))
-    eventually(lambda: subscription.latest().message.keys == ("KeyE",), WITHIN_S, "the last one comes")
+    sender, subscription = bus("a"), bus("b").subscribe(topics.MODEL_STATE)
+    states = [
+        ModelState(kind="adaptive", version=version, demonstrations=1, updates=0, scene="s") for version in range(4)
+    ]
+    heard(sender, topics.MODEL_STATE, states[0], subscription)
+    for state in states[1:]:
+        sender.publish(topics.MODEL_STATE, state)
+    eventually(lambda: subscription.latest().message.version == 3, WITHIN_S, "the last one comes")
     assert len(subscription.take()) == 1
 
 

@@ -5,29 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
+from protocol.keys import PUSH_KEYS, TURN_KEYS, Way
 from protocol.messages import Figure, Vector3
 from services.master.devices.device import ZERO, Moment, Sample
 from services.process.config import Keyboard
-
-PUSH_KEYS: Mapping[str, tuple[int, int]] = {
-    "KeyQ": (0, +1),
-    "KeyA": (0, -1),
-    "KeyW": (1, +1),
-    "KeyS": (1, -1),
-    "KeyE": (2, +1),
-    "KeyD": (2, -1),
-}
-"""Physical keys (`KeyboardEvent.code`) to axis and sign of the displacement, as in the thesis."""
-
-TURN_KEYS: Mapping[str, tuple[int, int]] = {
-    "KeyR": (0, +1),
-    "KeyF": (0, -1),
-    "KeyT": (1, +1),
-    "KeyG": (1, -1),
-    "KeyY": (2, +1),
-    "KeyH": (2, -1),
-}
-"""The same of the rotation: the thesis' keys, which turn about the tool's axes there and about the base's here."""
 
 LET_GO_S = 0.2
 """Within this time displacement and rotation are zero after focus, tab, link or process was lost [s]."""
@@ -48,7 +29,7 @@ class Law:
     reach: float
 
 
-def directions(keys: Collection[str], table: Mapping[str, tuple[int, int]]) -> tuple[int, int, int]:
+def directions(keys: Collection[str], table: Mapping[str, Way]) -> tuple[int, int, int]:
     """Which way each axis is pushed by a table's keys: -1, 0 or 1; keys against each other cancel out."""
     axes = [0, 0, 0]
     for key in set(keys) & table.keys():
@@ -76,7 +57,7 @@ class _Lever:
         law: by which they push.
     """
 
-    def __init__(self, table: Mapping[str, tuple[int, int]], law: Law) -> None:
+    def __init__(self, table: Mapping[str, Way], law: Law) -> None:
         self._table = table
         self._law = law
         self.value = ZERO

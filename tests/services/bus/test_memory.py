@@ -3,7 +3,7 @@
 import pytest
 
 from protocol import queries, topics
-from protocol.messages import EmergencyStop, MasterState, OperatorInput
+from protocol.messages import EmergencyStop, MasterState, ModelState
 from services.bus.bus import Failed
 from services.bus.memory import MemoryNetwork
 from services.process.clock import ManualClock
@@ -21,10 +21,11 @@ def network(clock):
 
 def test_the_latest_wins(network, clock):
     sender, receiver = network.bus(), network.bus()
-    subscription = receiver.subscribe(topics.OPERATOR_INPUT)
-    for key in ("KeyQ", "KeyW", "KeyE"):
-        sender.publish(topics.OPERATOR_INPUT, OperatorInput(keys=(key,)))
-    assert subscription.fresh(clock.now_ns()).keys == ("KeyE",)
+    subscription = receiver.subscribe(topics.MODEL_STATE)
+    for version in (1, 2, 3):
+        state = ModelState(kind="adaptive", version=version, demonstrations=1, updates=0, scene="s")
+        sender.publish(topics.MODEL_STATE, state)
+    assert subscription.fresh(clock.now_ns()).version == 3
     assert len(subscription.take()) == 1
 
 

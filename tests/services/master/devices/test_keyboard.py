@@ -3,9 +3,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from protocol.keys import PUSH_KEYS, TURN_KEYS
 from protocol.messages import Mode, OperatorInput, Phase, Pose, RobotState
 from services.master.devices.device import Moment
-from services.master.devices.keyboard import LET_GO_S, PUSH_KEYS, TURN_KEYS, KeyboardMaster, Law, directions, pushed
+from services.master.devices.keyboard import LET_GO_S, KeyboardMaster, Law, directions, pushed
 from services.process.config import Keyboard
 
 KEYBOARD = Keyboard(growth=0.12, decay=0.05, reach=0.25, turn_growth=0.4, turn_decay=0.2, turn_reach=0.8)
