@@ -15,6 +15,7 @@ from services.model.service import build as build_model
 from services.offline.eyes import Eyes
 from services.process.clock import ManualClock
 from services.process.config import Configuration
+from services.robot.memory import Volatile
 from services.robot.service import build as build_robot
 from services.station.service import StationService, settings
 
@@ -52,7 +53,7 @@ class Stage:
         self._clock = ManualClock()
         self._network = MemoryNetwork(self._clock)
         self._configuration = configuration
-        robot = build_robot(self.bus(), self._clock, configuration)
+        robot = build_robot(self.bus(), self._clock, configuration, Volatile())
         self._model = build_model(self.bus(), self._clock, configuration)
         self._master = build_master(self.bus(), self._clock, configuration)
         eyes = Eyes(self.bus(), np.random.default_rng(configuration.seed))

@@ -3,8 +3,6 @@
 from services.robot.arm import Arm
 from services.robot.backends.backend import Backend
 from services.robot.backends.particle import ParticleBackend, ParticleKinematics
-from services.robot.backends.simulation import Simulation
-from services.robot.kinematics import Kinematics
 from services.robot.mechanism import Mechanism
 from services.robot.starts import Starts
 from services.robot.verdict import Criteria, ReachingCriteria
@@ -13,7 +11,6 @@ from sim.robots.description import RobotDescription
 from sim.tasks import AnyScene
 from sim.tasks.particle import ParticleScene
 from sim.tasks.scene import ReachingScene
-from sim.world.physics import World
 
 
 def kinematics_of(scene: AnyScene, description: RobotDescription) -> Mechanism:
@@ -25,6 +22,9 @@ def kinematics_of(scene: AnyScene, description: RobotDescription) -> Mechanism:
     """
     match scene:
         case ReachingScene():
+            # Imported here: the arm's packages take a second, and a particle needs none of them.
+            from services.robot.kinematics import Kinematics  # noqa: PLC0415
+
             return Kinematics(description.urdf, scene.posture)
         case ParticleScene():
             return ParticleKinematics(scene.freedom.axes)
@@ -71,6 +71,9 @@ def _stage(scene: AnyScene, variant: str, description: RobotDescription) -> tupl
     """What moves in a scene, and by what it is judged there."""
     match scene:
         case ReachingScene():
+            from services.robot.backends.simulation import Simulation  # noqa: PLC0415 (as above)
+            from sim.world.physics import World  # noqa: PLC0415 (as above)
+
             criteria = ReachingCriteria(scene.reached_radii, scene.kicked_thresholds)
             return Simulation(World(scene, variant, description)), criteria
         case ParticleScene():

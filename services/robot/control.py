@@ -3,7 +3,9 @@
 Every method that carries out a request raises `Refusal` where it does not; times are the robot's monotonic clock.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from datetime import datetime
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,8 +22,10 @@ from services.robot.authority import Lease
 from services.robot.correction import UNCORRECTED, Correction
 from services.robot.episode import EpisodeOutcome
 from services.robot.execution import look_ahead
+from services.robot.latch import Latch
+from services.robot.memory import Memory
 from services.robot.refusal import Refusal
-from services.robot.safety import EmergencyStop, hold_reason
+from services.robot.safety import hold_reason
 from services.robot.starts import StartImpossible
 from sim.pose import Pose
 from sim.tasks import AnyScene
@@ -58,16 +62,32 @@ class Control:
     Args:
         arm: that it commands.
         scene: that the arm stands in.
-        lease: of the authority.
+        lease_s: how long the authority lasts without renewal [s].
         hold_after_s: age of the newest master state at which a refinement holds [s].
         master_gain: of the master's displacement on the reference; its rotation counts as it is.
+        memory: where stop and epochs outlive the process.
+        utc: the time of day.
     """
 
-    def __init__(self, arm: Arm, scene: AnyScene, lease: Lease, hold_after_s: float, master_gain: float) -> None:
+    def __init__(
+        self,
+        arm: Arm,
+        scene: AnyScene,
+        *,
+        lease_s: float,
+        hold_after_s: float,
+        master_gain: float,
+        memory: Memory,
+        utc: Callable[[], datetime],
+    ) -> None:
         self.arm = arm
         self.scene = scene
-        self.lease = lease
-        self.stop = EmergencyStop()
+        self.memory = memory
+        self._utc = utc
+        recalled = memory.recall(self._now())
+        self.latch: Latch = recalled.latch
+        # The time of day is above every epoch of a robot whose file was lost.
+        self.lease = Lease(lease_s, epoch=max(recalled.epoch_bound, round(1e3 * utc().timestamp())))
         self.order: Order | None = None
         self.finished: Finished | None = None
         self._hold_after_s = hold_after_s
@@ -129,17 +149,18 @@ class Control:
         self._place = place
 
     def press(self, by: str, reason: str) -> None:
-        """Latch the emergency stop; the arm stands still at once."""
-        self.stop = self.stop.pressed(by, reason)
-        self._end(self.arm.stop(str(self.stop)))
+        """Latch the emergency stop; the arm stands still at once. A press that is repeated changes nothing."""
+        if not self.latch.latched:
+            self.latch = self.latch.pressed(by, reason, self._now())
+            self._end(self.arm.stop(str(self.latch)))
 
     def release_stop(self, request: ReleaseStop) -> None:
         """Release the latched stop; whoever held the authority has lost it."""
-        if not self.stop.latched:
+        if not self.latch.latched:
             raise Refusal("the emergency stop is not latched: nothing to release")
         if not request.by:
             raise Refusal("the release needs a name: say who releases the stop")
-        self.stop = EmergencyStop()
+        self.latch = self.latch.released(request.by, self._now())
         self.lease.revoke()
 
     def tick(self, now_ns: int, sample: Received[MasterState] | None) -> Tick:
@@ -163,6 +184,8 @@ class Control:
             wanted = Correction(self.master_gain * np.array(master.displacement), np.array(master.rotation))
         tick = self.arm.tick(wanted, reason)
         self._end(tick.outcome)
+        # Only now, with the arm told to stand: a disk may take its time.
+        self.memory.keep(self.latch, self.lease.epoch)
         return tick
 
     @property
@@ -172,7 +195,7 @@ class Control:
 
     def phase(self, tick: Tick) -> Phase:
         """What the robot is doing, the emergency stop before all."""
-        return Phase.STOPPED if self.stop.latched else tick.phase
+        return Phase.STOPPED if self.latch.latched else tick.phase
 
     def _end(self, outcome: EpisodeOutcome | None) -> None:
         if outcome is not None and self.order is not None:
@@ -185,8 +208,11 @@ class Control:
             raise Refusal("an episode is running: wait for its end, or finish it")
 
     def _check_stop(self) -> None:
-        if self.stop.latched:
-            raise Refusal(f"{self.stop}: release it first")
+        if self.latch.latched:
+            raise Refusal(f"{self.latch}: release it first")
+
+    def _now(self) -> str:
+        return self._utc().isoformat(timespec="seconds")
 
 
 def _pose(pose: messages.Pose) -> Pose:

@@ -9,6 +9,7 @@ from services.bus.bus import Bus
 from services.robot import wire
 from services.robot.arm import Tick
 from services.robot.control import Control, Finished
+from services.robot.safety import standing
 from sim.pose import Pose
 
 
@@ -64,9 +65,10 @@ class Reports:
         if due(topics.AUTHORITY_STATE, now_ns) or self._epoch != control.lease.epoch:
             self._epoch = control.lease.epoch
             self._bus.publish(topics.AUTHORITY_STATE, self._authority_state(now_ns))
-        if due(topics.SAFETY_STATE, now_ns) or self._stop_latched != control.stop.latched:
-            self._stop_latched = control.stop.latched
-            self._bus.publish(topics.SAFETY_STATE, self._safety_state(tick))
+        safety_state = self._safety_state(tick)
+        if due(topics.SAFETY_STATE, now_ns) or self._stop_latched != safety_state.emergency_stop:
+            self._stop_latched = safety_state.emergency_stop
+            self._bus.publish(topics.SAFETY_STATE, safety_state)
         arm = control.arm
         arranged = (arm.variant, arm.start, arm.condition.tobytes())
         if due(topics.SCENE_STATE, now_ns) or self._arranged != arranged:
@@ -122,9 +124,16 @@ class Reports:
         return messages.AuthorityState(holder=lease.holder, epoch=lease.epoch, expires_in=lease.expires_in_s(now_ns))
 
     def _safety_state(self, tick: Tick) -> messages.SafetyState:
-        stop = self._control.stop
+        """As it is kept: a stop shows as latched when it would outlive this process, or a line says why not."""
+        latch, memory = self._control.latch, self._control.memory
         return messages.SafetyState(
-            emergency_stop=stop.latched, by=stop.by, reason=stop.reason, self_distance=tick.self_distance
+            emergency_stop=latch.latched and memory.settled,
+            by=latch.by,
+            reason="; ".join(part for part in (latch.reason, memory.fault) if part),
+            at=latch.at,
+            released_by=latch.released_by,
+            standing=standing(tick.observation.qd),
+            self_distance=tick.self_distance,
         )
 
 

@@ -1,4 +1,4 @@
-"""What keeps the robot from moving: the emergency stop, the watchdog, and the limits on each command.
+"""What keeps the robot from moving: the watchdog, and the limits on each command.
 
 Nothing here knows a clock or a bus: ages and requests are passed in, decisions and reasons come out.
 """
@@ -19,30 +19,8 @@ REFERENCE_SPEED = 1.2  # [m/s] that the reference has at most
 REFERENCE_TURN_SPEED = 1.5  # [rad/s] that it turns at most: at twice as much the arm is left behind by decimetres
 DISPLACEMENT_REACH = 0.3  # [m] of the operator's correction
 ROTATION_REACH = 1.0  # [rad] of the operator's correction
+STANDING_SPEED = 0.01  # [rad/s, torso m/s] of the fastest joint, below which the robot stands
 FORCE_STOP = 300.0  # [N] of a touch, above which the arm stops; running into a wall gives half of it
-
-
-@dataclass(frozen=True)
-class EmergencyStop:
-    """The latched stop.
-
-    Attributes:
-        latched: no motion until it is released.
-        by: who pressed it first.
-        reason: as given with it.
-    """
-
-    latched: bool = False
-    by: str = ""
-    reason: str = ""
-
-    def pressed(self, by: str, reason: str) -> "EmergencyStop":
-        """Latch; the first press keeps its author and reason."""
-        return self if self.latched else EmergencyStop(True, by, reason)
-
-    def __str__(self) -> str:
-        """For people."""
-        return f"emergency stop by {self.by}" + (f": {self.reason}" if self.reason else "")
 
 
 def hold_reason(*, holder: str, refining: bool, sample_age_s: float | None, engaged: bool, hold_after_s: float) -> str:
@@ -158,3 +136,8 @@ def self_collision(distance: float, previous: float, limit: float) -> bool:
 def too_forceful(force: float) -> bool:
     """Whether a touch pushes harder than any motion should [N]."""
     return force > FORCE_STOP
+
+
+def standing(speeds: Array) -> bool:
+    """Whether every joint was measured to stand still; speeds of shape (m,) [rad/s, torso m/s]."""
+    return bool(np.all(np.abs(speeds) <= STANDING_SPEED))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 from collections import deque
 from collections.abc import Callable
+from datetime import UTC, datetime
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,10 +20,10 @@ from services.process.clock import Clock
 from services.process.config import Configuration
 from services.robot.arm import Tick
 from services.robot.assembly import kinematics_of, simulated_arm
-from services.robot.authority import Lease
 from services.robot.backends.backend import CONTROL_PERIOD
 from services.robot.control import Control
 from services.robot.mechanism import Mechanism
+from services.robot.memory import Memory, safety_file
 from services.robot.pace import Pace
 from services.robot.refusal import Refusal
 from services.robot.reports import Reports
@@ -36,13 +37,21 @@ Array = NDArray[np.float64]
 FIGURES_KEPT = 4096
 
 
-def build(bus: Bus, clock: Clock, configuration: Configuration) -> RobotService:
+def build(bus: Bus, clock: Clock, configuration: Configuration, memory: Memory | None = None) -> RobotService:
     """The service on a simulated world.
+
+    Args:
+        bus: to hear, answer and report on.
+        clock: of the process.
+        configuration: of the whole system.
+        memory: where stop and epochs outlive the process; the robot's file by default.
 
     Raises:
         SimError: there is no such scene or variant, or the robot's description is not installed.
         StartImpossible: the arm cannot reach the scene's start.
+        FolderUnusable: there is no folder for the robot's file.
     """
+    memory = safety_file(configuration.name) if memory is None else memory
     section = configuration.robot
     description = prepare()
     scene = scene_named(section.scene)
@@ -55,9 +64,16 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> RobotService:
         velocity_scale=section.velocity_scale,
         self_distance_stop=section.self_distance_stop,
     )
-    # Milliseconds since boot: above every epoch that an earlier incarnation of this process gave out.
-    lease = Lease(section.lease_s, epoch=clock.now_ns() // 1_000_000)
-    return RobotService(bus, clock, Control(arm, scene, lease, section.hold_after_s, section.master_gain), kinematics)
+    control = Control(
+        arm,
+        scene,
+        lease_s=section.lease_s,
+        hold_after_s=section.hold_after_s,
+        master_gain=section.master_gain,
+        memory=memory,
+        utc=lambda: datetime.now(UTC),
+    )
+    return RobotService(bus, clock, control, kinematics)
 
 
 class TimedKinematics:
@@ -158,7 +174,8 @@ class RobotService:
         return figures
 
     def close(self) -> None:
-        """Nothing to give back: the simulated world ends with the process."""
+        """Finish writing what has to outlive the process."""
+        self._control.memory.close()
 
     def _hear(self) -> None:
         for press in self._emergency_stop.take():

@@ -18,6 +18,7 @@ from services.process.clock import ManualClock
 from services.process.config import Configuration, RobotSection
 from services.robot.assembly import simulated_arm
 from services.robot.correction import Correction
+from services.robot.memory import Volatile
 from services.robot.service import build
 from services.robot.starts import StartImpossible
 from sim.pose import Pose
@@ -129,7 +130,7 @@ class Site:
         self.network = MemoryNetwork(self.clock)
         self.operator = self.network.bus()
         configuration = Configuration(robot=RobotSection(scene="particle"))
-        self.service = build(self.network.bus(), self.clock, configuration)
+        self.service = build(self.network.bus(), self.clock, configuration, Volatile())
         self.scenes = self.operator.subscribe(topics.SCENE_STATE)
         self.worlds = self.operator.subscribe(topics.WORLD_STATE)
         self.results = self.operator.subscribe(topics.EPISODE_RESULT)

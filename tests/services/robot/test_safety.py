@@ -7,17 +7,12 @@ from lfd.motion.rotations import exp_map
 from services.robot import safety
 from services.robot.correction import Correction
 from services.robot.execution import angle_between
-from services.robot.safety import EmergencyStop, JointLimits, hold_reason
+from services.robot.safety import JointLimits, hold_reason
 from sim.pose import Pose
 
 IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
 LIMITS = JointLimits(("lift", "elbow"), np.array([0.0, -1.0]), np.array([0.3, 1.0]), np.array([0.1, 1.0]))
 PERIOD = 0.01
-
-
-def test_the_emergency_stop_latches_with_its_first_author():
-    stop = EmergencyStop().pressed("ann", "smoke").pressed("bob", "")
-    assert (stop.latched, str(stop)) == (True, "emergency stop by ann: smoke")
 
 
 @pytest.mark.parametrize(
@@ -91,3 +86,10 @@ def test_a_robot_too_close_to_itself_may_only_move_away():
     assert safety.self_collision(distance=0.004, previous=0.006, limit=0.005)
     assert not safety.self_collision(distance=0.004, previous=0.003, limit=0.005)
     assert not safety.self_collision(distance=0.006, previous=0.007, limit=0.005)
+
+
+@pytest.mark.parametrize(
+    ("speeds", "stands"), [((0.0, 0.0), True), ((0.01, -0.01), True), ((0.0, 0.0101), False), ((-0.0101, 0.0), False)]
+)
+def test_a_robot_stands_when_every_joint_does(speeds, stands):
+    assert safety.standing(np.array(speeds)) is stands

@@ -10,6 +10,7 @@ from services.bus.memory import MemoryNetwork
 from services.process.clock import ManualClock
 from services.process.config import Configuration
 from services.robot import safety
+from services.robot.memory import Volatile
 from services.robot.service import build
 from sim.tasks import scene
 from tests.services.predictions import announce
@@ -27,7 +28,7 @@ class Site:
         self.clock = ManualClock()
         self.network = MemoryNetwork(self.clock)
         self.operator = self.network.bus()
-        self.service = build(self.network.bus(), self.clock, Configuration())
+        self.service = build(self.network.bus(), self.clock, Configuration(), Volatile())
         self.robot_state = self.operator.subscribe(topics.ROBOT_STATE)
         self.results = self.operator.subscribe(topics.EPISODE_RESULT)
         self.safety = self.operator.subscribe(topics.SAFETY_STATE)
