@@ -1,10 +1,7 @@
-"""The bus over Zenoh; the only module that knows Zenoh."""
+"""The bus over Zenoh: one process' way to all others of its robot."""
 
 from __future__ import annotations
 
-import json
-import re
-import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -20,15 +17,15 @@ from protocol.queries import Query
 from protocol.topics import VERSION, QoS, Topic, checked_name
 from services.bus.bus import Failed, Outbox, Pending, Server, Subscription
 from services.bus.identity import new_publisher
+from services.bus.zenoh.encoding import announced, encoding
+from services.bus.zenoh.sessions import close_session, open_session
 from services.process.clock import Clock
-from services.process.exceptions import BusError, EndpointInUse, NameTaken
+from services.process.exceptions import NameTaken
 
 M = TypeVar("M", bound=Message)
 Req = TypeVar("Req", bound=msgspec.Struct)
 Rep = TypeVar("Rep", bound=msgspec.Struct)
 
-DEFAULT_ENDPOINT = "tcp/127.0.0.1:7447"
-ENCODING = "application/msgpack"
 
 NAME_WAIT_S = 3.0
 """How long the token of a killed predecessor may linger before its name counts as taken."""
@@ -51,85 +48,6 @@ _TRANSPORTS = {
     QoS.PICTURE: _Transport(zenoh.Priority.DATA_LOW, zenoh.CongestionControl.DROP, False),
     QoS.EVENT: _Transport(zenoh.Priority.DATA_HIGH, zenoh.CongestionControl.DROP, False),
 }
-
-
-def _configuration(mode: str, connect: str | None, listen: str | None) -> zenoh.Config:
-    """No discovery: a network is what was named. Links that die are noticed and dialled again within a second."""
-    config: dict[str, Any] = {
-        "mode": mode,
-        "scouting": {"multicast": {"enabled": False}, "gossip": {"enabled": False}},
-        "listen": {"endpoints": [listen] if listen else []},
-        "connect": {
-            "endpoints": [connect] if connect else [],
-            "timeout_ms": -1,
-            "exit_on_failure": False,
-            "retry": {"period_init_ms": 100, "period_max_ms": 500, "period_increase_factor": 1.5},
-        },
-        "transport": {"unicast": {"open_timeout": 1000}, "link": {"tx": {"lease": 2000}}},
-    }
-    return zenoh.Config.from_json5(json.dumps(config))
-
-
-def open_router(listen: str, connect: str | None = None) -> zenoh.Session:
-    """A Zenoh router: listens, and passes on what its clients and other routers send.
-
-    Args:
-        listen: the endpoint to listen on, such as "tcp/127.0.0.1:7447".
-        connect: another router's endpoint, where there is one.
-
-    Raises:
-        EndpointInUse: nothing can listen there.
-        BusError: the endpoints are no endpoints.
-    """
-    try:
-        return zenoh.open(_configuration("router", connect, listen))
-    except zenoh.ZError as error:
-        if "listener bound to" in str(error):
-            raise EndpointInUse(listen) from None
-        raise BusError(f"cannot open a router on {listen}: {_reason(error)}") from None
-
-
-def open_session(connect: str, timeout_s: float) -> zenoh.Session:
-    """A client's session; waits until the router is there.
-
-    Raises:
-        BusError: no router answered in time, or the endpoint is none.
-    """
-    opened: list[zenoh.Session | zenoh.ZError] = []
-
-    def dial() -> None:
-        try:
-            opened.append(zenoh.open(_configuration("client", connect, None)))
-        except zenoh.ZError as error:
-            opened.append(error)
-
-    thread = threading.Thread(target=dial, daemon=True)
-    thread.start()
-    thread.join(timeout_s)
-    if not opened:
-        raise BusError(f"no router answers at {connect} after {timeout_s:g} s: start one there, or give --connect")
-    if isinstance(opened[0], zenoh.ZError):
-        raise BusError(f"cannot connect to {connect}: {_reason(opened[0])}")
-    return opened[0]
-
-
-def close_session(session: zenoh.Session) -> None:
-    """Leave the network; without it a process with a subscriber never ends."""
-    session.close()  # type: ignore[no-untyped-call]  # Zenoh's stub leaves it bare
-
-
-def _reason(error: zenoh.ZError) -> str:
-    """The error without the place in Zenoh's source."""
-    return re.sub(r" at \S+\.rs:\d+\.?", "", str(error).splitlines()[0])
-
-
-def _schema(encoding: zenoh.Encoding) -> str:
-    _, _, schema = str(encoding).partition(";")
-    return schema
-
-
-def _encoding(schema: str) -> zenoh.Encoding:
-    return zenoh.Encoding(ENCODING).with_schema(schema)
 
 
 class ZenohBus:
@@ -181,7 +99,7 @@ class ZenohBus:
         subscription = Subscription(topic, self.identity)
 
         def store(sample: zenoh.Sample) -> None:
-            subscription.receive(sample.payload.to_bytes(), _schema(sample.encoding), self._clock.now_ns())
+            subscription.receive(sample.payload.to_bytes(), announced(sample.encoding), self._clock.now_ns())
 
         self._session.declare_subscriber(topic.key(self._robot, "*"), store)
         self._inlets.append(subscription)
@@ -194,7 +112,7 @@ class ZenohBus:
 
         def store(call: zenoh.Query) -> None:
             payload = call.payload.to_bytes() if call.payload is not None else b""
-            schema = _schema(call.encoding) if call.encoding is not None else ""
+            schema = announced(call.encoding) if call.encoding is not None else ""
             server.receive(payload, schema, _responder(call, key))
 
         self._session.declare_queryable(key, store, complete=True)
@@ -221,7 +139,7 @@ class ZenohBus:
             query.key(self._robot),
             zenoh.handlers.Callback(settle, end),
             payload=encode_request(query, request),
-            encoding=_encoding(query.schema),
+            encoding=encoding(query.schema),
             timeout=timeout_s,
         )
         return pending
@@ -243,7 +161,7 @@ class ZenohBus:
         transport = _TRANSPORTS[topic.qos]
         publisher = self._session.declare_publisher(
             topic.key(self._robot, self._process),
-            encoding=_encoding(topic.schema),
+            encoding=encoding(topic.schema),
             priority=transport.priority,
             congestion_control=transport.congestion_control,
             express=transport.express,
@@ -254,36 +172,10 @@ class ZenohBus:
 
 def _responder(call: zenoh.Query, key: str) -> Callable[[bytes], None]:
     def respond(payload: bytes) -> None:
-        call.reply(key, payload, encoding=_encoding(""))
+        call.reply(key, payload, encoding=encoding(""))
         call.drop()  # type: ignore[no-untyped-call]  # Zenoh's stub leaves it bare
 
     return respond
-
-
-@dataclass(frozen=True)
-class Passing:
-    """Something that passes on the network, as it stands in the packet."""
-
-    key: str
-    payload: bytes
-    schema: str
-
-
-def watch(session: zenoh.Session, key_expression: str, callback: Callable[[Passing], None]) -> None:
-    """Hand whatever passes on a key expression to the callback, foreign and newer senders' messages included.
-
-    Raises:
-        BusError: this is no key expression.
-    """
-    try:
-        expression = zenoh.KeyExpr(key_expression)
-    except zenoh.ZError as error:
-        raise BusError(f"{key_expression!r} is no key expression: {_reason(error)}") from None
-
-    def hand_on(sample: zenoh.Sample) -> None:
-        callback(Passing(str(sample.key_expr), sample.payload.to_bytes(), _schema(sample.encoding)))
-
-    session.declare_subscriber(expression, hand_on)
 
 
 def connect(endpoint: str, robot: str, process: str, clock: Clock, timeout_s: float = 30.0) -> ZenohBus:
