@@ -12,9 +12,12 @@ LfdError
 ├── OutOfRange              a number lies outside its range
 ├── NothingToTakeBack       a model without a correction has none to forget
 └── StorageError            the store's file cannot be used
-    └── NothingToUndo       the store holds no active demonstration
+    ├── StorageUnavailable  it cannot be opened or written now, through no fault of its own
+    ├── BoundElsewhere      what it holds was learnt for another scene or robot
+    └── NothingToUndo       it holds no active demonstration of a kind
 """
 
+from collections.abc import Sequence
 from pathlib import Path
 
 
@@ -121,8 +124,23 @@ class StorageError(LfdError):
         super().__init__(f"{path}: {reason}; {remedy}")
 
 
-class NothingToUndo(StorageError):
-    """The store holds no active demonstration."""
+class StorageUnavailable(StorageError):
+    """The file cannot be opened or written now: held by another process, read-only, or on a full disk."""
 
-    def __init__(self, path: Path) -> None:
-        super().__init__(path, "no active demonstration to undo", "add one first")
+
+class BoundElsewhere(StorageError):
+    """The demonstrations of a file are good for another scene or robot than they are wanted for."""
+
+    def __init__(self, path: Path, held: Sequence[str], wanted: str) -> None:
+        self.held = tuple(held)
+        self.wanted = wanted
+        reason = f"it was learnt for {' and for '.join(self.held)}, and is wanted for {wanted}"
+        super().__init__(path, reason, "choose another file, or the scene and robot that it is for")
+
+
+class NothingToUndo(StorageError):
+    """The store holds no active demonstration of a kind."""
+
+    def __init__(self, path: Path, kind: str) -> None:
+        self.kind = kind
+        super().__init__(path, f"no active {kind} demonstration to take back", "add one first")

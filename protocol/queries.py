@@ -189,7 +189,13 @@ class AddDemonstration(Change, frozen=True):
 
 
 class Undo(Change, frozen=True):
-    """Take the newest update back."""
+    """Take the newest demonstration of a kind back.
+
+    Attributes:
+        kind: an update, unless one of those that the model starts from is meant.
+    """
+
+    kind: Kind = Kind.UPDATE
 
 
 class Describe(msgspec.Struct, frozen=True):
@@ -243,7 +249,7 @@ PREDICT = Query("model/predict", Predict, Predicted, "model", 1_048_576, "predic
 ADD_DEMONSTRATION = Query(
     "model/add_demonstration", AddDemonstration, Learnt, "model", 4_194_304, "learn; answered when it is on disk"
 )
-UNDO = Query("model/undo", Undo, Learnt, "model", 4_096, "take the newest update back")
+UNDO = Query("model/undo", Undo, Learnt, "model", 4_096, "take the newest update back, or a first demonstration")
 DESCRIBE = Query("model/describe", Describe, Learnt, "model", 4_096, "the model as it lies on disk")
 
 QUERIES: tuple[Query[Any, Any], ...] = (

@@ -239,6 +239,7 @@ def _add_teach(commands: argparse._SubParsersAction[_Parser], common: _Parser) -
         metavar="X,Y,Z",
         help="where the waypoints lead to, base frame [m]; write --object=-X,Y,Z where the first is negative",
     )
+    teach.add_argument("--undo", action="store_true", help="take back what the model learnt last, and teach nothing")
     teach.add_argument("--duration", type=_seconds, metavar="S", help=f"of the motion [s] (default: {TAUGHT_S:g})")
 
 
@@ -428,10 +429,14 @@ _WITHOUT_NETWORK: dict[str, Callable[[argparse.Namespace], int]] = {
 
 
 def _teach(settings: Configuration, arguments: argparse.Namespace) -> None:
-    from services.commands.teach import teach, teach_waypoints  # noqa: PLC0415
+    from services.commands.teach import take_back, teach, teach_waypoints  # noqa: PLC0415
 
     given = [flag for flag in ("waypoints", "object", "duration") if getattr(arguments, flag) is not None]
-    if not given:
+    if arguments.undo:
+        if given:
+            raise CommandFailed(f"--undo teaches nothing: leave out --{given[0]}, or --undo")
+        take_back(settings)
+    elif not given:
         teach(settings)
     elif not {"waypoints", "object"} <= set(given):
         raise CommandFailed(f"--{given[0]} alone teaches nothing: give --waypoints FILE and --object X,Y,Z")

@@ -4,12 +4,13 @@ SimError
 ├── UnknownScene            no scene of that name
 ├── UnknownVariant          the scene has no variant of that name
 ├── WrongPlace              a place has not as many numbers as the scene's targets have
+├── OutOfReach              a position that the robot cannot take, or a place where no target can be
 ├── DescriptionMissing      the robot's meshes are not installed
 ├── DescriptionInvalid      a mesh or link of the robot cannot be used
 └── DrawingLibraryMissing   neither EGL nor OSMesa is there
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 
 class SimError(Exception):
@@ -45,6 +46,20 @@ class WrongPlace(SimError):
         super().__init__(f"a place in scene {scene!r} has {needed} numbers, not {given}")
 
 
+class OutOfReach(SimError):
+    """A position that the robot cannot take, or a place where no target of the scene can be."""
+
+    def __init__(
+        self, what: str, position: Sequence[float], where: str, lower: Sequence[float], upper: Sequence[float]
+    ) -> None:
+        self.what = what
+        self.position = tuple(position)
+        self.lower, self.upper = tuple(lower), tuple(upper)
+        super().__init__(
+            f"{what} {_point(position)} m is beyond {where}: give one from {_point(lower)} to {_point(upper)} m"
+        )
+
+
 class DescriptionMissing(SimError):
     """The package that holds the robot's links and meshes is not installed."""
 
@@ -70,3 +85,7 @@ class DrawingLibraryMissing(SimError):
         super().__init__(
             f"cannot draw without a display ({reason}): apt install libegl1 libgl1, or apt install libosmesa6"
         )
+
+
+def _point(values: Sequence[float]) -> str:
+    return "(" + ", ".join(f"{value:.3f}" for value in values) + ")"

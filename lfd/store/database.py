@@ -1,45 +1,21 @@
 """Durable demonstrations: one SQLite file, from which a model can always be built again."""
 
-import sqlite3
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
-from typing import Self
+from typing import NamedTuple, Self
 
 import numpy as np
 
 from lfd.arrays import Array
-from lfd.exceptions import LfdError, NothingToUndo, StorageError
+from lfd.exceptions import BoundElsewhere, LfdError, NothingToUndo, StorageError
 from lfd.motion.demonstration import Demonstration
 from lfd.motion.trajectory import Trajectory
+from lfd.store.connection import Connection
+from lfd.store.schema import DTYPE, prepare
 
-SCHEMA_VERSION = 2  # 1 had no conditions: they were the object relative to the start
-APPLICATION_ID = 0x52544348  # "RTCH" in the file's header tells our files from others
-BUSY_TIMEOUT = 5.0  # [s] how long a statement waits for another connection's lock
-
-_DTYPE = "<f8"
-_NEW_FILE = f"""
-CREATE TABLE IF NOT EXISTS demonstrations (
-    added INTEGER PRIMARY KEY,
-    undone INTEGER UNIQUE,
-    kind TEXT NOT NULL CHECK (kind IN ('initial', 'update')),
-    scene TEXT NOT NULL,
-    duration REAL NOT NULL
-) STRICT;
-CREATE TABLE IF NOT EXISTS arrays (
-    demonstration INTEGER NOT NULL REFERENCES demonstrations (added),
-    name TEXT NOT NULL,
-    dtype TEXT NOT NULL,
-    shape TEXT NOT NULL,
-    bytes BLOB NOT NULL,
-    PRIMARY KEY (demonstration, name)
-) STRICT;
-PRAGMA application_id = {APPLICATION_ID};
-PRAGMA user_version = {SCHEMA_VERSION};
-"""
 _VERSION = "SELECT max(coalesce(max(added), 0), coalesce(max(undone), 0)) FROM demonstrations"
+_THEN = "added <= ? AND (undone IS NULL OR undone > ?)"
 
 
 class Kind(Enum):
@@ -49,6 +25,32 @@ class Kind(Enum):
     UPDATE = "update"  # a refinement that the model learnt later
 
 
+class Binding(NamedTuple):
+    """What was learnt is good for one scene and one kind of robot only.
+
+    Attributes:
+        scene: Its name.
+        robot: The robot's kind, not its name on a network; empty where an older file does not say it.
+    """
+
+    scene: str
+    robot: str
+
+    def fits(self, other: "Binding") -> bool:
+        """Whether what is bound to the one may be used for the other."""
+        return self.scene == other.scene and (not self.robot or not other.robot or self.robot == other.robot)
+
+    def __str__(self) -> str:
+        return f"scene {self.scene} with robot {self.robot}" if self.robot else f"scene {self.scene}"
+
+
+class Counts(NamedTuple):
+    """Of active demonstrations: what the model starts from, and what it learnt later."""
+
+    initial: int
+    updates: int
+
+
 @dataclass(frozen=True, eq=False)
 class StoredDemonstration:
     """A demonstration with its place in the history.
@@ -56,13 +58,13 @@ class StoredDemonstration:
     Attributes:
         version: Model version that it created.
         kind: Initial or update.
-        scene: Name of the scene in which it was given.
+        binding: Scene and robot that it was given with.
         demonstration: The motion.
     """
 
     version: int
     kind: Kind
-    scene: str
+    binding: Binding
     demonstration: Demonstration
 
 
@@ -73,20 +75,22 @@ class DemonstrationStore:
     different models, and nothing is deleted. A change that has returned is on the disk (write-ahead log, full
     synchronisation). Not shared between threads; other processes may read and write the same file.
 
+    All active demonstrations are of one scene and robot. A change may carry a request's number, by which it is known
+    again: whoever is asked twice finds with `made_by` that it is done.
+
     Args:
         path: The file; it is made if it is missing, its folder is not.
 
     Raises:
-        StorageError: The file cannot be opened, is damaged, is another program's or has a newer schema.
+        StorageUnavailable: The file cannot be opened or written, through no fault of its own.
+        StorageError: The file is damaged, is another program's or has a newer schema.
     """
 
     def __init__(self, path: Path) -> None:
         self._path = Path(path)
-        with self._storage_errors():
-            self._connection = sqlite3.connect(self._path, timeout=BUSY_TIMEOUT, isolation_level=None)
+        self._connection = Connection(self._path)
         try:
-            with self._storage_errors():
-                self._open()
+            prepare(self._connection)
         except StorageError:
             self._connection.close()
             raise
@@ -104,13 +108,46 @@ class DemonstrationStore:
     @property
     def version(self) -> int:
         """The current model version; 0 before the first demonstration."""
-        with self._storage_errors():
-            return int(self._connection.execute(_VERSION).fetchone()[0])
+        return int(self._connection.value(_VERSION))
 
-    def add(self, demonstration: Demonstration, kind: Kind, scene: str) -> int:
-        """Store a demonstration and return the model version that it makes.
+    def check(self, wanted: Binding) -> None:
+        """Let pass what the active demonstrations are good for; anything is, where there are none.
 
         Raises:
+            BoundElsewhere: They are of another scene or robot.
+        """
+        found = self._connection.rows("SELECT DISTINCT scene, robot FROM demonstrations WHERE undone IS NULL")
+        held = [Binding(*row) for row in found]
+        if not all(one.fits(wanted) for one in held):
+            raise BoundElsewhere(self._path, sorted({str(one) for one in held}), str(wanted))
+
+    def made_by(self, request: int) -> int | None:
+        """The version that a request has made already; None where it has made none."""
+        found = self._connection.rows("SELECT version FROM requests WHERE request = ?", (request,))
+        return int(found[0][0]) if found else None
+
+    def counts(self, version: int) -> Counts:
+        """How many demonstrations were active in a version."""
+        rows = self._connection.rows(
+            f"SELECT kind, count(*) FROM demonstrations WHERE {_THEN} GROUP BY kind", [version] * 2
+        )
+        found = {Kind(kind): int(number) for kind, number in rows}
+        return Counts(found.get(Kind.INITIAL, 0), found.get(Kind.UPDATE, 0))
+
+    def add(self, demonstration: Demonstration, kind: Kind, binding: Binding, request: int = 0) -> int:
+        """Store a demonstration.
+
+        Args:
+            demonstration: The motion.
+            kind: What it is for the model.
+            binding: What it is good for.
+            request: By which the change is known again; 0 where it is not asked for twice.
+
+        Returns:
+            The model version that it makes.
+
+        Raises:
+            BoundElsewhere: The others are of another scene or robot.
             StorageError: It could not be written; the file is as before.
         """
         trajectory = demonstration.trajectory
@@ -120,29 +157,39 @@ class DemonstrationStore:
             "origin": demonstration.origin,
             "condition": demonstration.condition,
         }
-        with self._transaction() as version:
-            self._connection.execute(
-                "INSERT INTO demonstrations (added, kind, scene, duration) VALUES (?, ?, ?, ?)",
-                (version, kind.value, scene, trajectory.duration),
+        with self._connection.transaction():
+            self.check(binding)
+            version = self._next(request)
+            self._connection.rows(
+                "INSERT INTO demonstrations (added, kind, scene, duration, robot) VALUES (?, ?, ?, ?, ?)",
+                (version, kind.value, binding.scene, trajectory.duration, binding.robot),
             )
-            self._connection.executemany(
-                "INSERT INTO arrays VALUES (?, ?, ?, ?, ?)",
-                [(version, name, _DTYPE, _shape_text(a), a.astype(_DTYPE).tobytes()) for name, a in arrays.items()],
-            )
+            for name, array in arrays.items():
+                row = (version, name, DTYPE, _shape_text(array), array.astype(DTYPE).tobytes())
+                self._connection.rows("INSERT INTO arrays VALUES (?, ?, ?, ?, ?)", row)
         return version
 
-    def undo(self) -> int:
-        """Take back the newest active demonstration and return the model version that this makes.
+    def undo(self, kind: Kind, request: int = 0) -> int:
+        """Take back the newest active demonstration of a kind.
+
+        Args:
+            kind: Initial or update.
+            request: See `add`.
+
+        Returns:
+            The model version that this makes.
 
         Raises:
-            NothingToUndo: No demonstration is active.
+            NothingToUndo: None of the kind is active.
             StorageError: It could not be written; the file is as before.
         """
-        with self._transaction() as version:
-            newest = self._connection.execute("SELECT max(added) FROM demonstrations WHERE undone IS NULL").fetchone()
-            if newest[0] is None:
-                raise NothingToUndo(self._path)
-            self._connection.execute("UPDATE demonstrations SET undone = ? WHERE added = ?", (version, newest[0]))
+        newest = "SELECT max(added) FROM demonstrations WHERE undone IS NULL AND kind = ?"
+        with self._connection.transaction():
+            added = self._connection.value(newest, (kind.value,))
+            if added is None:
+                raise NothingToUndo(self._path, kind.value)
+            version = self._next(request)
+            self._connection.rows("UPDATE demonstrations SET undone = ? WHERE added = ?", (version, added))
         return version
 
     def active(self) -> list[StoredDemonstration]:
@@ -151,19 +198,23 @@ class DemonstrationStore:
         Raises:
             StorageError: A record cannot be read.
         """
-        with self._storage_errors():
-            rows = self._connection.execute(
-                "SELECT added, kind, scene, duration FROM demonstrations WHERE undone IS NULL ORDER BY added"
-            ).fetchall()
-            return [
-                StoredDemonstration(added, Kind(kind), scene, self._demonstration(added, duration))
-                for added, kind, scene, duration in rows
-            ]
+        rows = self._connection.rows(
+            "SELECT added, kind, scene, robot, duration FROM demonstrations WHERE undone IS NULL ORDER BY added"
+        )
+        return [
+            StoredDemonstration(added, Kind(kind), Binding(scene, robot), self._demonstration(added, duration))
+            for added, kind, scene, robot, duration in rows
+        ]
+
+    def _next(self, request: int) -> int:
+        """The version that the running transaction makes, noted for its request."""
+        version = self.version + 1
+        if request:
+            self._connection.rows("INSERT INTO requests VALUES (?, ?)", (request, version))
+        return version
 
     def _demonstration(self, added: int, duration: float) -> Demonstration:
-        rows = self._connection.execute(
-            "SELECT name, dtype, shape, bytes FROM arrays WHERE demonstration = ?", (added,)
-        ).fetchall()
+        rows = self._connection.rows("SELECT name, dtype, shape, bytes FROM arrays WHERE demonstration = ?", (added,))
         try:
             arrays = {name: _array(dtype, shape, data) for name, dtype, shape, data in rows}
             trajectory = Trajectory(arrays["positions"], arrays["orientations"], duration)
@@ -172,73 +223,12 @@ class DemonstrationStore:
             reason = f"demonstration {added} is damaged ({error})"
             raise StorageError(self._path, reason, "restore the file from a copy") from error
 
-    def _open(self) -> None:
-        execute = self._connection.execute
-        application = execute("PRAGMA application_id").fetchone()[0]
-        schema = execute("PRAGMA user_version").fetchone()[0]
-        empty = execute("SELECT count(*) FROM sqlite_schema").fetchone()[0] == 0
-        if application != APPLICATION_ID and not (empty and application == 0 and schema == 0):
-            raise StorageError(self._path, "this is not a file of demonstrations", "choose another file name")
-        if schema > SCHEMA_VERSION:
-            raise StorageError(self._path, f"its schema {schema} is newer than {SCHEMA_VERSION}", "update Retouch")
-        execute("PRAGMA journal_mode = WAL")
-        execute("PRAGMA synchronous = FULL")
-        execute("PRAGMA foreign_keys = ON")
-        if empty:
-            self._connection.executescript(f"BEGIN IMMEDIATE; {_NEW_FILE} COMMIT;")
-        elif schema < SCHEMA_VERSION:
-            self._upgrade()
-        damage = execute("PRAGMA quick_check(1)").fetchone()[0]
-        if damage != "ok":
-            raise StorageError(self._path, f"the file is damaged ({damage})", "restore it from a copy")
-
-    def _upgrade(self) -> None:
-        """Give the demonstrations of schema 1 their conditions: the object relative to the motion's first point."""
-        with self._transaction():
-            execute = self._connection.execute
-            execute("UPDATE arrays SET name = 'origin' WHERE name = 'object_position'")
-            rows = execute(
-                "SELECT a.demonstration, a.bytes, p.bytes FROM arrays a JOIN arrays p USING (demonstration)"
-                " WHERE a.name = 'origin' AND p.name = 'positions'"
-            ).fetchall()
-            for demonstration, origin, positions in rows:
-                first = np.frombuffer(positions, dtype=_DTYPE, count=3)
-                condition = (np.frombuffer(origin, dtype=_DTYPE) - first).tobytes()
-                execute("INSERT INTO arrays VALUES (?, 'condition', ?, '3', ?)", (demonstration, _DTYPE, condition))
-            execute(f"PRAGMA user_version = {SCHEMA_VERSION}")
-
-    @contextmanager
-    def _transaction(self) -> Iterator[int]:
-        """All or nothing; yields the version that the change makes. Committed to the disk on leaving."""
-        with self._storage_errors():
-            self._connection.execute("BEGIN IMMEDIATE")
-            try:
-                yield int(self._connection.execute(_VERSION).fetchone()[0]) + 1
-                self._connection.execute("COMMIT")
-            except BaseException:
-                if self._connection.in_transaction:  # a full disk has already rolled back
-                    self._connection.execute("ROLLBACK")
-                raise
-
-    @contextmanager
-    def _storage_errors(self) -> Iterator[None]:
-        try:
-            yield
-        except sqlite3.OperationalError as error:
-            raise StorageError(
-                self._path, f"cannot be used ({error})", "check folder, rights and disk space"
-            ) from error
-        except sqlite3.Error as error:
-            raise StorageError(
-                self._path, f"not readable ({error})", "restore it from a copy or move it away"
-            ) from error
-
 
 def _shape_text(array: Array) -> str:
     return ",".join(str(length) for length in array.shape)
 
 
 def _array(dtype: str, shape: str, data: bytes) -> Array:
-    if dtype != _DTYPE:
+    if dtype != DTYPE:
         raise ValueError(f"unknown number format {dtype!r}")
-    return np.frombuffer(data, dtype=_DTYPE).reshape([int(length) for length in shape.split(",")])
+    return np.frombuffer(data, dtype=DTYPE).reshape([int(length) for length in shape.split(",")])

@@ -24,14 +24,15 @@ class Prediction(Message, frozen=True, kw_only=True):
 
 
 class ModelState(Message, frozen=True, kw_only=True):
-    """The learnt model as it lies on disk.
+    """The learnt model as it lies on disk, and what it is good for.
 
     Attributes:
         kind: which model.
         version: grows with every change, undo included.
         demonstrations: that it started from.
         updates: since then.
-        scene: that it was taught in.
+        scene: that it is good for.
+        robot_kind: the kind of robot that it is good for.
     """
 
     kind: Name
@@ -39,3 +40,4 @@ class ModelState(Message, frozen=True, kw_only=True):
     demonstrations: Count
     updates: Count
     scene: Name
+    robot_kind: Name = ""

@@ -17,7 +17,8 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, Task, TextCol
 
 from lfd.models.model import MovementModel
 from lfd.store.database import DemonstrationStore, Kind, StoredDemonstration
-from services.model.service import learn_all
+from services.model.learning import learn_all
+from services.model.skill import binding_of
 from services.offline.first_demonstrations import first_demonstrations
 from services.process.files import write_whole
 from services.reproduction.exceptions import CannotKeep, NothingToMap
@@ -88,7 +89,7 @@ def draw_map(request: Request) -> SuccessMap:
     """
     _check(request)
     stored = _stored(request)
-    scene = _with_an_object(find_scene(request.scene or (stored[-1].scene if stored else _SCENE)))
+    scene = _with_an_object(find_scene(request.scene or (stored[-1].binding.scene if stored else _SCENE)))
     variant = request.variant or scene.variants[-1]
     scene.check(variant)
     console = Console(stderr=True, highlight=False)
@@ -135,6 +136,8 @@ def _stored(request: Request) -> list[StoredDemonstration]:
         raise NothingToMap(f"there is no file {request.database}: give the database of a model with --database")
     with DemonstrationStore(request.database) as store:
         stored = store.active()
+        if stored:
+            store.check(binding_of(find_scene(request.scene)) if request.scene else stored[-1].binding)
     if not stored:
         raise NothingToMap(f"{request.database} holds no demonstration: teach the model first")
     if any(len(one.demonstration.condition) != _POSITION for one in stored):
@@ -146,7 +149,7 @@ def _first(request: Request, scene: ReachingScene, variant: str, console: Consol
     """The scene's first demonstrations, and a correction where one is asked for."""
     demonstrations = first_demonstrations(scene)
     if not request.teach:
-        return [StoredDemonstration(i, Kind.INITIAL, scene.name, one) for i, one in enumerate(demonstrations, 1)]
+        return [StoredDemonstration(i, Kind.INITIAL, binding_of(scene), one) for i, one in enumerate(demonstrations, 1)]
     with console.status("the scripted operator corrects"):
         return corrected_once(scene, variant, request.kind, demonstrations, request.seed)
 

@@ -1,33 +1,34 @@
-"""`retouch teach`: gives an empty model its first demonstrations, or a model a motion through waypoints."""
+"""`retouch teach`: gives an empty model its first demonstrations, or a motion through waypoints, or takes one back."""
 
 from __future__ import annotations
 
 import logging
-import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TypeVar
 
-import msgspec
-
 from lfd.motion.waypoints import through_waypoints
 from protocol import queries
-from protocol.messages import Vector3
-from protocol.queries import AddDemonstration, Kind, Learnt, Query
+from protocol.messages import ModelState, Vector3
+from protocol.queries import AddDemonstration, Kind, Learnt, Query, Undo
 from services.bus.arrays import motion_to_wire, vector3
-from services.bus.bus import Failed
-from services.bus.zenoh import ZenohBus, connect
+from services.bus.bus import Bus, Failed
+from services.bus.identity import new_number
+from services.bus.zenoh import connect
 from services.commands.waypoint_file import read_waypoints
+from services.model.skill import binding_of
 from services.offline.first_demonstrations import first_demonstrations
 from services.process.clock import SystemClock
 from services.process.config import Configuration
 from services.process.exceptions import CommandFailed
 from services.process.runner import stop_on_signals
-from sim.tasks import SCENES
+from sim.tasks import SCENES, AnyScene
 from sim.tasks import scene as find_scene
 
 log = logging.getLogger(__name__)
 
-Req = TypeVar("Req", bound=msgspec.Struct)
+Req = TypeVar("Req", queries.Describe, AddDemonstration, Undo)
 
 ANSWER_S = 10.0
 MODEL_WITHIN_S = 60.0
@@ -49,14 +50,13 @@ def teach(configuration: Configuration) -> None:
     """Give the model its first demonstrations, where it has none.
 
     Raises:
-        ServiceError: there is no model to teach, or no motion could be taught.
+        ServiceError: there is no model to teach, it is for another scene, or no motion could be taught.
     """
+    scene = find_scene(configuration.robot.scene)
     # Taught before the bus is there: nothing waits for it, and Ctrl-C ends it at once.
-    demonstrations = first_demonstrations(find_scene(configuration.robot.scene))
-    stop = stop_on_signals()
-    bus = connect(configuration.connect, configuration.name, "teach", SystemClock())
-    try:
-        state = _answered(bus, queries.DESCRIBE, queries.Describe(), stop, MODEL_WITHIN_S).state
+    demonstrations = first_demonstrations(scene)
+    with _model(configuration) as model:
+        state = model.state(scene, MODEL_WITHIN_S)
         if state.updates or state.demonstrations >= len(demonstrations):
             log.info("the model has %d demonstrations and %d updates", state.demonstrations, state.updates)
             return
@@ -64,17 +64,10 @@ def teach(configuration: Configuration) -> None:
         for demonstration in demonstrations[state.demonstrations :]:
             taught = demonstration.trajectory
             motion = motion_to_wire(taught.positions, taught.orientations, taught.duration)
-            request = AddDemonstration(
-                Kind.INITIAL,
-                motion,
-                vector3(demonstration.origin),
-                configuration.robot.scene,
-                tuple(demonstration.condition.tolist()),
-            )
-            _answered(bus, queries.ADD_DEMONSTRATION, request, stop)
-        log.info("taught %d demonstrations of %s", len(demonstrations), configuration.robot.scene)
-    finally:
-        bus.close()
+            condition = tuple(demonstration.condition.tolist())
+            origin = vector3(demonstration.origin)
+            model.add(AddDemonstration(Kind.INITIAL, motion, origin, scene.name, condition, request=new_number()))
+    log.info("taught %d demonstrations of %s", len(demonstrations), scene.name)
 
 
 def teach_waypoints(configuration: Configuration, file: Path, object_position: Vector3, duration: float) -> None:
@@ -92,40 +85,86 @@ def teach_waypoints(configuration: Configuration, file: Path, object_position: V
         SimError: there is no such scene.
     """
     # All that a person can have got wrong shows before the network is asked for anything.
+    scene = find_scene(configuration.robot.scene)
     waypoints = read_waypoints(file)
     taught = through_waypoints(waypoints.positions, waypoints.orientations, duration)
     motion = motion_to_wire(taught.positions, taught.orientations, taught.duration)
-    scene = find_scene(configuration.robot.scene).name
-    stop = stop_on_signals()
+    with _model(configuration) as model:
+        before = model.state(scene)
+        kind = Kind.UPDATE if before.demonstrations or before.updates else Kind.INITIAL
+        state = model.add(AddDemonstration(kind, motion, object_position, scene.name, request=new_number()))
+    log.info("taught a motion through %d waypoints; %s", len(waypoints.positions), _holds(state))
+
+
+def take_back(configuration: Configuration) -> None:
+    """Take back the newest update, or the newest first demonstration where there is no update.
+
+    Raises:
+        ServiceError: there is no model, it is for another scene, or it has nothing to take back.
+        SimError: there is no such scene.
+    """
+    scene = find_scene(configuration.robot.scene)
+    with _model(configuration) as model:
+        before = model.state(scene)
+        kind = Kind.UPDATE if before.updates else Kind.INITIAL
+        state = model.undo(Undo(kind=kind, request=new_number()))
+    taken = "update" if kind is Kind.UPDATE else "first demonstration"
+    log.info("took back the newest %s; %s", taken, _holds(state))
+
+
+def _holds(state: ModelState) -> str:
+    return f"the model has {state.demonstrations} demonstrations and {state.updates} updates"
+
+
+class _Model:
+    """The model process, asked until it answers."""
+
+    def __init__(self, bus: Bus) -> None:
+        self._bus = bus
+        self._stop = stop_on_signals()
+
+    def state(self, scene: AnyScene, within_s: float = ANSWER_S) -> ModelState:
+        """What the model holds; CommandFailed where it is for another scene or robot than `scene`."""
+        state = self._answered(queries.DESCRIBE, queries.Describe(), within_s)
+        wanted = binding_of(scene)
+        if (state.scene, state.robot_kind) != wanted:
+            raise CommandFailed(
+                f"the running model is for scene {state.scene} with robot {state.robot_kind}, not for {wanted}:"
+                f" start it with --scene {scene.name}, or teach with --scene {state.scene}"
+            )
+        return state
+
+    def add(self, request: AddDemonstration) -> ModelState:
+        """What the model holds once it has learnt."""
+        return self._answered(queries.ADD_DEMONSTRATION, request)
+
+    def undo(self, request: Undo) -> ModelState:
+        """What the model holds once it has forgotten."""
+        return self._answered(queries.UNDO, request)
+
+    def _answered(self, query: Query[Req, Learnt], request: Req, within_s: float = ANSWER_S) -> ModelState:
+        """The answer. Where there is none the same request is sent again: by its number it is known, and done once."""
+        clock = SystemClock()
+        deadline = clock.now_ns() + round(within_s * 1e9)
+        reason = "no answer"
+        while clock.now_ns() < deadline and not self._stop.is_set():
+            pending = self._bus.ask(query, request, ANSWER_S)
+            while (outcome := pending.poll()) is None and not self._stop.wait(0.01):
+                pass
+            match outcome:
+                case queries.Refused(reason):
+                    break
+                case Failed(reason):
+                    self._stop.wait(0.2)
+                case Learnt(state):
+                    return state
+        raise CommandFailed(f"could not teach the model: {reason}")
+
+
+@contextmanager
+def _model(configuration: Configuration) -> Iterator[_Model]:
     bus = connect(configuration.connect, configuration.name, "teach", SystemClock())
     try:
-        before = _answered(bus, queries.DESCRIBE, queries.Describe(), stop).state
-        kind = Kind.UPDATE if before.demonstrations or before.updates else Kind.INITIAL
-        request = AddDemonstration(kind, motion, object_position, scene)
-        state = _answered(bus, queries.ADD_DEMONSTRATION, request, stop).state
+        yield _Model(bus)
     finally:
         bus.close()
-    log.info(
-        "taught a motion through %d waypoints; the model has %d demonstrations and %d updates",
-        len(waypoints.positions),
-        state.demonstrations,
-        state.updates,
-    )
-
-
-def _answered(
-    bus: ZenohBus, query: Query[Req, Learnt], request: Req, stop: threading.Event, within_s: float = ANSWER_S
-) -> Learnt:
-    clock = SystemClock()
-    deadline = clock.now_ns() + round(within_s * 1e9)
-    reason = "no answer"
-    while clock.now_ns() < deadline and not stop.is_set():
-        pending = bus.ask(query, request, ANSWER_S)
-        while (outcome := pending.poll()) is None and not stop.wait(0.01):
-            pass
-        match outcome:
-            case Failed(reason) | queries.Refused(reason):
-                stop.wait(0.2)
-            case Learnt():
-                return outcome
-    raise CommandFailed(f"could not teach the model: {reason}")

@@ -3,76 +3,51 @@
 from __future__ import annotations
 
 import logging
-import os
 from collections.abc import Callable
-from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
 from lfd.exceptions import LfdError
-from lfd.models.adaptive.adaptation import AdaptiveProMP
 from lfd.models.model import MovementModel
-from lfd.models.promp import ConditionedProMP
 from lfd.motion.demonstration import Demonstration, Situation
 from lfd.motion.refinement import refine
 from lfd.motion.trajectory import Trajectory
-from lfd.store.database import DemonstrationStore, StoredDemonstration
-from lfd.store.database import Kind as StoredKind
+from lfd.store.database import DemonstrationStore, Kind, StoredDemonstration
 from protocol import messages, queries, topics
-from protocol.queries import AddDemonstration, Predict, Predicted, Refused
+from protocol.queries import AddDemonstration, Learnt, Predict, Predicted, Refused, Undo
 from services.bus.arrays import motion_from_wire, motion_to_wire, to_wire
 from services.bus.bus import Bus, Rep, Req, Server
 from services.bus.identity import new_number
+from services.model.learning import learn_all
+from services.model.skill import binding_of, check_demonstration, check_situation, open_store
 from services.process.clock import Clock
-from services.process.config import Configuration, ModelSection
+from services.process.config import Configuration
 from services.process.exceptions import ServiceError
+from sim.exceptions import SimError
+from sim.tasks import AnyScene
+from sim.tasks import scene as find_scene
 
 log = logging.getLogger(__name__)
 
-MODELS: dict[str, type[AdaptiveProMP] | type[ConditionedProMP]] = {
-    "adaptive": AdaptiveProMP,
-    "promp": ConditionedProMP,
-}
-
-
-def database_path(section: ModelSection, robot: str) -> Path:
-    """Where the demonstrations lie: as configured, or in the user's data folder."""
-    if section.database:
-        return Path(section.database)
-    data = Path(os.environ.get("XDG_DATA_HOME") or Path.home() / ".local" / "share")
-    return data / "retouch" / robot / "model.sqlite"
+Learns = TypeVar("Learns", AddDemonstration, Undo)
 
 
 def build(bus: Bus, clock: Clock, configuration: Configuration) -> ModelService:
     """The service, its store opened and its model rebuilt.
 
     Raises:
-        ServiceError: the database cannot be used.
+        ServiceError: the database cannot be used, or holds what was learnt for another scene or robot.
+        SimError: there is no such scene.
     """
     del clock
-    path = database_path(configuration.model, configuration.name)
+    scene = find_scene(configuration.robot.scene)
+    store = open_store(configuration.model, configuration.name, binding_of(scene))
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        store = DemonstrationStore(path)
+        return ModelService(bus, store, configuration.model.kind, scene)
     except LfdError as error:
+        store.close()
         raise ServiceError(str(error)) from None
-    except OSError as error:
-        raise ServiceError(f"cannot make {path.parent}: {error.strerror}") from None
-    return ModelService(bus, store, configuration.model.kind)
-
-
-def learn_all(kind: str, stored: list[StoredDemonstration]) -> MovementModel | None:
-    """The model that the stored demonstrations make, in their order; None before the first."""
-    initial = [s.demonstration for s in stored if s.kind is StoredKind.INITIAL]
-    updates = [s.demonstration for s in stored if s.kind is StoredKind.UPDATE]
-    if not initial:
-        initial, updates = updates[:1], updates[1:]
-    if not initial:
-        return None
-    model: MovementModel = MODELS[kind].fit(initial)
-    for update in updates:
-        model = model.updated(update)
-    return model
 
 
 class ModelService:
@@ -82,29 +57,33 @@ class ModelService:
         bus: to answer on.
         store: every demonstration and update; the model is what it holds.
         kind: of the model, a key of `MODELS`.
+        scene: that it learns for.
     """
 
     rate_hz = 100.0
 
-    def __init__(self, bus: Bus, store: DemonstrationStore, kind: str) -> None:
+    def __init__(self, bus: Bus, store: DemonstrationStore, kind: str, scene: AnyScene) -> None:
         self._bus = bus
         self._store = store
         self._kind = kind
+        self._scene = scene
+        self._binding = binding_of(scene)
         self._stored = store.active()
         self._model = learn_all(kind, self._stored)
         self._predict = bus.serve(queries.PREDICT)
         self._add = bus.serve(queries.ADD_DEMONSTRATION)
         self._undo = bus.serve(queries.UNDO)
         self._describe = bus.serve(queries.DESCRIBE)
+        self._stands_in = bus.subscribe(topics.SCENE_STATE)
         self._announced_ns = 0
         self._newest: messages.Prediction | None = None
-        log.info("model version %d: %d demonstrations", store.version, len(self._stored))
+        log.info("%s: model version %d, %d demonstrations", self._binding, store.version, len(self._stored))
 
     def step(self, now_ns: int) -> None:
         """Answer what was asked."""
         _answer(self._predict, self._predicted)
-        _answer(self._add, self._learnt)
-        _answer(self._undo, self._undone)
+        _answer(self._add, self._once(self._learnt))
+        _answer(self._undo, self._once(self._undone))
         _answer(self._describe, self._described)
         if now_ns - self._announced_ns >= 1e9 / topics.MODEL_STATE.rate_hz:
             self._announced_ns = now_ns
@@ -120,10 +99,27 @@ class ModelService:
         """Close the database."""
         self._store.close()
 
+    def _once(self, change: Callable[[Learns], Learnt | Refused]) -> Callable[[Learns], Learnt | Refused]:
+        """The change, or the answer to a request that has made it already: in this process or in one before it."""
+
+        def changed(request: Learns) -> Learnt | Refused:
+            version = self._store.made_by(request.request) if request.request else None
+            return change(request) if version is None else Learnt(self._state_in(version))
+
+        return changed
+
     def _predicted(self, request: Predict) -> Predicted | Refused:
+        there = self._stands_in.latest()
+        if there is not None and there.message.name != self._scene.name:
+            return Refused(
+                f"the robot stands in scene {there.message.name}, and this model is for {self._binding}:"
+                " start both with the same --scene"
+            )
         if self._model is None:
             return Refused("the model has no demonstration yet: teach it first")
-        prediction = self._model.predict(_situation(request))
+        situation = _situation(request)
+        check_situation(self._scene, situation)
+        prediction = self._model.predict(situation)
         variances = np.diagonal(prediction.position_covariances, axis1=1, axis2=2)
         motion = prediction.trajectory
         self._newest = messages.Prediction(
@@ -136,48 +132,61 @@ class ModelService:
         self._bus.publish(topics.PREDICTION, self._newest)
         return Predicted(self._newest)
 
-    def _learnt(self, request: AddDemonstration) -> queries.Learnt:
-        positions, orientations, duration = motion_from_wire(request.motion)
-        motion = _learnable(request, Trajectory(positions, orientations, duration))
-        origin = np.array(request.object_position, dtype=np.float64)
-        demonstration = (
-            Demonstration(motion, origin, np.array(request.condition))
-            if request.condition
-            else Demonstration.reaching(motion, origin)
-        )
-        kind = StoredKind(request.kind.value)
+    def _learnt(self, request: AddDemonstration) -> Learnt | Refused:
+        if request.scene != self._scene.name:
+            return Refused(
+                f"the demonstration is of scene {request.scene}, and this model is for {self._binding}:"
+                f" start the model with --scene {request.scene}"
+            )
+        demonstration = _demonstration(request)
+        check_demonstration(self._scene, demonstration)
+        kind = Kind(request.kind.value)
         candidate = self._extended(demonstration, kind)
-        self._store.add(demonstration, kind, request.scene)
+        self._store.add(demonstration, kind, self._binding, request.request)
         self._model, self._stored = candidate, self._store.active()
-        return queries.Learnt(self._state())
+        return Learnt(self._state())
 
-    def _extended(self, demonstration: Demonstration, kind: StoredKind) -> MovementModel | None:
-        if kind is StoredKind.UPDATE and self._model is not None:
+    def _extended(self, demonstration: Demonstration, kind: Kind) -> MovementModel | None:
+        if kind is Kind.UPDATE and self._model is not None:
             return self._model.updated(demonstration)
         version = self._store.version + 1
-        return learn_all(self._kind, [*self._stored, StoredDemonstration(version, kind, "", demonstration)])
+        return learn_all(self._kind, [*self._stored, StoredDemonstration(version, kind, self._binding, demonstration)])
 
-    def _undone(self, request: queries.Undo) -> queries.Learnt | Refused:
-        del request
-        if not any(s.kind is StoredKind.UPDATE for s in self._stored):
-            return Refused("there is no update to take back")
-        self._store.undo()
+    def _undone(self, request: Undo) -> Learnt | Refused:
+        kind = Kind(request.kind.value)
+        if not any(s.kind is kind for s in self._stored):
+            known = "update" if kind is Kind.UPDATE else "first demonstration"
+            return Refused(f"there is no {known} to take back")
+        self._store.undo(kind, request.request)
         self._stored = self._store.active()
         self._model = learn_all(self._kind, self._stored)
-        return queries.Learnt(self._state())
+        return Learnt(self._state())
 
-    def _described(self, request: queries.Describe) -> queries.Learnt:
+    def _described(self, request: queries.Describe) -> Learnt:
         del request
-        return queries.Learnt(self._state())
+        return Learnt(self._state())
 
     def _state(self) -> messages.ModelState:
+        return self._state_in(self._store.version)
+
+    def _state_in(self, version: int) -> messages.ModelState:
+        counts = self._store.counts(version)
         return messages.ModelState(
             kind=self._kind,
-            version=self._store.version,
-            demonstrations=sum(s.kind is StoredKind.INITIAL for s in self._stored),
-            updates=sum(s.kind is StoredKind.UPDATE for s in self._stored),
-            scene=self._stored[-1].scene if self._stored else "",
+            version=version,
+            demonstrations=counts.initial,
+            updates=counts.updates,
+            scene=self._binding.scene,
+            robot_kind=self._binding.robot,
         )
+
+
+def _demonstration(request: AddDemonstration) -> Demonstration:
+    motion = _learnable(request, Trajectory(*motion_from_wire(request.motion)))
+    origin = np.array(request.object_position, dtype=np.float64)
+    if request.condition:
+        return Demonstration(motion, origin, np.array(request.condition))
+    return Demonstration.reaching(motion, origin)
 
 
 def _learnable(request: AddDemonstration, motion: Trajectory) -> Trajectory:
@@ -199,7 +208,7 @@ def _answer(server: Server[Req, Rep], answer: Callable[[Req], Rep | Refused]) ->
     for call in server.take():
         try:
             reply = answer(call.request)
-        except (LfdError, ServiceError) as error:
+        except (LfdError, ServiceError, SimError) as error:
             log.warning("refused: %s", error)
             reply = Refused(str(error))
         call.reply(reply)

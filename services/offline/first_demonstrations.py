@@ -13,7 +13,7 @@ from pathlib import Path
 
 import sim
 from lfd.motion.demonstration import Demonstration
-from lfd.store.database import DemonstrationStore, Kind
+from lfd.store.database import Binding, DemonstrationStore, Kind
 from services import offline, robot
 from sim.robots.description import default_cache
 from sim.tasks import AnyScene
@@ -46,7 +46,7 @@ def first_demonstrations(scene: AnyScene, cache: Path | None = None) -> list[Dem
         part = Path(scratch) / kept.name
         with DemonstrationStore(part) as store:
             for demonstration in taught:
-                store.add(demonstration, Kind.INITIAL, scene.name)
+                store.add(demonstration, Kind.INITIAL, Binding(scene.name, scene.robot.kind))
         part.replace(kept)
     return taught
 

@@ -9,7 +9,9 @@ import math
 import numpy as np
 
 from sim.pose import Pose
-from sim.tasks.scene import Array, Box, Corridor, Group, ReachingScene, Region, pitched_down
+from sim.region import Region
+from sim.robots.robot import TIAGO
+from sim.tasks.scene import Array, Box, Corridor, Group, ReachingScene, pitched_down
 
 _B1, _B2 = "b1", "b2"
 _BASKET_FRONT = {_B1: 0.73, _B2: 0.55}  # [m] x of the front panel
@@ -122,6 +124,7 @@ def _route(variant: str, object_position: Array) -> Corridor:
 
 DISHWASHER = ReachingScene(
     name="dishwasher",
+    robot=TIAGO,
     variants=(_B1, _B2),
     start=_START,
     posture=np.array([0.3108, 2.0018, -0.4902, 0.2241, 1.4798, 1.8698, 1.2060, 1.9647]),

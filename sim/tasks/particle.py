@@ -20,7 +20,9 @@ import numpy as np
 
 from sim.person.steering import minimum_jerk
 from sim.pose import Pose
-from sim.tasks.scene import NO_ROTATION, Array, Box, Corridor, Eye, Freedom, Group, Region, Scene
+from sim.region import Region
+from sim.robots import robot
+from sim.tasks.scene import NO_ROTATION, Array, Box, Corridor, Eye, Freedom, Group, Scene
 
 X_UNIT, Y_UNIT = 0.1, 0.01  # [m] of the thesis' axes
 
@@ -133,6 +135,7 @@ shape (3, 2) [m]."""
 
 PARTICLE = ParticleScene(
     name="particle",
+    robot=robot.PARTICLE,
     variants=(_FREE, _OBSTACLE),
     start=Pose(np.zeros(3), np.array(NO_ROTATION)),
     posture=np.zeros(3),

@@ -12,8 +12,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.exceptions import UnknownVariant, WrongPlace
+from sim.exceptions import OutOfReach, UnknownVariant, WrongPlace
 from sim.pose import Pose
+from sim.region import Region
+from sim.robots.robot import Robot
 
 Array = NDArray[np.float64]
 Vector = tuple[float, float, float]
@@ -88,35 +90,6 @@ class Freedom(NamedTuple):
     tempo: bool = True
 
 
-@dataclass(frozen=True)
-class Region:
-    """Box of places, both ends included.
-
-    Attributes:
-        lower: As many numbers as a place has [m].
-        upper: The same.
-    """
-
-    lower: tuple[float, ...]
-    upper: tuple[float, ...]
-
-    def sample(self, rng: np.random.Generator) -> Array:
-        """Draw a place evenly, shape (d,) [m]."""
-        return rng.uniform(self.lower, self.upper)
-
-    def contains(self, place: Array, margin: float = 0.0) -> bool:
-        """Say whether the place lies inside, or at most a margin outside on each axis.
-
-        Args:
-            place: Shape (d,) [m]; one of another dimension lies outside.
-            margin: [m].
-        """
-        fits = place.shape == (len(self.lower),)
-        return fits and bool(
-            np.all(place >= np.subtract(self.lower, margin)) and np.all(place <= np.add(self.upper, margin))
-        )
-
-
 class Eye(NamedTuple):
     """Where a bystander looks from, and at what [m]; by default, at an arm and at what is before it."""
 
@@ -132,6 +105,7 @@ class Scene:
 
     Attributes:
         name: Of the scene.
+        robot: That moves in it.
         variants: The first is the one that demonstrations were given in, the second the changed one.
         start: Pose of the grasping frame before each motion.
         posture: Joint positions at the start, in the order of the robot's joints, shape (m,).
@@ -145,6 +119,7 @@ class Scene:
     """
 
     name: str
+    robot: Robot
     variants: tuple[str, str]
     start: Pose
     posture: Array
@@ -188,6 +163,21 @@ class Scene:
             raise WrongPlace(self.name, len(place), len(self.region.lower))
         route = self.route(variant, place)
         return route if start is None else _joined(route, start)
+
+    def check_place(self, place: Array, margin: float) -> None:
+        """Let pass where a target of the scene can be.
+
+        Args:
+            place: Of the target, shape (d,) [m].
+            margin: Beyond the region, on each axis [m].
+
+        Raises:
+            OutOfReach: No target can be there.
+        """
+        if not self.region.contains(place, margin):
+            allowed = self.region.grown(margin)
+            where = f"where targets of scene {self.name} can be"
+            raise OutOfReach("the target at", place.tolist(), where, allowed.lower, allowed.upper)
 
     def check(self, variant: str) -> None:
         """Raise UnknownVariant unless the scene has the variant."""

@@ -9,7 +9,9 @@ import math
 import numpy as np
 
 from sim.pose import Pose
-from sim.tasks.scene import Array, Box, Corridor, ReachingScene, Region, pitched_down
+from sim.region import Region
+from sim.robots.robot import TIAGO
+from sim.tasks.scene import Array, Box, Corridor, ReachingScene, pitched_down
 
 _CLEAR, _BOX = "clear", "box"
 _TOP_Z = 0.66  # [m]
@@ -70,6 +72,7 @@ def _route(variant: str, object_position: Array) -> Corridor:
 
 TABLE = ReachingScene(
     name="table",
+    robot=TIAGO,
     variants=(_CLEAR, _BOX),
     start=_START,
     posture=np.array([0.2830, 0.9342, 0.5981, 0.2594, 1.9075, 0.5393, 0.9049, 2.0147]),

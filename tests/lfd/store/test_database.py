@@ -6,9 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lfd.exceptions import NothingToUndo, StorageError
-from lfd.store.database import DemonstrationStore, Kind
+from lfd.exceptions import BoundElsewhere, NothingToUndo, StorageError
+from lfd.store.database import Binding, Counts, DemonstrationStore, Kind
 
+DISHWASHER, TABLE = Binding("dishwasher", "tiago"), Binding("table", "tiago")
 REPOSITORY = Path(__file__).resolve().parents[3]
 
 
@@ -22,14 +23,14 @@ def test_what_was_stored_is_read_back_bit_for_bit_and_in_order(path, reach):
     with DemonstrationStore(path) as store:
         assert store.version == 0
         versions = [
-            store.add(d, kind, "dishwasher")
+            store.add(d, kind, DISHWASHER)
             for d, kind in zip(given, [Kind.INITIAL, Kind.INITIAL, Kind.UPDATE], strict=True)
         ]
     assert versions == [1, 2, 3]
     with DemonstrationStore(path) as store:
         stored = store.active()
         assert store.version == 3
-    assert [(s.version, s.kind, s.scene) for s in stored][2] == (3, Kind.UPDATE, "dishwasher")
+    assert [(s.version, s.kind, s.binding) for s in stored][2] == (3, Kind.UPDATE, DISHWASHER)
     for record, expected in zip(stored, given, strict=True):
         trajectory = record.demonstration.trajectory
         np.testing.assert_array_equal(trajectory.positions, expected.trajectory.positions)
@@ -42,45 +43,89 @@ def test_what_was_stored_is_read_back_bit_for_bit_and_in_order(path, reach):
 def test_undo_takes_back_the_newest_and_makes_a_new_version(path, reach):
     with DemonstrationStore(path) as store:
         for y in (0.1, 0.2):
-            store.add(reach([0.9, y, 0.6]), Kind.UPDATE, "table")
-        assert store.undo() == 3
+            store.add(reach([0.9, y, 0.6]), Kind.UPDATE, TABLE)
+        assert store.undo(Kind.UPDATE) == 3
         assert [s.version for s in store.active()] == [1]
-        assert store.add(reach([0.9, 0.3, 0.6]), Kind.UPDATE, "table") == 4
+        assert store.add(reach([0.9, 0.3, 0.6]), Kind.UPDATE, TABLE) == 4
         assert [s.version for s in store.active()] == [1, 4]
-        assert [store.undo(), store.undo()] == [5, 6]
+        assert [store.undo(Kind.UPDATE), store.undo(Kind.UPDATE)] == [5, 6]
         with pytest.raises(NothingToUndo):
-            store.undo()
+            store.undo(Kind.UPDATE)
         assert store.version == 6
 
 
-def test_a_file_of_schema_1_gets_its_conditions(path, reach):
-    """They were the object relative to the motion's first point; the object's position had another name."""
-    given = reach([0.9, 0.1, 0.6])
+def test_undo_takes_back_the_newest_of_its_kind_only(path, reach):
     with DemonstrationStore(path) as store:
-        store.add(given, Kind.INITIAL, "table")
-    with sqlite3.connect(path) as old:
-        old.execute("DELETE FROM arrays WHERE name = 'condition'")
-        old.execute("UPDATE arrays SET name = 'object_position' WHERE name = 'origin'")
-        old.execute("PRAGMA user_version = 1")
-    old.close()
-    for _ in range(2):
-        with DemonstrationStore(path) as store:
-            (record,) = store.active()
-        np.testing.assert_allclose(record.demonstration.condition, given.condition, atol=1e-15)
-        np.testing.assert_array_equal(record.demonstration.origin, given.origin)
+        for kind in (Kind.INITIAL, Kind.UPDATE, Kind.INITIAL):
+            store.add(reach([0.9, 0.1, 0.6]), kind, TABLE)
+        store.undo(Kind.UPDATE)
+        assert [s.version for s in store.active()] == [1, 3]
+        with pytest.raises(NothingToUndo, match="update"):
+            store.undo(Kind.UPDATE)
+        store.undo(Kind.INITIAL)
+        assert [s.version for s in store.active()] == [1]
+
+
+def test_the_counts_of_a_version_stay_what_they_were(path, reach):
+    with DemonstrationStore(path) as store:
+        for kind in (Kind.INITIAL, Kind.UPDATE, Kind.UPDATE):
+            store.add(reach([0.9, 0.1, 0.6]), kind, TABLE)
+        store.undo(Kind.UPDATE)
+        counted = [store.counts(version) for version in range(5)]
+    assert counted == [Counts(0, 0), Counts(1, 0), Counts(1, 1), Counts(1, 2), Counts(1, 1)]
+
+
+def test_a_request_is_known_by_the_version_that_it_made(path, reach):
+    with DemonstrationStore(path) as store:
+        store.add(reach([0.9, 0.1, 0.6]), Kind.UPDATE, TABLE, request=77)
+        store.add(reach([0.9, 0.1, 0.6]), Kind.UPDATE, TABLE)
+        store.undo(Kind.UPDATE, request=2**53)
+    with DemonstrationStore(path) as store:
+        assert [store.made_by(request) for request in (77, 2**53, 78)] == [1, 3, None]
+
+
+def test_a_request_makes_no_second_change(path, reach):
+    """Not even where two processes are asked the same at once."""
+    with DemonstrationStore(path) as first, DemonstrationStore(path) as second:
+        first.add(reach([0.9, 0.1, 0.6]), Kind.UPDATE, TABLE, request=77)
+        with pytest.raises(StorageError):
+            second.add(reach([0.9, 0.1, 0.6]), Kind.UPDATE, TABLE, request=77)
+        assert second.version == 1
+
+
+@pytest.mark.parametrize("other", [TABLE, Binding("dishwasher", "particle")])
+def test_what_was_learnt_for_one_scene_and_robot_takes_nothing_from_another(path, reach, other):
+    with DemonstrationStore(path) as store:
+        store.check(other)
+        store.add(reach([0.9, 0.1, 0.6]), Kind.INITIAL, DISHWASHER)
+        store.check(DISHWASHER)
+        for refused in (lambda: store.check(other), lambda: store.add(reach([0.9, 0.2, 0.6]), Kind.UPDATE, other)):
+            with pytest.raises(BoundElsewhere) as caught:
+                refused()
+            for words in (str(path), str(DISHWASHER), str(other)):
+                assert words in str(caught.value)
+        assert store.version == 1
+
+
+def test_a_file_in_which_nothing_is_active_is_free_for_another_scene(path, reach):
+    with DemonstrationStore(path) as store:
+        store.add(reach([0.9, 0.1, 0.6]), Kind.INITIAL, DISHWASHER)
+        store.undo(Kind.INITIAL)
+        store.check(TABLE)
 
 
 WRITER = """
 import sys
 import numpy as np
 from lfd.motion.demonstration import Demonstration
-from lfd.store.database import DemonstrationStore, Kind
+from lfd.store.database import Binding, DemonstrationStore, Kind
 from lfd.motion.trajectory import Trajectory
 
 store = DemonstrationStore(sys.argv[1])
 trajectory = Trajectory(np.arange(30.0).reshape(10, 3), np.tile([1.0, 0.0, 0.0, 0.0], (10, 1)), 5.0)
+given = Demonstration.reaching(trajectory, np.zeros(3))
 while True:
-    print(store.add(Demonstration.reaching(trajectory, np.zeros(3)), Kind.UPDATE, "table"), flush=True)
+    print(store.add(given, Kind.UPDATE, Binding("table", "tiago")), flush=True)
 """
 
 
@@ -98,65 +143,16 @@ def test_what_was_acknowledged_survives_kill_9(path):
 
 def test_two_connections_see_one_history(path, reach):
     with DemonstrationStore(path) as first, DemonstrationStore(path) as second:
-        assert first.add(reach([0.9, 0.1, 0.6]), Kind.INITIAL, "table") == 1
-        assert second.add(reach([0.9, 0.2, 0.6]), Kind.UPDATE, "table") == 2
+        assert first.add(reach([0.9, 0.1, 0.6]), Kind.INITIAL, TABLE) == 1
+        assert second.add(reach([0.9, 0.2, 0.6]), Kind.UPDATE, TABLE) == 2
         assert first.version == 2
-
-
-def test_a_failed_change_leaves_the_store_as_it_was(path, reach):
-    with DemonstrationStore(path) as store:
-        store.add(reach([0.9, 0.1, 0.6]), Kind.INITIAL, "table")
-        with sqlite3.connect(path, isolation_level=None) as other:
-            other.execute("DROP TABLE arrays")
-        other.close()
-        with pytest.raises(StorageError):
-            store.add(reach([0.9, 0.2, 0.6]), Kind.UPDATE, "table")
-        assert store.version == 1
-
-
-def _not_a_database(path):
-    path.write_text("t,x,y,z\n0,1,2,3\n" * 100)
-
-
-def _of_another_program(path):
-    connection = sqlite3.connect(path)
-    connection.execute("CREATE TABLE recipes (name TEXT)")
-    connection.close()
-
-
-def _from_the_future(path):
-    DemonstrationStore(path).close()
-    connection = sqlite3.connect(path)
-    connection.execute("PRAGMA user_version = 99")
-    connection.close()
-
-
-def _cut_off(path):
-    DemonstrationStore(path).close()
-    path.write_bytes(path.read_bytes()[:5000])
-
-
-def _in_no_folder(path):
-    path.symlink_to(path.parent / "missing" / path.name)
-
-
-@pytest.mark.parametrize("spoil", [_not_a_database, _of_another_program, _from_the_future, _cut_off, _in_no_folder])
-def test_a_file_that_cannot_be_used_is_named_with_what_to_do(path, spoil):
-    spoil(path)
-    before = path.read_bytes() if path.exists() else None
-    with pytest.raises(StorageError) as caught:
-        DemonstrationStore(path)
-    assert caught.value.path == path
-    assert str(caught.value).startswith(f"{path}: ")
-    assert caught.value.remedy
-    assert before is None or path.read_bytes() == before
 
 
 def test_a_damaged_record_is_reported_and_not_returned(path, reach):
     with DemonstrationStore(path) as store:
-        store.add(reach([0.9, 0.1, 0.6]), Kind.INITIAL, "table")
-        connection = sqlite3.connect(path, isolation_level=None)
-        connection.execute("UPDATE arrays SET bytes = x'00' WHERE name = 'positions'")
-        connection.close()
+        store.add(reach([0.9, 0.1, 0.6]), Kind.INITIAL, TABLE)
+        other = sqlite3.connect(path, isolation_level=None)
+        other.execute("UPDATE arrays SET bytes = x'00' WHERE name = 'positions'")
+        other.close()
         with pytest.raises(StorageError, match="demonstration 1 is damaged"):
             store.active()

@@ -1,16 +1,17 @@
 """The model process: what it has acknowledged is on disk, and what it cannot do it refuses."""
 
+import msgspec
 import numpy as np
 import pytest
 
-from protocol import queries, topics
+from protocol import messages, queries, topics
 from protocol.messages import Pose
-from protocol.queries import AddDemonstration, Kind, Learnt, Predicted, Refused
+from protocol.queries import AddDemonstration, Kind, Learnt, Predicted, Undo
 from services.bus.arrays import motion_from_wire, motion_to_wire
 from services.bus.memory import MemoryNetwork
 from services.model.service import build
 from services.process.clock import ManualClock
-from services.process.config import Configuration, ModelSection
+from services.process.config import Configuration, ModelSection, RobotSection
 from services.process.exceptions import ServiceError
 
 START = Pose((0.5, 0.0, 0.4), (1.0, 0.0, 0.0, 0.0))
@@ -20,10 +21,12 @@ OBJECT = (0.85, 0.05, 0.55)
 class Rig:
     """A model process on a memory bus."""
 
-    def __init__(self, path, kind="adaptive"):
+    def __init__(self, path, kind="adaptive", scene="dishwasher"):
         self.clock = ManualClock()
         self.network = MemoryNetwork(self.clock)
-        self.configuration = Configuration(model=ModelSection(kind=kind, database=str(path)))
+        self.configuration = Configuration(
+            robot=RobotSection(scene=scene), model=ModelSection(kind=kind, database=str(path))
+        )
         self.service = build(self.network.bus(), self.clock, self.configuration)
         self.asker = self.network.bus()
 
@@ -36,7 +39,11 @@ class Rig:
         t = np.linspace(0.0, 1.0, 40)[:, None]
         path = np.array(START.position) + t * (np.array(at) - START.position) + np.sin(np.pi * t) * [0.0, 0.0, bend]
         motion = motion_to_wire(path, np.tile(START.orientation, (40, 1)), 10.0)
-        return self.ask(queries.ADD_DEMONSTRATION, AddDemonstration(kind, motion, at, "dishwasher", **more))
+        given = {"scene": "dishwasher", **more}
+        return self.ask(queries.ADD_DEMONSTRATION, AddDemonstration(kind, motion, at, **given))
+
+    def described(self):
+        return self.ask(queries.DESCRIBE, queries.Describe()).state
 
     def predict(self, at=OBJECT):
         return self.ask(queries.PREDICT, queries.Predict(at, START))
@@ -101,7 +108,7 @@ def test_a_correction_changes_the_prediction_at_its_condition_and_undo_takes_it_
     before = positions(rig.predict())
     learnt = rig.teach(Kind.UPDATE, bend=0.1)
     corrected = positions(rig.predict())
-    undone = rig.ask(queries.UNDO, queries.Undo())
+    undone = rig.ask(queries.UNDO, Undo())
     assert np.max(corrected[:, 2] - before[:, 2]) == pytest.approx(0.1, abs=0.01)
     np.testing.assert_allclose(positions(rig.predict()), before, atol=1e-12)
     assert (learnt.state.updates, undone.state.updates) == (1, 0)
@@ -139,9 +146,96 @@ def test_a_new_process_predicts_as_the_one_that_was_killed(path, kind):
         second.service.close()
 
 
-def test_the_initial_demonstrations_are_never_undone(rig):
+def test_only_an_update_is_taken_back_unless_a_first_demonstration_is_meant(rig):
     rig.teach(Kind.INITIAL)
-    assert isinstance(rig.ask(queries.UNDO, queries.Undo()), Refused)
+    assert "no update" in rig.ask(queries.UNDO, Undo()).reason
+    undone = rig.ask(queries.UNDO, Undo(kind=Kind.INITIAL))
+    assert (undone.state.demonstrations, undone.state.version) == (0, 2)
+    assert "teach" in rig.predict().reason
+    assert "no first demonstration" in rig.ask(queries.UNDO, Undo(kind=Kind.INITIAL)).reason
+
+
+@pytest.mark.parametrize("restarted", [False, True])
+def test_what_is_asked_twice_is_done_once_and_answered_the_same(path, restarted):
+    """The reply was lost, or the process killed before it could give one."""
+    rig = Rig(path)
+    rig.teach(Kind.INITIAL)
+    added = rig.teach(Kind.UPDATE, bend=0.1, request=11)
+    undone = rig.ask(queries.UNDO, Undo(request=12))
+    later = rig.teach(Kind.UPDATE, bend=0.05)
+    again = Rig(path) if restarted else rig
+    assert again.teach(Kind.UPDATE, bend=0.1, request=11) == added
+    assert again.ask(queries.UNDO, Undo(request=12)) == undone
+    assert again.described() == later.state
+    again.service.close()
+
+
+def test_requests_without_a_number_are_each_done(rig):
+    rig.teach(Kind.INITIAL)
+    assert [rig.teach(Kind.UPDATE).state.updates for _ in range(2)] == [1, 2]
+
+
+def test_a_demonstration_of_another_scene_is_refused_by_both_names(rig):
+    reason = rig.teach(Kind.INITIAL, scene="table").reason
+    assert "table" in reason
+    assert "dishwasher" in reason
+    assert "--scene table" in reason
+    assert rig.described().version == 0
+
+
+def test_the_state_says_what_the_model_is_good_for_before_it_knows_anything(rig):
+    assert (rig.described().scene, rig.described().robot_kind) == ("dishwasher", "tiago")
+
+
+def test_a_database_of_another_scene_is_refused_by_both_names_and_untouched(path):
+    first = Rig(path)
+    first.teach(Kind.INITIAL)
+    first.service.close()
+    for scene in ("table", "particle"):
+        with pytest.raises(ServiceError, match=rf"model\.sqlite.*dishwasher.*{scene}") as caught:
+            Rig(path, scene=scene)
+        assert "\n" not in str(caught.value)
+    again = Rig(path)
+    assert again.described().demonstrations == 1
+    again.service.close()
+
+
+def test_nothing_is_predicted_for_a_robot_that_stands_in_another_scene(rig):
+    rig.teach(Kind.INITIAL)
+    box = (0.0, 0.0, 0.0)
+    stands = messages.SceneState(
+        name="table",
+        variant="clear",
+        boxes=(),
+        object_size=box,
+        ellipsoid_radii=box,
+        kicked_over_thresholds=box,
+        start=START,
+        object_region=(box, box),
+    )
+    rig.asker.publish(topics.SCENE_STATE, stands)
+    assert "scene table" in rig.predict().reason
+    rig.asker.publish(topics.SCENE_STATE, msgspec.structs.replace(stands, name="dishwasher"))
+    assert isinstance(rig.predict(), Predicted)
+
+
+@pytest.mark.parametrize(
+    ("beyond", "said"),
+    [
+        ({"at": (850.0, 50.0, 550.0)}, "the motion passes"),
+        ({"bend": -2.0}, "the motion passes"),
+        ({"condition": (900.0, 0.0, 0.0)}, "condition"),
+        ({"condition": (0.1, 0.2)}, "condition"),
+    ],
+)
+def test_a_motion_that_the_robot_cannot_have_made_is_refused_and_nothing_is_learnt(rig, beyond, said):
+    assert said in rig.teach(Kind.INITIAL, **beyond).reason
+    assert rig.described().version == 0
+
+
+def test_nothing_is_predicted_for_a_target_beyond_the_reach(rig):
+    rig.teach(Kind.INITIAL)
+    assert "(850.000, 50.000, 550.000)" in rig.predict(at=(850.0, 50.0, 550.0)).reason
 
 
 def test_a_motion_that_is_no_number_is_refused_and_nothing_is_learnt(rig):

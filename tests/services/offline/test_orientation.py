@@ -41,7 +41,7 @@ class Site:
         self.services = (
             robot.build(network.bus(), self.clock, configuration),
             master.build(network.bus(), self.clock, configuration),
-            ModelService(network.bus(), DemonstrationStore(folder / "model.sqlite"), "adaptive"),
+            ModelService(network.bus(), DemonstrationStore(folder / "model.sqlite"), "adaptive", self.scene),
         )
         self.robot = self.bus.subscribe(topics.ROBOT_STATE)
         self.results = self.bus.subscribe(topics.EPISODE_RESULT)

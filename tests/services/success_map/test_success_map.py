@@ -13,7 +13,8 @@ from lfd.motion.demonstration import Demonstration
 from lfd.store.database import DemonstrationStore, Kind
 from services.cli import main
 from services.commands.map import Request, draw_map
-from services.model.service import MODELS, learn_all
+from services.model.learning import MODELS, learn_all
+from services.model.skill import binding_of
 from services.offline.first_demonstrations import first_demonstrations
 from services.reproduction.models import BY_NAME, DEFAULT
 from services.reproduction.scripted import demonstrate
@@ -121,7 +122,7 @@ def database(tmp_path):
             shown = Demonstration(shown.trajectory, shown.origin, np.array(condition))
         with DemonstrationStore(path) as store:
             for kind in [Kind.INITIAL] * initial + [Kind.UPDATE] * updates:
-                store.add(shown, kind, "dishwasher")
+                store.add(shown, kind, binding_of(DISHWASHER))
         return str(path)
 
     return database_
@@ -197,16 +198,22 @@ def test_what_becomes_of_a_condition_is_the_models_doing_where_a_motion_can_succ
     assert thing.startswith("basket")
 
 
+def test_a_database_of_another_scene_is_one_line_with_both(database, capsys):
+    line = said(capsys, "--database", database(updates=1), "--scene", "table")
+    assert "dishwasher" in line
+    assert "table" in line
+
+
 @pytest.mark.sim
 def test_a_database_without_its_last_update_and_with_it(tmp_path, capsys):
     database = tmp_path / "model.sqlite"
     taught = first_demonstrations(DISHWASHER)
     with DemonstrationStore(database) as store:
         for demonstration in taught:
-            store.add(demonstration, Kind.INITIAL, "dishwasher")
+            store.add(demonstration, Kind.INITIAL, binding_of(DISHWASHER))
         # The second basket position's way, as a correction would lead.
         for position in DISHWASHER.training_positions:
-            store.add(demonstrate(DISHWASHER, position, None, variant="b2"), Kind.UPDATE, "dishwasher")
+            store.add(demonstrate(DISHWASHER, position, None, variant="b2"), Kind.UPDATE, binding_of(DISHWASHER))
         assert learn_all("adaptive", store.active()) is not None
     out, json = tmp_path / "map.png", tmp_path / "map.json"
     flags = ["--before", "2", "--grid", "1", "--spread", "0", "--jobs", "1", "--out", str(out), "--json", str(json)]

@@ -1,0 +1,95 @@
+"""A SQLite file as the store uses it: every change whole and on the disk, every failure in this package's words."""
+
+import sqlite3
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from lfd.exceptions import StorageError, StorageUnavailable
+
+BUSY_TIMEOUT = 1.0  # [s] how long a statement waits for another connection's lock
+
+_UNAVAILABLE = {
+    sqlite3.SQLITE_BUSY: ("another process holds it", "end that process, or wait until it is done"),
+    sqlite3.SQLITE_LOCKED: ("another process holds it", "end that process, or wait until it is done"),
+    sqlite3.SQLITE_READONLY: ("it cannot be written", "make the file and its folder writable"),
+    sqlite3.SQLITE_PERM: ("it cannot be written", "make the file and its folder writable"),
+    sqlite3.SQLITE_FULL: ("the disk is full", "make room on it"),
+    sqlite3.SQLITE_IOERR: ("the disk does not take it", "check the disk and the room on it"),
+    sqlite3.SQLITE_CANTOPEN: ("it cannot be opened", "check that its folder is there and may be used"),
+    sqlite3.SQLITE_NOMEM: ("there is not enough memory", "end other programs"),
+}
+"""What is no fault of the file, by SQLite's primary result code: what is the case, and what to do."""
+
+_PRIMARY = 0xFF  # SQLite's extended result codes carry the primary one in their lowest byte
+
+
+class Connection:
+    """One connection to a file. Not shared between threads; other processes may use the same file.
+
+    Args:
+        path: The file; it is made if it is missing, its folder is not.
+
+    Raises:
+        StorageUnavailable: The file cannot be opened.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        with self.errors():
+            self._connection = sqlite3.connect(path, timeout=BUSY_TIMEOUT, isolation_level=None)
+
+    def close(self) -> None:
+        """Close the file. What was committed is already in it."""
+        self._connection.close()
+
+    def rows(self, statement: str, parameters: Sequence[object] = ()) -> list[tuple[Any, ...]]:
+        """Carry out a statement, parameters in place of its question marks.
+
+        Returns:
+            What it finds.
+
+        Raises:
+            StorageError: It fails.
+        """
+        with self.errors():
+            return self._connection.execute(statement, parameters).fetchall()
+
+    def value(self, statement: str, parameters: Sequence[object] = ()) -> Any:
+        """The first value of the first row that a statement finds; raises as `rows`."""
+        return self.rows(statement, parameters)[0][0]
+
+    def use_log(self) -> None:
+        """Write ahead, and fully synchronised, so that a committed change outlives a power cut; raises as `rows`."""
+        for statement in ("journal_mode = WAL", "synchronous = FULL", "foreign_keys = ON"):
+            self.rows(f"PRAGMA {statement}")
+
+    @contextmanager
+    def transaction(self) -> Iterator[None]:
+        """All or nothing; committed to the disk on leaving.
+
+        Raises:
+            StorageError: It could not be written; the file is as before.
+        """
+        with self.errors():
+            self._connection.execute("BEGIN IMMEDIATE")
+            try:
+                yield
+                self._connection.execute("COMMIT")
+            except BaseException:
+                if self._connection.in_transaction:  # a full disk has already rolled back
+                    self._connection.execute("ROLLBACK")
+                raise
+
+    @contextmanager
+    def errors(self) -> Iterator[None]:
+        """Say SQLite's failures in this package's words."""
+        try:
+            yield
+        except sqlite3.Error as error:
+            known = _UNAVAILABLE.get(getattr(error, "sqlite_errorcode", 0) & _PRIMARY)
+            if known is not None:
+                raise StorageUnavailable(self.path, *known) from error
+            reason = f"not readable ({error})"
+            raise StorageError(self.path, reason, "restore it from a copy or move it away") from error

@@ -1,0 +1,96 @@
+"""The tables of a file of demonstrations: made in a new file, brought up to date in an older one."""
+
+import numpy as np
+
+from lfd.exceptions import StorageError
+from lfd.store.connection import Connection
+
+SCHEMA_VERSION = 3
+"""1 had no conditions: they were the object relative to the start. 2 knew neither robots nor requests."""
+
+APPLICATION_ID = 0x52544348  # "RTCH" in the file's header tells our files from others
+DTYPE = "<f8"
+
+_DEMONSTRATIONS = """
+CREATE TABLE demonstrations (
+    added INTEGER PRIMARY KEY,
+    undone INTEGER UNIQUE,
+    kind TEXT NOT NULL CHECK (kind IN ('initial', 'update')),
+    scene TEXT NOT NULL,
+    duration REAL NOT NULL,
+    robot TEXT NOT NULL DEFAULT ''
+) STRICT
+"""
+_ARRAYS = """
+CREATE TABLE arrays (
+    demonstration INTEGER NOT NULL REFERENCES demonstrations (added),
+    name TEXT NOT NULL,
+    dtype TEXT NOT NULL,
+    shape TEXT NOT NULL,
+    bytes BLOB NOT NULL,
+    PRIMARY KEY (demonstration, name)
+) STRICT
+"""
+_REQUESTS = """
+CREATE TABLE requests (
+    request INTEGER PRIMARY KEY,
+    version INTEGER NOT NULL UNIQUE
+) STRICT
+"""
+
+
+def prepare(connection: Connection) -> None:
+    """Make a new file one of demonstrations, bring an older one up to date, and refuse what is neither.
+
+    Raises:
+        StorageError: The file is damaged, is another program's or has a newer schema; it is as before.
+    """
+    path, value = connection.path, connection.value
+    application, schema = value("PRAGMA application_id"), value("PRAGMA user_version")
+    empty = value("SELECT count(*) FROM sqlite_schema") == 0
+    if application != APPLICATION_ID and not (empty and application == 0 and schema == 0):
+        raise StorageError(path, "this is not a file of demonstrations", "choose another file name")
+    if schema > SCHEMA_VERSION:
+        raise StorageError(path, f"its schema {schema} is newer than {SCHEMA_VERSION}", "update Retouch")
+    connection.use_log()
+    if empty:
+        _make(connection)
+    elif schema < SCHEMA_VERSION:
+        _upgrade(connection, schema)
+    damage = value("PRAGMA quick_check(1)")
+    if damage != "ok":
+        raise StorageError(path, f"the file is damaged ({damage})", "restore it from a copy")
+
+
+def _make(connection: Connection) -> None:
+    with connection.transaction():
+        # Another process may have made them since this one looked.
+        if connection.value("SELECT count(*) FROM sqlite_schema") == 0:
+            for statement in (_DEMONSTRATIONS, _ARRAYS, _REQUESTS):
+                connection.rows(statement)
+            connection.rows(f"PRAGMA application_id = {APPLICATION_ID}")
+            connection.rows(f"PRAGMA user_version = {SCHEMA_VERSION}")
+
+
+def _upgrade(connection: Connection, schema: int) -> None:
+    with connection.transaction():
+        if connection.value("PRAGMA user_version") != schema:
+            return  # another process was first
+        if schema < 2:
+            _add_conditions(connection)
+        connection.rows("ALTER TABLE demonstrations ADD COLUMN robot TEXT NOT NULL DEFAULT ''")
+        connection.rows(_REQUESTS)
+        connection.rows(f"PRAGMA user_version = {SCHEMA_VERSION}")
+
+
+def _add_conditions(connection: Connection) -> None:
+    """Give the demonstrations of schema 1 their conditions: the object relative to the motion's first point."""
+    connection.rows("UPDATE arrays SET name = 'origin' WHERE name = 'object_position'")
+    found = connection.rows(
+        "SELECT a.demonstration, a.bytes, p.bytes FROM arrays a JOIN arrays p USING (demonstration)"
+        " WHERE a.name = 'origin' AND p.name = 'positions'"
+    )
+    for demonstration, origin, positions in found:
+        first = np.frombuffer(positions, dtype=DTYPE, count=3)
+        condition = (np.frombuffer(origin, dtype=DTYPE) - first).tobytes()
+        connection.rows("INSERT INTO arrays VALUES (?, 'condition', ?, '3', ?)", (demonstration, DTYPE, condition))

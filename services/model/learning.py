@@ -1,0 +1,38 @@
+"""The models that can be learnt, and the one that a history of demonstrations makes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lfd.models.adaptive.adaptation import AdaptiveProMP
+from lfd.models.model import MovementModel
+from lfd.models.promp import ConditionedProMP
+from lfd.store.database import Kind, StoredDemonstration
+
+MODELS: dict[str, type[AdaptiveProMP] | type[ConditionedProMP]] = {
+    "adaptive": AdaptiveProMP,
+    "promp": ConditionedProMP,
+}
+"""By the name that a configuration calls them by."""
+
+
+def learn_all(kind: str, stored: Sequence[StoredDemonstration]) -> MovementModel | None:
+    """The model that stored demonstrations make.
+
+    Args:
+        kind: of the model, a key of `MODELS`.
+        stored: in the order in which they came.
+
+    Returns:
+        The model; None before the first demonstration.
+    """
+    initial = [s.demonstration for s in stored if s.kind is Kind.INITIAL]
+    updates = [s.demonstration for s in stored if s.kind is Kind.UPDATE]
+    if not initial:
+        initial, updates = updates[:1], updates[1:]
+    if not initial:
+        return None
+    model: MovementModel = MODELS[kind].fit(initial)
+    for update in updates:
+        model = model.updated(update)
+    return model

@@ -1,0 +1,108 @@
+"""Files of earlier versions go on being good; what is no file of ours stays untouched."""
+
+import sqlite3
+
+import numpy as np
+import pytest
+
+from lfd.exceptions import BoundElsewhere, StorageError
+from lfd.store.database import Binding, DemonstrationStore, Kind
+
+DISHWASHER, TABLE = Binding("dishwasher", "tiago"), Binding("table", "tiago")
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "demonstrations.sqlite"
+
+
+def _as_schema_2(path):
+    with sqlite3.connect(path) as old:
+        old.execute("ALTER TABLE demonstrations DROP COLUMN robot")
+        old.execute("DROP TABLE requests")
+        old.execute("PRAGMA user_version = 2")
+    old.close()
+
+
+def test_a_file_of_schema_1_gets_its_conditions(path, reach):
+    """They were the object relative to the motion's first point; the object's position had another name."""
+    given = reach([0.9, 0.1, 0.6])
+    with DemonstrationStore(path) as store:
+        store.add(given, Kind.INITIAL, TABLE)
+    _as_schema_2(path)
+    with sqlite3.connect(path) as old:
+        old.execute("DELETE FROM arrays WHERE name = 'condition'")
+        old.execute("UPDATE arrays SET name = 'object_position' WHERE name = 'origin'")
+        old.execute("PRAGMA user_version = 1")
+    old.close()
+    for _ in range(2):
+        with DemonstrationStore(path) as store:
+            (record,) = store.active()
+        np.testing.assert_allclose(record.demonstration.condition, given.condition, atol=1e-15)
+        np.testing.assert_array_equal(record.demonstration.origin, given.origin)
+
+
+def test_a_file_of_schema_2_is_bound_to_the_scene_of_its_rows_whatever_the_robot(path, reach):
+    with DemonstrationStore(path) as store:
+        store.add(reach([0.9, 0.1, 0.6]), Kind.INITIAL, DISHWASHER)
+    _as_schema_2(path)
+    for _ in range(2):
+        with DemonstrationStore(path) as store:
+            store.check(DISHWASHER)
+            with pytest.raises(BoundElsewhere, match=r"scene dishwasher.*scene table"):
+                store.check(TABLE)
+    with DemonstrationStore(path) as store:
+        store.add(reach([0.9, 0.1, 0.6]), Kind.UPDATE, DISHWASHER, request=5)
+        assert store.made_by(5) == 2
+
+
+def test_a_file_in_which_an_earlier_version_mixed_two_scenes_is_refused_by_both(path, reach):
+    with DemonstrationStore(path) as store:
+        for _ in range(2):
+            store.add(reach([0.9, 0.1, 0.6]), Kind.INITIAL, DISHWASHER)
+    _as_schema_2(path)
+    with sqlite3.connect(path) as old:
+        old.execute("UPDATE demonstrations SET scene = 'table' WHERE added = 2")
+    old.close()
+    with DemonstrationStore(path) as store:
+        for wanted in (DISHWASHER, TABLE):
+            with pytest.raises(BoundElsewhere, match="scene dishwasher and for scene table"):
+                store.check(wanted)
+
+
+def _not_a_database(path):
+    path.write_text("t,x,y,z\n0,1,2,3\n" * 100)
+
+
+def _of_another_program(path):
+    other = sqlite3.connect(path)
+    other.execute("CREATE TABLE recipes (name TEXT)")
+    other.close()
+
+
+def _from_the_future(path):
+    DemonstrationStore(path).close()
+    other = sqlite3.connect(path)
+    other.execute("PRAGMA user_version = 99")
+    other.close()
+
+
+def _cut_off(path):
+    DemonstrationStore(path).close()
+    path.write_bytes(path.read_bytes()[:5000])
+
+
+def _in_no_folder(path):
+    path.symlink_to(path.parent / "missing" / path.name)
+
+
+@pytest.mark.parametrize("spoil", [_not_a_database, _of_another_program, _from_the_future, _cut_off, _in_no_folder])
+def test_a_file_that_cannot_be_used_is_named_with_what_to_do(path, spoil):
+    spoil(path)
+    before = path.read_bytes() if path.exists() else None
+    with pytest.raises(StorageError) as caught:
+        DemonstrationStore(path)
+    assert caught.value.path == path
+    assert str(caught.value).startswith(f"{path}: ")
+    assert caught.value.remedy
+    assert before is None or path.read_bytes() == before
