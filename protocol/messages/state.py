@@ -74,7 +74,7 @@ class RobotState(Message, frozen=True, kw_only=True):
     episode: Count = 0
     progress: Real = 0.0
     offset: Vector3 = (0.0, 0.0, 0.0)
-    master_gain: Real = 1.0
+    master_gain: Annotated[float, msgspec.Meta(gt=0.0, le=1e3)] = 1.0
     turn: Vector3 = (0.0, 0.0, 0.0)
     hold_reason: Text = ""
     waiting: bool = False

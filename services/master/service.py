@@ -1,4 +1,7 @@
-"""The master process: publishes the state of its device a hundred times a second.
+"""The master process: publishes the state of its device a hundred times a second, in its operator's name.
+
+It belongs to one person's station: under an epoch that the robot does not confirm for that station nobody is at the
+device, whatever is held there.
 
 Lost input (focus, tab, link, authority) is told at once: the device disengages, and where it stands means nothing. A
 lost process is silent, and so is one that has not taken over yet: the robot holds the correction where it stands.
@@ -7,10 +10,11 @@ lost process is silent, and so is one that has not taken over yet: the robot hol
 from __future__ import annotations
 
 from protocol.messages import Figure, MasterState
-from protocol.topics import AUTHORITY_STATE, MASTER_STATE, OPERATOR_INPUT, ROBOT_STATE
+from protocol.topics import MASTER_STATE, ROBOT_STATE
 from services.bus.bus import Bus
-from services.master.devices.device import Device, Moment
+from services.master.devices.device import Device, Moment, Sample
 from services.master.devices.keyboard import KeyboardMaster
+from services.master.seat import Seat, Sitting
 from services.process.clock import Clock
 from services.process.config import Configuration, Keyboard, Scripted
 
@@ -24,7 +28,7 @@ that holds a correction drop it."""
 
 def build(bus: Bus, clock: Clock, configuration: Configuration) -> MasterService:
     """The service with the device that the configuration names."""
-    return MasterService(bus, _device(bus, clock, configuration))
+    return MasterService(bus, _device(bus, clock, configuration), Seat(bus, configuration.operator))
 
 
 def _device(bus: Bus, clock: Clock, configuration: Configuration) -> Device:
@@ -44,47 +48,36 @@ class MasterService:
     Args:
         bus: the way to the others.
         device: what the hand is on.
+        seat: where its operator sits.
     """
 
     rate_hz = MASTER_STATE.rate_hz
 
-    def __init__(self, bus: Bus, device: Device) -> None:
+    def __init__(self, bus: Bus, device: Device, seat: Seat) -> None:
         self._bus = bus
         self._device = device
-        self._operator = bus.subscribe(OPERATOR_INPUT)
+        self._seat = seat
         self._robot = bus.subscribe(ROBOT_STATE)
-        self._authority = bus.subscribe(AUTHORITY_STATE)
         self._started_ns: int | None = None
         self._stepped_ns = 0
 
     def step(self, now_ns: int) -> None:
         """Bring the device up to now and say where it is, or keep silent, which makes a refining robot hold."""
-        authority = self._authority.fresh(now_ns)
+        sitting = self._seat.look(now_ns)
         if self._started_ns is None:
             self._started_ns = self._stepped_ns = now_ns
         moment = Moment(
             now_ns=now_ns,
             dt=min((now_ns - self._stepped_ns) / 1e9, _LONGEST_STEP_S),
-            operator=self._operator.fresh(now_ns),
+            operator=sitting.operator,
             robot=self._robot.fresh(now_ns),
-            armed=authority is not None and authority.holder != "",
+            commands=sitting.commands,
         )
         self._stepped_ns = now_ns
         sample = self._device.step(moment)
         if sample is None or moment.robot is None or now_ns - self._started_ns < _LISTEN_NS:
             return
-        self._bus.publish(
-            MASTER_STATE,
-            MasterState(
-                displacement=sample.displacement,
-                velocity=sample.velocity,
-                rotation=sample.rotation,
-                force=sample.force,
-                engaged=sample.engaged,
-                epoch=authority.epoch if authority is not None else 0,
-                device=self._device.name,
-            ),
-        )
+        self._bus.publish(MASTER_STATE, self._state(sample, sitting))
 
     def figures(self) -> tuple[Figure, ...]:
         """What the device measures."""
@@ -93,3 +86,17 @@ class MasterService:
     def close(self) -> None:
         """Let go of the device."""
         self._device.close()
+
+    def _state(self, sample: Sample, sitting: Sitting) -> MasterState:
+        operator = sitting.operator if sitting.commands else None
+        return MasterState(
+            displacement=sample.displacement,
+            velocity=sample.velocity,
+            rotation=sample.rotation,
+            force=sample.force,
+            engaged=sample.engaged and sitting.commands,
+            operator=operator.operator if operator is not None else "",
+            holder=operator.holder if operator is not None else "",
+            epoch=operator.epoch if operator is not None else 0,
+            device=self._device.name,
+        )

@@ -81,7 +81,7 @@ class Stage:
             refinements_allowed: attempts at one update; with 0 a failure is only seen.
             until: says that the station has finished.
         """
-        configured = settings(self._configuration.station)
+        configured = settings(self._configuration.station, self._configuration.operator)
         chosen = replace(configured, holder=HOLDER, arrangement=arrangement, refinements_allowed=refinements_allowed)
         bus = self.bus()
         station = self._turn(StationService(bus, self._clock, chosen, None, self._configuration.seed))

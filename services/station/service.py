@@ -7,10 +7,11 @@ import secrets
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+import msgspec
 import numpy as np
 
 from protocol import messages, topics
-from protocol.messages import Figure
+from protocol.messages import Figure, OperatorInput
 from services.bus.arrays import vector3
 from services.bus.bus import Bus, Pending, Received, Subscription
 from services.process.clock import Clock
@@ -39,7 +40,7 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> StationServic
     """
     section = configuration.station
     page = None if section.scripted else _open_page(section, configuration.name, clock)
-    return StationService(bus, clock, settings(section), page, configuration.seed)
+    return StationService(bus, clock, settings(section, configuration.operator), page, configuration.seed)
 
 
 def _open_page(section: StationSection, robot: str, clock: Clock) -> Page:
@@ -51,11 +52,12 @@ def _open_page(section: StationSection, robot: str, clock: Clock) -> Page:
     return page
 
 
-def settings(section: StationSection) -> Settings:
+def settings(section: StationSection, operator: str) -> Settings:
     """The workflow's settings as configured."""
     return Settings(
         # A station that was restarted is another one: the robot ends what it does not know of.
         holder=f"station-{secrets.token_hex(2)}",
+        operator=operator,
         autonomous_s=section.autonomous_s,
         refine_s=section.refine_s,
         refinements_allowed=section.refinements_allowed,
@@ -130,8 +132,8 @@ class StationService:
                 self._drawn = None
         self._emergency_stop(STOP in pressed)
         self._publish(view)
+        self._bus.publish(topics.OPERATOR_INPUT, self._input())
         if self._page is not None:
-            self._bus.publish(topics.OPERATOR_INPUT, self._page.take_input())
             self._page.show(self._page_view(now_ns, view))
         self._ticks += 1
 
@@ -179,6 +181,13 @@ class StationService:
             drawn = tuple(float(self._random.uniform(a, b)) for a, b in zip(low, high, strict=True))
             self._drawn = Place(condition=drawn) if scene.condition else Place(object_position=vector3(drawn))
         return self._drawn
+
+    def _input(self) -> OperatorInput:
+        """What is held on the page, in whose name; a script is always there and holds nothing."""
+        held = self._page.take_input() if self._page is not None else OperatorInput(present=True)
+        return msgspec.structs.replace(
+            held, operator=self._settings.operator, holder=self._settings.holder, epoch=self._workflow.epoch
+        )
 
     def _emergency_stop(self, pressed: bool) -> None:
         if pressed:

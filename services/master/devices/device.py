@@ -21,20 +21,20 @@ class Moment:
         dt: since the step before [s].
         operator: the inputs of the operator's page.
         robot: what the robot is doing.
-        armed: somebody holds the authority.
+        commands: the operator's station holds the authority.
     """
 
     now_ns: int
     dt: float
     operator: OperatorInput | None
     robot: RobotState | None
-    armed: bool
+    commands: bool
 
     @property
     def refining(self) -> RobotState | None:
         """The robot's state, while it executes an episode that an operator may correct."""
         robot = self.robot
-        if robot is None or not self.armed or robot.mode is not Mode.REFINE or robot.phase not in _MOVING:
+        if robot is None or not self.commands or robot.mode is not Mode.REFINE or robot.phase not in _MOVING:
             return None
         return robot
 

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
 from protocol.keys import PUSH_KEYS, TURN_KEYS, Way
-from protocol.messages import Figure, Vector3
+from protocol.messages import Figure, Phase, RobotState, Vector3
 from services.master.devices.device import ZERO, Moment, Sample
 from services.process.config import Keyboard
 
@@ -86,7 +86,8 @@ class KeyboardMaster:
     A key counts only while an episode is being refined and the page's newest state is fresh and focused.
     Otherwise nobody is at the device: it disengages at once and both fall to zero within `LET_GO_S`. Whoever engages
     it takes over the correction as the robot applies it then: a held robot does not jump back because its operator, or
-    this process, was away.
+    this process, was away. While the robot does not execute yet, on its way to the start or held, the device follows
+    the correction that it applies; a key held meanwhile counts once all keys have been let go.
 
     Args:
         law: growth, decay and reach of both.
@@ -98,19 +99,20 @@ class KeyboardMaster:
         self._push = _Lever(PUSH_KEYS, Law(law.growth, law.decay, law.reach))
         self._turn = _Lever(TURN_KEYS, Law(law.turn_growth, law.turn_decay, law.turn_reach))
         self._engaged = False
+        self._neutral = False
 
     def step(self, moment: Moment) -> Sample:
         """Advance by the time that has passed."""
         robot, operator = moment.refining, moment.operator
         if robot is None or operator is None or not operator.focused:
             return self._let_go(moment.dt)
-        if not self._engaged:
-            self._push.take_over(robot.offset)
-            self._turn.take_over(robot.turn)
-        self._engaged = True
+        if not self._engaged or robot.phase is not Phase.EXECUTE:
+            return self._follow(robot)
+        self._neutral = self._neutral or not any(key in PUSH_KEYS or key in TURN_KEYS for key in operator.keys)
+        keys = operator.keys if self._neutral else ()
         before = self._push.value
-        self._push.hold(operator.keys, moment.dt)
-        self._turn.hold(operator.keys, moment.dt)
+        self._push.hold(keys, moment.dt)
+        self._turn.hold(keys, moment.dt)
         return self._sample(before, moment.dt)
 
     def figures(self) -> tuple[Figure, ...]:
@@ -119,6 +121,14 @@ class KeyboardMaster:
 
     def close(self) -> None:
         """There is no hardware to let go of."""
+
+    def _follow(self, robot: RobotState) -> Sample:
+        """Stand where the correction is that the robot applies, whatever is held."""
+        x, y, z = robot.offset
+        self._push.take_over((x / robot.master_gain, y / robot.master_gain, z / robot.master_gain))
+        self._turn.take_over(robot.turn)
+        self._engaged, self._neutral = True, False
+        return self._sample(self._push.value, 0.0)
 
     def _let_go(self, dt: float) -> Sample:
         self._engaged = False

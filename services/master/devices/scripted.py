@@ -140,7 +140,7 @@ class ScriptedMaster:
         seen = Seen(
             progress=robot.progress,
             robot=Pose(np.array(measured.position), np.array(measured.orientation)),
-            offset=np.array(robot.offset),
+            offset=np.array(robot.offset) / robot.master_gain,
             turn=np.array(robot.turn),
             stylus=self._loop.newest.stylus,
         )

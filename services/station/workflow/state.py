@@ -72,6 +72,7 @@ class Settings:
 
     Attributes:
         holder: this station's name, for the authority.
+        operator: the person at this station.
         autonomous_s: duration of an autonomous execution [s].
         refine_s: duration of an execution under correction [s].
         refinements_allowed: attempts at one update.
@@ -85,6 +86,7 @@ class Settings:
     """
 
     holder: str
+    operator: str = "operator"
     autonomous_s: float = 10.0
     refine_s: float = 20.0
     refinements_allowed: int = 10

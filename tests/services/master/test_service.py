@@ -16,15 +16,18 @@ REFINING = RobotState(measured=POSE, reference=POSE, phase=Phase.EXECUTE, mode=M
 PERIOD = 0.01
 
 
+GRANTED = AuthorityState(operator="ann", holder="station-a", epoch=7, expires_in=1.0)
+
+
 class Desk:
-    """A master with a keyboard, and whoever talks to it."""
+    """A master with a keyboard that belongs to Ann, and whoever talks to it."""
 
     def __init__(self):
         self.clock = ManualClock()
         network = MemoryNetwork(self.clock)
         self.others = network.bus()
         self.states = network.bus().subscribe(MASTER_STATE)
-        self.service = build(network.bus(), self.clock, Configuration())
+        self.service = build(network.bus(), self.clock, Configuration(operator="ann"))
         self.listen()
 
     def listen(self):
@@ -34,15 +37,17 @@ class Desk:
             assert self.states.latest() is None
             self.clock.advance(PERIOD)
 
-    def run(self, seconds, keys=("KeyQ",), page=True, robot=REFINING, holder="ada"):
+    def run(self, seconds, keys=("KeyQ",), page=True, robot=REFINING, authority=GRANTED, **said):
+        """Let time pass; `said` is what else stands in the page's input."""
+        named = {"operator": "ann", "holder": "station-a", "epoch": 7} | said
         for _ in range(round(seconds / PERIOD)):
             self.clock.advance(PERIOD)
             if page:
-                self.others.publish(OPERATOR_INPUT, OperatorInput(keys=keys, focused=True))
+                self.others.publish(OPERATOR_INPUT, OperatorInput(keys=keys, focused=True, **named))
             if robot is not None:
                 self.others.publish(ROBOT_STATE, robot)
-            if holder is not None:
-                self.others.publish(AUTHORITY_STATE, AuthorityState(holder=holder, epoch=7, expires_in=1.0))
+            if authority is not None:
+                self.others.publish(AUTHORITY_STATE, authority)
             self.service.step(self.clock.now_ns())
         return self.states.latest().message
 
@@ -50,25 +55,83 @@ class Desk:
 def test_it_publishes_at_the_topics_rate_though_nobody_is_there():
     desk = Desk()
     assert desk.service.rate_hz == MASTER_STATE.rate_hz
-    state = desk.run(0.1, holder=None, page=False)
+    state = desk.run(0.1, authority=None, page=False)
     assert (state.sequence, state.engaged, state.epoch, state.device) == (10, False, 0, "keyboard")
 
 
-def test_a_held_key_moves_the_device_and_the_epoch_stands_in_the_state():
-    state = Desk().run(1.0, keys=("KeyQ", "KeyG"))
+def test_a_held_key_moves_the_device_in_the_name_of_who_holds_it():
+    desk = Desk()
+    desk.run(0.1, keys=())
+    state = desk.run(1.0, keys=("KeyQ", "KeyG"))
     assert state.displacement == pytest.approx((0.12, 0.0, 0.0), abs=0.002)
     assert state.rotation == pytest.approx((0.0, -0.4, 0.0), abs=0.006)
     assert state.engaged
-    assert state.epoch == 7
+    assert (state.operator, state.holder, state.epoch) == ("ann", "station-a", 7)
 
 
-def test_nobody_with_authority_means_nobody_at_the_device():
-    assert not Desk().run(0.5, holder="").engaged
-    assert not Desk().run(0.5, holder=None).engaged
+@pytest.mark.parametrize(
+    "authority",
+    [
+        None,
+        AuthorityState(holder="", epoch=7, expires_in=0.0),
+        AuthorityState(holder="station-b", epoch=7, expires_in=1.0),
+        AuthorityState(holder="station-a", epoch=8, expires_in=1.0),
+        AuthorityState(holder="station-a", epoch=6, expires_in=1.0),
+    ],
+    ids=["unheard", "nobody", "another station", "a later epoch", "an earlier epoch"],
+)
+def test_under_an_epoch_that_the_robot_does_not_confirm_nobody_is_at_the_device(authority):
+    state = Desk().run(0.5, authority=authority)
+    assert (state.engaged, state.operator, state.holder, state.epoch) == (False, "", "", 0)
+    assert state.displacement == (0.0, 0.0, 0.0)
+
+
+def test_a_station_without_a_name_is_not_confirmed_by_a_robot_that_nobody_holds():
+    state = Desk().run(0.5, holder="", epoch=3, authority=AuthorityState(holder="", epoch=3, expires_in=0.0))
+    assert (state.engaged, state.epoch) == (False, 0)
+
+
+def test_the_authority_lost_in_the_middle_disengages_at_once():
+    desk = Desk()
+    desk.run(0.1, keys=())
+    assert desk.run(0.5).engaged
+    state = desk.run(0.01, authority=AuthorityState(holder="station-b", epoch=8, expires_in=1.0))
+    assert (state.engaged, state.epoch) == (False, 0)
+
+
+def test_it_follows_its_own_operator_whatever_other_stations_say():
+    desk = Desk()
+    desk.run(0.1, keys=())
+    for _ in range(20):
+        desk.run(0.01)
+        stranger = OperatorInput(keys=("KeyS",), focused=True, operator="bob", holder="station-a", epoch=7)
+        desk.others.publish(OPERATOR_INPUT, stranger)
+    state = desk.run(0.5)
+    assert state.displacement[0] > 0.05
+    assert state.displacement[1] == 0.0
+
+
+def test_of_one_operators_two_stations_it_follows_the_one_that_holds_the_authority():
+    desk = Desk()
+    desk.run(0.1, keys=())
+    for _ in range(50):
+        desk.run(0.01)
+        idle = OperatorInput(keys=(), focused=False, operator="ann", holder="station-z", epoch=0)
+        desk.others.publish(OPERATOR_INPUT, idle)
+    state = desk.run(0.01)
+    assert (state.engaged, state.holder) == (True, "station-a")
+
+
+def test_a_station_that_is_silent_for_its_stale_time_is_forgotten():
+    desk = Desk()
+    desk.run(0.5)
+    desk.run(OPERATOR_INPUT.stale_after_ns / 1e9 + 0.02, page=False)
+    assert not desk.run(0.01, page=False).engaged
 
 
 def test_the_page_gone_means_zero_within_the_stale_time_and_a_moment():
     desk = Desk()
+    desk.run(0.1, keys=())
     desk.run(1.0)
     stale = OPERATOR_INPUT.stale_after_ns / 1e9
     assert desk.run(stale, page=False).engaged
@@ -90,6 +153,7 @@ def test_without_hearing_the_robot_it_is_silent_so_that_the_robot_holds():
 
 def test_a_process_that_stood_still_does_not_make_up_for_it():
     desk = Desk()
+    desk.run(0.1, keys=())
     before = desk.run(0.5).displacement[0]
     desk.clock.advance(5.0)
     assert desk.run(0.01).displacement[0] - before <= 0.12 * 0.1 + 1e-9

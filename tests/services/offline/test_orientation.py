@@ -58,6 +58,8 @@ class Site:
     def tick(self):
         self.clock.advance(0.01)
         self.bus.publish(topics.AUTHORITY_RENEWAL, messages.AuthorityRenewal(holder="ann", epoch=self.epoch))
+        present = messages.OperatorInput(operator="operator", holder="ann", epoch=self.epoch, present=True)
+        self.bus.publish(topics.OPERATOR_INPUT, present)
         seen = messages.Pose(vector3(self.place), (1.0, 0.0, 0.0, 0.0))
         self.bus.publish(topics.OBJECT_POSE, messages.ObjectPose(pose=seen, tag=7))
         for service in self.services:

@@ -1,26 +1,33 @@
 import numpy as np
 import pytest
 
-from lfd import haptics
 from protocol.messages import (
     AuthorityState,
     ExecutionState,
     Mode,
     ObjectPose,
+    OperatorInput,
     Phase,
     Pose,
     Prediction,
     RobotState,
     SceneState,
 )
-from protocol.topics import AUTHORITY_STATE, EXECUTION, MASTER_STATE, OBJECT_POSE, PREDICTION, ROBOT_STATE, SCENE_STATE
+from protocol.topics import (
+    AUTHORITY_STATE,
+    EXECUTION,
+    MASTER_STATE,
+    OBJECT_POSE,
+    OPERATOR_INPUT,
+    PREDICTION,
+    ROBOT_STATE,
+    SCENE_STATE,
+)
 from services.bus.arrays import motion_to_wire, quaternion, to_wire, vector3
 from services.bus.memory import MemoryNetwork
-from services.master.haptics import HapticLoop, HapticThread
 from services.master.service import build
-from services.process.clock import ManualClock, SystemClock
+from services.process.clock import ManualClock
 from services.process.config import Configuration, MasterSection, Scripted
-from sim.person.stylus import Stylus, StylusState
 from sim.rotations import rotated, rotation_to
 from sim.tasks import DISHWASHER, PARTICLE
 
@@ -30,13 +37,6 @@ PERIOD = 0.01
 DURATION = 10.0
 POINTS = 75
 LEARNT, SAFE = (DISHWASHER.corridor(variant, OBJECT) for variant in DISHWASHER.variants)
-
-
-class NoHand:
-    rotation = None
-
-    def force(self, stylus):
-        return (0.0, 0.0, 0.0)
 
 
 def even(way):
@@ -87,6 +87,8 @@ class Site:
         return np.array([np.interp(self.progress, grid, column) for column in rows.T])
 
     def publish(self):
+        present = OperatorInput(operator="operator", holder="station", epoch=3, present=True)
+        self.bus.publish(OPERATOR_INPUT, present)
         pose = Pose(vector3(self.robot), quaternion(self.orientation))
         robot = RobotState(
             measured=pose,
@@ -101,7 +103,7 @@ class Site:
         self.bus.publish(ROBOT_STATE, robot)
 
     def publish_slowly(self):
-        self.bus.publish(AUTHORITY_STATE, AuthorityState(holder="ada", epoch=3, expires_in=1.0))
+        self.bus.publish(AUTHORITY_STATE, AuthorityState(holder="station", epoch=3, expires_in=1.0))
         motion = motion_to_wire(self.announced, self.orientations, self.duration)
         execution = ExecutionState(
             episode=self.episode,
@@ -151,49 +153,6 @@ class Site:
             self.offset = self.offset + gain * (displacement - self.offset)
             self.turn = self.turn + gain * (rotation - self.turn)
         return state
-
-
-def test_a_loop_without_a_hand_returns_to_neutral():
-    stylus = Stylus(state=StylusState(position=(0.1, 0.0, -0.1)))
-    loop = HapticLoop(stylus, NoHand(), haptics.STIFFNESS, haptics.DAMPING, start_ns=0)
-    for _ in range(3000):
-        rendered = loop.step(1e-3)
-    assert rendered.stylus.position == pytest.approx((0.0, 0.0, 0.0), abs=1e-4)
-
-
-def test_the_feedback_is_equation_14():
-    stylus = Stylus(state=StylusState(position=(0.1, 0.0, -0.1), velocity=(0.0, 0.5, 0.0)))
-    loop = HapticLoop(stylus, NoHand(), 50.0, 2.0, start_ns=0)
-    assert loop.newest.feedback == pytest.approx((-5.0, -1.0, 5.0))
-
-
-def test_a_loop_makes_one_step_a_millisecond_and_skips_a_long_gap():
-    stylus = Stylus(damping=0.0, state=StylusState(velocity=(0.1, 0.0, 0.0)))
-    loop = HapticLoop(stylus, NoHand(), 0.0, 0.0, start_ns=0)
-    loop.advance_to(10_400_000)
-    assert stylus.state.position[0] == pytest.approx(0.001)
-    loop.advance_to(10_900_000)
-    assert stylus.state.position[0] == pytest.approx(0.001)
-    loop.advance_to(11_000_000)
-    assert stylus.state.position[0] == pytest.approx(0.0011)
-    loop.advance_to(60_000_000_000)
-    assert stylus.state.position[0] == pytest.approx(0.0111)
-
-
-def test_a_thread_keeps_the_loop_going_and_stops():
-    clock = SystemClock()
-    loop = HapticLoop(Stylus(), NoHand(), 50.0, 2.0, clock.now_ns())
-    thread = HapticThread(loop, clock)
-    deadline = clock.now_ns() + 5_000_000_000
-    ticks = 0.0
-    while ticks < 50 and clock.now_ns() < deadline:
-        clock.sleep_until(clock.now_ns() + 10_000_000, stop=None)
-        ticks = {figure.name: figure.value for figure in thread.figures()}["haptic_ticks"]
-    thread.close()
-    after = {figure.name: figure.value for figure in thread.figures()}["haptic_ticks"]
-    clock.sleep_until(clock.now_ns() + 10_000_000, stop=None)
-    assert after >= 50
-    assert {figure.name: figure.value for figure in thread.figures()}["haptic_ticks"] == after
 
 
 @pytest.mark.sim

@@ -1,0 +1,63 @@
+"""Who sits at the device: the newest input of its operator, and whether the robot lets that one's station command."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from protocol.messages import AuthorityState, OperatorInput
+from protocol.topics import AUTHORITY_STATE, OPERATOR_INPUT
+from services.bus.bus import Bus, Received
+
+
+@dataclass(frozen=True)
+class Sitting:
+    """What the operator does at one moment.
+
+    Attributes:
+        operator: the newest input of the operator that counts; None where none is fresh.
+        commands: the robot says that this input's station holds the authority, under the epoch that stands in it.
+    """
+
+    operator: OperatorInput | None
+    commands: bool
+
+
+class Seat:
+    """Follows the inputs of one person, whatever other stations say.
+
+    The same person may have two stations open: the one that holds the authority goes before the other.
+
+    Args:
+        bus: to hear stations and robot.
+        operator: whose inputs count.
+    """
+
+    def __init__(self, bus: Bus, operator: str) -> None:
+        self._operator = operator
+        self._inputs = bus.subscribe(OPERATOR_INPUT)
+        self._authority = bus.subscribe(AUTHORITY_STATE)
+        self._stations: dict[str, Received[OperatorInput]] = {}
+
+    def look(self, now_ns: int) -> Sitting:
+        """Who sits there now."""
+        for received in self._inputs.take():
+            if received.message.operator == self._operator:
+                self._stations[received.message.holder] = received
+        limit = OPERATOR_INPUT.stale_after_ns
+        self._stations = {
+            holder: received
+            for holder, received in self._stations.items()
+            if limit is None or now_ns - received.received_ns <= limit
+        }
+        authority = self._authority.fresh(now_ns)
+        newest = sorted(self._stations.values(), key=lambda received: received.received_ns, reverse=True)
+        for received in newest:
+            if _confirms(authority, received.message):
+                return Sitting(received.message, commands=True)
+        return Sitting(newest[0].message if newest else None, commands=False)
+
+
+def _confirms(authority: AuthorityState | None, operator: OperatorInput) -> bool:
+    if authority is None or not authority.holder:
+        return False
+    return (authority.holder, authority.epoch) == (operator.holder, operator.epoch)
