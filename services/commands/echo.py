@@ -5,16 +5,31 @@ from __future__ import annotations
 import queue
 import sys
 import time
+from argparse import ArgumentParser, Namespace
 from typing import Any
 
 import msgpack
 
 from services.bus.zenoh import Passing, close_session, open_session, watch
-from services.process.exceptions import CommandFailed
+from services.commands.arguments import add_network, whole
+from services.commands.settings import configuration
 from services.process.runner import stop_on_signals
 
 LONG = 64
 """Bytes and lists longer than this are shown by their length."""
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """See `Action`."""
+    add_network(parser)
+    parser.add_argument("key", metavar="KEY", help="such as 'retouch/@v1/robot1/state/**'")
+    parser.add_argument("--count", type=whole(1), metavar="N", help="end after N messages")
+
+
+def run(arguments: Namespace) -> int:
+    """See `Action`."""
+    echo(configuration(arguments).connect, arguments.key, arguments.count)
+    return 0
 
 
 def decoded(payload: bytes) -> Any:
@@ -47,10 +62,7 @@ def echo(connect: str, key: str, count: int | None) -> None:
 
     Raises:
         BusError: there is no such network, or the key is no key expression.
-        CommandFailed: the count is not positive.
     """
-    if count is not None and count < 1:
-        raise CommandFailed(f"--count must be at least 1, not {count}")
     stop = stop_on_signals()
     passing: queue.Queue[Passing] = queue.Queue(maxsize=10_000)
     session = open_session(connect, timeout_s=5.0)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import argparse
 import os
+from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -17,6 +17,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, Task, TextCol
 
 from lfd.models.model import MovementModel
 from lfd.store.database import DemonstrationStore, Kind, StoredDemonstration
+from services.commands.arguments import add_debug, whole, within
 from services.model.learning import learn_all
 from services.model.skill import binding_of
 from services.offline.first_demonstrations import first_demonstrations
@@ -33,6 +34,60 @@ from sim.tasks.scene import ReachingScene
 
 _POSITION = 3  # dimension of the condition that a map is made of
 _SCENE = "dishwasher"
+
+_ABOUT = """\
+Executes a model's predictions under some hundred conditions (an object's position
+and a start pose each), simulated on all cores, and draws which succeeded, before
+the newest corrections and after them. A condition is unreachable, and does not
+count, where no motion can start, or where every prediction fails and the scene's
+own safe way does too: the map judges the model, not the scene.
+"""
+
+_EXAMPLES = """\
+examples:
+  retouch map --teach                         the dishwasher, before and after one correction
+  retouch map --teach --kind promp            the same with the thesis' own model
+  retouch map --database model.sqlite --before 3 --samples 400
+                                              a model of yours, without its last 3 updates and with them
+"""
+
+_WIDEST_M = 0.5
+"""Beyond it no scene has a start that the arm can take."""
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """See `Action`."""
+    parser.description, parser.epilog = _ABOUT, _EXAMPLES
+    model = parser.add_argument_group("the model")
+    model.add_argument("--kind", choices=("adaptive", "promp"), default="adaptive", help="promp: the thesis' own")
+    model.add_argument(
+        "--database", type=Path, metavar="FILE", help="that a model was taught into (default: first demonstrations)"
+    )
+    model.add_argument(
+        "--before", type=whole(1), metavar="N", help="newest updates that the earlier stage lacks (default: 1)"
+    )
+    model.add_argument("--teach", action="store_true", help="let the scripted operator correct it once first")
+    where = parser.add_argument_group("the conditions")
+    where.add_argument("--scene", metavar="S", help="dishwasher or table (default: the database's, or dishwasher)")
+    where.add_argument("--variant", metavar="V", help="of the scene (default: the one that was changed)")
+    many = where.add_mutually_exclusive_group()
+    many.add_argument("--grid", type=whole(1), metavar="N", default=16, help="about N times N, evenly (default: 16)")
+    many.add_argument("--samples", type=whole(1), metavar="N", help="N at random instead")
+    spread = within(0.0, _WIDEST_M, "metres")
+    where.add_argument(
+        "--spread", type=spread, metavar="M", default=0.05, help="of starts along each axis [m] (default: 0.05)"
+    )
+    where.add_argument("--seed", type=whole(0), metavar="N", default=0, help="of all that is random (default: 0)")
+    parser.add_argument("--out", type=Path, metavar="FILE.png", default=Path("map.png"), help="default: ./map.png")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write what became of each condition")
+    parser.add_argument("--jobs", type=whole(1), metavar="N", help="processes (default: one a core)")
+    add_debug(parser)
+
+
+def run(arguments: Namespace) -> int:
+    """See `Action`."""
+    draw_map(Request.from_arguments(arguments))
+    return 0
 
 
 @dataclass(frozen=True)
@@ -70,7 +125,7 @@ class Request:
     json: Path | None = None
 
     @classmethod
-    def from_arguments(cls, arguments: argparse.Namespace) -> Self:
+    def from_arguments(cls, arguments: Namespace) -> Self:
         """Of the command's flags."""
         return cls(**{name: getattr(arguments, name) for name in cls.__dataclass_fields__})
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import argparse
+from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,6 +11,8 @@ from typing import Self
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
 
+from services.commands.arguments import add_debug, whole
+from services.process.exit_codes import Exit
 from services.reproduction.analyses import ANALYSES
 from services.reproduction.analysis import Analysis, Holds
 from services.reproduction.exceptions import UnknownAnalysis
@@ -18,13 +20,36 @@ from services.reproduction.report import write_report
 from services.reproduction.store import Done, Failed, Outcome, Store, code_key
 from services.reproduction.work import carry_out
 
-EXIT_FAILED = 1
-
 _SAID = {
     Holds.YES: "[green]confirmed[/]",
     Holds.NO: "[red]not confirmed[/]",
     Holds.DIFFERS: "[yellow]differs[/]",
 }
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """See `Action`."""
+    parser.description = (
+        "Makes the thesis' analyses again, with its method and with the default model, and writes one HTML report.\n"
+        "What is done already is kept, and done again only where the code or the seed has changed."
+    )
+    parser.add_argument("names", nargs="*", metavar="NAME", help="of analyses (default: all)")
+    parser.add_argument("--list", action="store_true", help="name the analyses and end")
+    parser.add_argument(
+        "--out", type=Path, metavar="FOLDER", default=Path("reproduction"), help="default: ./reproduction"
+    )
+    parser.add_argument("--fresh", action="store_true", help="do again what is done already")
+    parser.add_argument("--jobs", type=whole(1), metavar="N", default=1, help="analyses at once (default: 1)")
+    parser.add_argument("--seed", type=whole(0), metavar="N", default=0, help="of all that is random (default: 0)")
+    add_debug(parser)
+
+
+def run(arguments: Namespace) -> int:
+    """See `Action`."""
+    if arguments.list:
+        show_list()
+        return 0
+    return reproduce(Request.from_arguments(arguments))
 
 
 @dataclass(frozen=True)
@@ -46,7 +71,7 @@ class Request:
     seed: int
 
     @classmethod
-    def from_arguments(cls, arguments: argparse.Namespace) -> Self:
+    def from_arguments(cls, arguments: Namespace) -> Self:
         """Of the command's flags."""
         return cls(tuple(arguments.names), arguments.out, arguments.fresh, arguments.jobs, arguments.seed)
 
@@ -86,7 +111,7 @@ def reproduce(request: Request, analyses: Sequence[Analysis] = ANALYSES) -> int:
     failed = sum(isinstance(outcome, Failed) for outcome in found)
     console.print(f"{len(found)} analyses: {len(found) - len(todo)} kept from before, {failed} failed")
     Console(highlight=False, soft_wrap=True).print(str(report.resolve()), markup=False)
-    return EXIT_FAILED if failed else 0
+    return Exit.CRASHED if failed else Exit.DONE
 
 
 def choose(names: Sequence[str], analyses: Sequence[Analysis]) -> list[Analysis]:

@@ -3,12 +3,27 @@
 from __future__ import annotations
 
 import logging
+from argparse import ArgumentParser, Namespace
 
 from services.bus.zenoh import close_session, open_router
+from services.commands.arguments import add_network
+from services.commands.settings import configuration as configured
 from services.process.config import Configuration
 from services.process.runner import stop_on_signals
 
 log = logging.getLogger(__name__)
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """See `Action`."""
+    add_network(parser)
+    parser.add_argument("--listen", metavar="ENDPOINT", help="default: tcp/127.0.0.1:7447")
+
+
+def run(arguments: Namespace) -> int:
+    """See `Action`."""
+    run_router(configured(arguments), arguments.connect)
+    return 0
 
 
 def run_router(configuration: Configuration, upstream: str | None = None) -> None:

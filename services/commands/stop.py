@@ -5,10 +5,13 @@ from __future__ import annotations
 import logging
 import os
 import time
+from argparse import ArgumentParser, Namespace
 
 from protocol import queries, topics
 from protocol.messages import EmergencyStop, SafetyState
 from services.bus.zenoh import ZenohBus, open_session
+from services.commands.arguments import add_network
+from services.commands.settings import configuration as configured
 from services.process.clock import SystemClock
 from services.process.config import Configuration
 from services.process.exceptions import CommandFailed
@@ -17,6 +20,18 @@ log = logging.getLogger(__name__)
 
 ANSWER_S = 3.0
 REPEAT_S = 1.0 / topics.EMERGENCY_STOP.rate_hz
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """See `Action`."""
+    add_network(parser)
+    parser.add_argument("--release", action="store_true", help="release the stop instead")
+
+
+def run(arguments: Namespace) -> int:
+    """See `Action`."""
+    (release if arguments.release else stop)(configured(arguments))
+    return 0
 
 
 def _bus(configuration: Configuration) -> ZenohBus:

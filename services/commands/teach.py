@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -16,6 +17,8 @@ from services.bus.arrays import motion_to_wire, vector3
 from services.bus.bus import Bus, Failed
 from services.bus.identity import new_number
 from services.bus.zenoh import connect
+from services.commands.arguments import add_network, add_scene, position, within
+from services.commands.settings import configuration as configured
 from services.commands.waypoint_file import read_waypoints
 from services.model.skill import binding_of
 from services.offline.first_demonstrations import first_demonstrations
@@ -23,7 +26,7 @@ from services.process.clock import SystemClock
 from services.process.config import Configuration
 from services.process.exceptions import CommandFailed
 from services.process.runner import stop_on_signals
-from sim.tasks import SCENES, AnyScene
+from sim.tasks import AnyScene
 from sim.tasks import scene as find_scene
 
 log = logging.getLogger(__name__)
@@ -34,16 +37,53 @@ ANSWER_S = 10.0
 MODEL_WITHIN_S = 60.0
 
 
-def prepare_all() -> None:
-    """Make and keep what every run needs: the simulated robot, and the first demonstrations of all scenes.
+TAUGHT_S = 10.0
+"""Duration of a motion through waypoints, unless told otherwise: the thesis' time of an autonomous execution."""
 
-    Raises:
-        ServiceError: no motion could be taught.
-        SimError: the robot's packages are not installed.
-    """
-    for scene in SCENES.values():
-        first_demonstrations(scene)
-    log.info("the simulated robot and %d scenes are ready", len(SCENES))
+LONGEST_S = 3600.0
+"""Duration of the longest motion that a message carries."""
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """See `Action`."""
+    parser.description = (
+        "Teaches an empty model its first demonstrations, or a model a motion through waypoints,\n"
+        "or takes back what it learnt last."
+    )
+    add_network(parser)
+    add_scene(parser)
+    parser.add_argument(
+        "--waypoints",
+        type=Path,
+        metavar="FILE",
+        help="CSV with the columns x,y,z,qw,qx,qy,qz: poses of the gripper in the base frame [m], at least three rows",
+    )
+    parser.add_argument(
+        "--object",
+        type=position,
+        metavar="X,Y,Z",
+        help="where the waypoints lead to, base frame [m]; write --object=-X,Y,Z where the first is negative",
+    )
+    parser.add_argument("--undo", action="store_true", help="take back what the model learnt last, and teach nothing")
+    seconds = within(0.0, LONGEST_S, "seconds", above=True)
+    parser.add_argument("--duration", type=seconds, metavar="S", help=f"of the motion [s] (default: {TAUGHT_S:g})")
+
+
+def run(arguments: Namespace) -> int:
+    """See `Action`."""
+    settings = configured(arguments)
+    given = [flag for flag in ("waypoints", "object", "duration") if getattr(arguments, flag) is not None]
+    if arguments.undo:
+        if given:
+            raise CommandFailed(f"--undo teaches nothing: leave out --{given[0]}, or --undo")
+        take_back(settings)
+    elif not given:
+        teach(settings)
+    elif not {"waypoints", "object"} <= set(given):
+        raise CommandFailed(f"--{given[0]} alone teaches nothing: give --waypoints FILE and --object X,Y,Z")
+    else:
+        teach_waypoints(settings, arguments.waypoints, arguments.object, arguments.duration or TAUGHT_S)
+    return 0
 
 
 def teach(configuration: Configuration) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from argparse import ArgumentParser, Namespace
 
 from rich.console import Console
 from rich.live import Live
@@ -13,10 +14,24 @@ from protocol.exceptions import ProtocolError
 from protocol.messages import Heartbeat
 from protocol.topics import HEARTBEAT, VERSION
 from services.bus.zenoh import Passing, close_session, open_session, watch
+from services.commands.arguments import add_network
+from services.commands.settings import configuration
 from services.process.clock import SystemClock
 from services.process.runner import stop_on_signals
 
 GONE_AFTER_S = 5.0
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """See `Action`."""
+    add_network(parser)
+    parser.add_argument("--once", action="store_true", help="print one table and end")
+
+
+def run(arguments: Namespace) -> int:
+    """See `Action`."""
+    top(configuration(arguments).connect, once=arguments.once)
+    return 0
 
 
 class Beats:

@@ -13,7 +13,7 @@ from multiprocessing.managers import SyncManager
 from queue import Empty, Queue
 from typing import TypeVar
 
-from services.process.worker import die_with_parent
+from services.process.lifeline import die_with_parent
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")

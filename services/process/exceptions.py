@@ -1,16 +1,35 @@
 """The services' failures; each becomes one line for the person who started the command.
 
 ServiceError
-├── ConfigurationError   a wrong key, type or value in a configuration file
-├── WaypointFileError    waypoints in a file that make no motion
-├── BusError             the network cannot be opened or used
-│   ├── EndpointInUse    another program listens there
-│   └── NameTaken        a process of this name is on the network already
-├── PortInUse            another program listens where a page should be served
-├── RoomMissing          a role whose packages are not installed
-├── FolderUnusable       a folder of the user's that cannot be made or written
-└── CommandFailed        a command ended without what it was started for
+├── ConfigurationError       a wrong key, type or value in a configuration file
+├── WaypointFileError        waypoints in a file that make no motion
+├── CommandFailed            a command ended without what it was started for
+├── EnvironmentFault         the machine or the network, not what a person wrote; exit code 3
+│   ├── RouterUnreachable    no router answers (a BusError too)
+│   ├── EndpointInUse        another program listens there (a BusError too)
+│   ├── NameTaken            a process of this name is on the network already (a BusError too)
+│   ├── PortInUse            another program listens where a page should be served
+│   ├── RoomMissing          a role whose packages are not installed
+│   ├── FolderUnusable       a folder of the user's that cannot be made or written
+│   ├── CannotWrite          a file that cannot be written: a full disk, no rights
+│   └── KeepsFailing         a process that ends again and again, for a reason that does not go away
+├── BusError                 the network cannot be opened or used
+├── NotFinite                an array from the wire that holds NaN or infinity (services.bus.arrays)
+├── Refusal                  a request that the robot will not carry out (services.robot.refusal)
+├── StartImpossible          a place where no motion can start (services.robot.starts)
+├── InverseFailed            the inverse kinematics found no step (services.robot.mechanism)
+├── Unreachable              a pose that the robot does not reach (services.robot.mechanism)
+├── Blocked                  something stands where the arm is to be put (services.robot.backends.backend)
+├── ViewerError              (services.viewer.exceptions)
+│   ├── WebFilesMissing      the Rerun SDK did not give its web viewer's files
+│   └── CannotReplay         a recording that cannot be opened
+└── StudyError               (services.reproduction.exceptions)
+    ├── UnknownAnalysis      a name that no analysis has
+    ├── CannotKeep           a folder that results cannot be kept in
+    └── NothingToMap         a model that cannot be mapped
 """
+
+from __future__ import annotations
 
 from pathlib import Path
 
@@ -37,12 +56,36 @@ class WaypointFileError(ServiceError):
         super().__init__(f"waypoints {path}: {reason}")
 
 
+class EnvironmentFault(ServiceError):
+    """The machine or the network does not give what is needed.
+
+    Attributes:
+        passes: whether it may be gone when the command is started again, without anybody doing anything.
+    """
+
+    passes = False
+
+
 class BusError(ServiceError):
     """The network cannot be opened or used."""
 
 
-class EndpointInUse(BusError):
+class RouterUnreachable(BusError, EnvironmentFault):
+    """No router answered."""
+
+    passes = True
+
+    def __init__(self, endpoint: str, within_s: float) -> None:
+        self.endpoint = endpoint
+        super().__init__(
+            f"no router answers at {endpoint} after {within_s:g} s: start one there, or give another with --connect"
+        )
+
+
+class EndpointInUse(BusError, EnvironmentFault):
     """Nothing can listen at the endpoint."""
+
+    passes = True
 
     def __init__(self, endpoint: str) -> None:
         self.endpoint = endpoint
@@ -52,8 +95,10 @@ class EndpointInUse(BusError):
         )
 
 
-class NameTaken(BusError):
+class NameTaken(BusError, EnvironmentFault):
     """Two processes of one robot may not have the same name."""
+
+    passes = True
 
     def __init__(self, robot: str, process: str) -> None:
         self.robot = robot
@@ -63,8 +108,10 @@ class NameTaken(BusError):
         )
 
 
-class PortInUse(ServiceError):
+class PortInUse(EnvironmentFault):
     """Nothing can be served there."""
+
+    passes = True
 
     def __init__(self, what: str, host: str, port: int, setting: str, reason: str) -> None:
         self.host = host
@@ -76,7 +123,7 @@ class PortInUse(ServiceError):
         )
 
 
-class RoomMissing(ServiceError):
+class RoomMissing(EnvironmentFault):
     """A role was started whose packages are not installed."""
 
     def __init__(self, role: str, module: str) -> None:
@@ -85,7 +132,7 @@ class RoomMissing(ServiceError):
         super().__init__(f"the {role} needs the package {module!r}: install retouch[{role}]")
 
 
-class FolderUnusable(ServiceError):
+class FolderUnusable(EnvironmentFault):
     """A folder where the user's files belong cannot be made or written."""
 
     def __init__(self, folder: Path, variable: str, reason: str) -> None:
@@ -93,6 +140,25 @@ class FolderUnusable(ServiceError):
         self.variable = variable
         self.reason = reason
         super().__init__(f"cannot use the folder {folder}: {reason.lower()}; set {variable} to one that can be written")
+
+
+class CannotWrite(EnvironmentFault):
+    """A file that cannot be read or written, for a reason that lies in the machine."""
+
+    def __init__(self, path: Path | str, reason: str) -> None:
+        self.path = path
+        self.reason = reason
+        super().__init__(f"cannot use {path}: {reason.lower()}; make room or rights there, or name another place")
+
+
+class KeepsFailing(EnvironmentFault):
+    """A process was started again and again, and ended each time."""
+
+    def __init__(self, process: str, times: int, reason: str) -> None:
+        self.process = process
+        self.times = times
+        self.reason = reason
+        super().__init__(f"{process} ended {times} times in a row: {reason}; the whole log is in the run's folder")
 
 
 class CommandFailed(ServiceError):

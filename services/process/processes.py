@@ -23,13 +23,13 @@ class Process:
 
 
 PROCESSES: tuple[Process, ...] = (
-    Process("robot", "services.robot.service", "own the arm: execute, correct, judge, keep safe"),
-    Process("camera", "services.camera.service", "draw the head and wrist pictures", nice=5),
-    Process("perception", "services.perception.service", "find the object in the pictures", nice=5),
-    Process("model", "services.model.service", "own the learnt model and its database"),
-    Process("master", "services.master.service", "own the operator's input device"),
-    Process("viewer", "services.viewer.service", "show and record with Rerun", nice=5),
-    Process("station", "services.station.service", "serve the operator's page, run the teaching workflow"),
+    Process("robot", "services.robot.service", "the process that owns the arm: executes, corrects, judges, keeps safe"),
+    Process("camera", "services.camera.service", "the process that draws the head and wrist pictures", nice=5),
+    Process("perception", "services.perception.service", "the process that finds the object in the pictures", nice=5),
+    Process("model", "services.model.service", "the process that owns the learnt model and its database"),
+    Process("master", "services.master.service", "the process that owns the operator's input device"),
+    Process("viewer", "services.viewer.service", "the process that shows and records with Rerun", nice=5),
+    Process("station", "services.station.service", "the process that serves the operator's page and runs the teaching"),
 )
 
 PROCESS_NAMES = tuple(process.name for process in PROCESSES)

@@ -95,7 +95,7 @@ def _quantile(samples_ns: deque[int], q: float) -> float:
 
 
 def stop_on_signals() -> threading.Event:
-    """An event that SIGTERM and SIGINT set."""
+    """An event that SIGTERM and SIGINT set, and SIGHUP: the terminal is gone (unless started to outlive it)."""
     stop = threading.Event()
 
     def set_stop(number: int, frame: FrameType | None) -> None:
@@ -104,6 +104,8 @@ def stop_on_signals() -> threading.Event:
 
     signal.signal(signal.SIGTERM, set_stop)
     signal.signal(signal.SIGINT, set_stop)
+    if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
+        signal.signal(signal.SIGHUP, set_stop)
     return stop
 
 

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import ctypes
 import importlib
 import logging
 import os
-import signal
 from typing import cast
 
 from services.bus.bus import Bus
@@ -18,19 +16,6 @@ from services.process.processes import Process
 from services.process.runner import Service, run, stop_on_signals
 
 log = logging.getLogger(__name__)
-
-_PR_SET_PDEATHSIG = 1
-
-
-def die_with_parent(supervisor: int) -> None:
-    """Ask the kernel (Linux) for a SIGTERM when the supervisor dies, so that no process is left behind.
-
-    Args:
-        supervisor: its process id; where it has died already, nobody would send the signal.
-    """
-    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
-    if os.getppid() != supervisor:
-        os.kill(os.getpid(), signal.SIGTERM)
 
 
 def run_process(process: Process, configuration: Configuration) -> None:

@@ -16,7 +16,7 @@ from typing import Protocol
 from threadpoolctl import threadpool_limits
 
 from services.process.clock import SystemClock
-from services.process.worker import die_with_parent
+from services.process.lifeline import die_with_parent
 from services.reproduction.analysis import Analysis, Context
 from services.reproduction.store import Done, Failed, Outcome, Store
 

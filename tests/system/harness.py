@@ -193,8 +193,8 @@ def _command_name(process):
         arguments = process.cmdline()
     except psutil.Error:
         return ""
-    after = arguments[arguments.index("services") + 1 :] if "services" in arguments else []
-    return next((argument for argument in after if argument in EVERYBODY), "")
+    after = next((i for i, argument in enumerate(arguments) if argument.endswith("services/__main__.py")), None)
+    return next((argument for argument in arguments[after:] if argument in EVERYBODY), "") if after else ""
 
 
 class Witness:

@@ -9,7 +9,7 @@ from typing import Any
 
 import zenoh
 
-from services.process.exceptions import BusError, EndpointInUse
+from services.process.exceptions import BusError, EndpointInUse, RouterUnreachable
 
 
 def _configuration(mode: str, connect: str | None, listen: str | None) -> zenoh.Config:
@@ -66,7 +66,7 @@ def open_session(connect: str, timeout_s: float) -> zenoh.Session:
     thread.start()
     thread.join(timeout_s)
     if not opened:
-        raise BusError(f"no router answers at {connect} after {timeout_s:g} s: start one there, or give --connect")
+        raise RouterUnreachable(connect, timeout_s)
     if isinstance(opened[0], zenoh.ZError):
         raise BusError(f"cannot connect to {connect}: {reason(opened[0])}")
     return opened[0]

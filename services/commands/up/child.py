@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import os
 import subprocess
-import sys
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 
-EXIT_BAD_INPUT = 2
-"""A process that ends with this code said why in its last line; starting it again would not help."""
-
-BACK_OFF_S = (0.2, 0.5, 1.0, 2.0, 5.0)
-STEADY_AFTER_S = 10.0
+from services.commands.up.retries import End, Retries
+from services.process.exit_codes import Exit
+from services.process.isolation import retouch_command
 
 _ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 """Several processes share few cores: the linear algebra in each gets one."""
@@ -39,20 +36,25 @@ class Child:
 
     Args:
         job: what to run.
-        say: called with (name, line) for every line that it logs, on a thread of its own.
+        say: called with (name, line) for every line that it logs, on a thread of its own; must not wait.
+
+    Attributes:
+        over: why it is not started again, where that is so; the run ends with it.
     """
 
     def __init__(self, job: Job, say: Callable[[str, str], None]) -> None:
         self.job = job
         self.restarts = 0
         self.last_line = ""
+        self.exit_code: int | None = None
+        self.over: End | None = None
         self._say = say
+        self._retries = Retries(job.name)
+        self._told: set[str] = set()
         self._process: subprocess.Popen[str] | None = None
         self._reader: threading.Thread | None = None
         self._started_ns = 0
         self._due_ns: int | None = 0
-        self._failures = 0
-        self.exit_code: int | None = None
 
     @property
     def pid(self) -> int | None:
@@ -63,11 +65,6 @@ class Child:
     def alive(self) -> bool:
         """Whether a process of the job lives now."""
         return self._process is not None
-
-    @property
-    def gave_up(self) -> bool:
-        """It ended for a reason that a restart does not cure."""
-        return self.exit_code == EXIT_BAD_INPUT
 
     def poll(self, now_ns: int) -> None:
         """Start what is due, notice what has died."""
@@ -81,15 +78,15 @@ class Child:
         if self._reader is not None:
             self._reader.join(timeout=1.0)
         self._process, self.exit_code, self._due_ns = None, code, None
-        if code == EXIT_BAD_INPUT or (code == 0 and not self.job.restart):
+        if code == Exit.DONE and not self.job.restart:
             return
-        steady = now_ns - self._started_ns > STEADY_AFTER_S * 1e9
-        self._failures = 1 if steady else self._failures + 1
-        delay = BACK_OFF_S[min(self._failures, len(BACK_OFF_S)) - 1]
-        self._due_ns = now_ns + int(delay * 1e9)
+        judged = self._retries.ended(code, (now_ns - self._started_ns) / 1e9, self.last_line)
+        if isinstance(judged, End):
+            self.over = judged
+            return
+        self._due_ns = now_ns + round(judged.delay_s * 1e9)
         self.restarts += 1
-        ending = f"was killed by signal {-code}" if code < 0 else f"ended with code {code}"
-        self._say(self.job.name, f"{ending}; starts again in {delay:g} s")
+        self._tell(judged.line)
 
     def terminate(self) -> None:
         """Ask it to stop."""
@@ -112,13 +109,15 @@ class Child:
     def _start(self, now_ns: int) -> None:
         self._started_ns, self.exit_code = now_ns, None
         self._process = subprocess.Popen(
-            [sys.executable, "-m", "services", "--supervised", str(os.getpid()), *self.job.arguments],
+            retouch_command(("--supervised", str(os.getpid()), *self.job.arguments)),
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
-            text=True,
+            encoding="utf-8",
             errors="replace",
-            env={**os.environ, **_ONE_THREAD, "PYTHONUNBUFFERED": "1"},
+            env={**os.environ, **_ONE_THREAD},
+            # What a terminal sends to all of its processes reaches the supervisor alone, which stops them in order.
+            start_new_session=True,
         )
         self._reader = threading.Thread(target=self._forward, args=(self._process,), daemon=True)
         self._reader.start()
@@ -130,4 +129,12 @@ class Child:
                 text = line.rstrip()
                 if text:
                     self.last_line = text
-                    self._say(self.job.name, text)
+                    self._tell(text)
+
+    def _tell(self, line: str) -> None:
+        """Say a line; what it fails by, each time that it is tried again, is said once."""
+        if line.startswith(("retouch: ", "tries again")):
+            if line in self._told:
+                return
+            self._told.add(line)
+        self._say(self.job.name, line)

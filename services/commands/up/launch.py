@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-import argparse
-import threading
+import contextlib
+import os
+import sys
 import time
+from argparse import Namespace
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -14,13 +16,19 @@ import msgspec
 from rich.console import Console
 
 from services.commands.up.child import Child, Job
+from services.commands.up.network import Page
 from services.commands.up.supervisor import ROUTER, Supervisor
+from services.commands.up.voice import Voice
 from services.process.config import Configuration, save
-from services.process.exceptions import CommandFailed
+from services.process.exceptions import CommandFailed, FolderUnusable
+from services.process.exit_codes import Exit
 from services.process.processes import PROCESS_NAMES
 from services.process.runner import stop_on_signals
 
 TEACHER = "teach"
+
+FOLDER_SETTING = "[viewer] folder"
+"""Where the folders of runs are to be, in the configuration."""
 
 
 @dataclass(frozen=True)
@@ -34,6 +42,7 @@ class Launch:
         once: end when the loop has closed.
         fresh: start from an empty model, kept in the run's folder.
         json: where to write the report.
+        page: an operator's page belongs to it.
         browser: open the page.
     """
 
@@ -43,10 +52,11 @@ class Launch:
     once: bool = False
     fresh: bool = False
     json: Path | None = None
+    page: bool = True
     browser: bool = True
 
     @classmethod
-    def from_arguments(cls, arguments: argparse.Namespace) -> Self:
+    def from_arguments(cls, arguments: Namespace) -> Self:
         """From the command line.
 
         Raises:
@@ -60,6 +70,7 @@ class Launch:
             raise CommandFailed(f"--json: the folder {arguments.json.parent} does not exist")
         if arguments.json is not None and arguments.json.is_dir():
             raise CommandFailed(f"--json: {arguments.json} is a folder; name a file in it")
+        page = not arguments.headless and "station" in names
         return cls(
             processes=names,
             router=arguments.connect is None,
@@ -67,28 +78,9 @@ class Launch:
             once=arguments.once,
             fresh=arguments.fresh,
             json=arguments.json,
-            browser=not arguments.headless and not arguments.no_browser and "station" in names,
+            page=page,
+            browser=page and not arguments.no_browser,
         )
-
-
-class Voice:
-    """Prints the processes' lines with their name in front, and keeps them in the run's log."""
-
-    def __init__(self, console: Console, log: Path) -> None:
-        self._console = console
-        self._log = log.open("a", encoding="utf-8")
-        self._lock = threading.Lock()
-
-    def say(self, name: str, line: str) -> None:
-        """One line of a process."""
-        with self._lock:
-            self._log.write(f"{datetime.now(UTC):%H:%M:%S.%f} {name}: {line}\n")
-            self._log.flush()
-            self._console.print(f"{name:>10} | {line}", markup=False, highlight=False, soft_wrap=True)
-
-    def close(self) -> None:
-        """Close the log."""
-        self._log.close()
 
 
 def launch(configuration: Configuration, options: Launch) -> int:
@@ -102,26 +94,35 @@ def launch(configuration: Configuration, options: Launch) -> int:
     folder = _run_folder(Path(configuration.viewer.folder))
     configuration = _for_run(configuration, folder, options)
     resolved = folder / "configuration.json"
-    save(configuration, resolved)
-    console = Console(stderr=False)
-    voice = Voice(console, folder / "log.txt")
+    # A stream of its own: a terminal that takes no more keeps nobody else from writing.
+    console = Console(file=os.fdopen(os.dup(sys.stdout.fileno()), "w", 1, sys.stdout.encoding, "replace"))
+    try:
+        save(configuration, resolved)
+        voice = Voice(console, folder / "log.txt", live=console.is_terminal and not options.headless)
+    except OSError as error:
+        raise FolderUnusable(folder, FOLDER_SETTING, error.strerror or str(error)) from None
+    voice.say("retouch", f"the run's folder is {folder}")
     children = [Child(job, voice.say) for job in _jobs(options, resolved)]
     supervisor = Supervisor(
         configuration,
         children,
-        voice.say,
+        voice,
         started=started,
         report=options.json,
         ends=options.once or options.headless,
-        interrupted=1 if options.once else 0,
-        browser=options.browser,
+        page=Page(configuration.station, opens=options.browser) if options.page else None,
     )
     try:
-        code = supervisor.run(stop, console, table=console.is_terminal and not options.headless)
+        end = supervisor.run(stop)
     finally:
         supervisor.stop()
         voice.close()
-    return code
+    if end is None:
+        return Exit.INTERRUPTED if options.once else Exit.DONE
+    if end.line:
+        with contextlib.suppress(OSError):
+            sys.stderr.write(f"retouch: {end.line}\n")
+    return end.code
 
 
 def _run_folder(parent: Path) -> Path:
@@ -133,7 +134,7 @@ def _run_folder(parent: Path) -> Path:
         except FileExistsError:
             continue
         except OSError as error:
-            raise CommandFailed(f"cannot make the folder {folder} for this run: {error.strerror}") from None
+            raise FolderUnusable(folder, FOLDER_SETTING, error.strerror or str(error)) from None
         return folder.resolve()
     raise CommandFailed(f"cannot make a folder for this run in {parent}")
 

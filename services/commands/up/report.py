@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 import msgspec
 
-from protocol.messages import Attempt, Mode, TeachingState, Vector3
+from protocol.messages import Attempt, Mode, Vector3
+from services.process.exceptions import CannotWrite
 from services.process.files import write_whole
 
 
@@ -54,7 +56,7 @@ class Report(msgspec.Struct, frozen=True):
     first_motion_s: float
 
 
-def attempt_reports(teaching: TeachingState | None) -> list[AttemptReport]:
+def attempt_reports(attempts: Iterable[Attempt]) -> list[AttemptReport]:
     """The attempts of a run, as they go into the report."""
     return [
         AttemptReport(
@@ -68,13 +70,20 @@ def attempt_reports(teaching: TeachingState | None) -> list[AttemptReport]:
             duration_s=a.duration_s,
             condition=a.condition,
         )
-        for a in (teaching.attempts if teaching is not None else ())
+        for a in attempts
     ]
 
 
 def write(report: Report, path: Path) -> None:
-    """Write the report as JSON, whole or not at all."""
-    write_whole(path, msgspec.json.format(msgspec.json.encode(report)) + b"\n")
+    """Write the report as JSON, whole or not at all.
+
+    Raises:
+        CannotWrite: the disk is full, or its folder is gone or read-only.
+    """
+    try:
+        write_whole(path, msgspec.json.format(msgspec.json.encode(report)) + b"\n")
+    except OSError as error:
+        raise CannotWrite(path, error.strerror or str(error)) from None
 
 
 def attempt_line(number: int, attempt: Attempt) -> str:

@@ -2,7 +2,8 @@
 
 import pytest
 
-from services.cli import configuration, parser
+from services.cli import parser
+from services.commands.settings import configuration
 from services.process.config import Configuration, Keyboard, Scripted, load, save
 from services.process.exceptions import ConfigurationError
 from sim.exceptions import UnknownVariant

@@ -6,7 +6,9 @@ import time
 
 import pytest
 
-from services.commands.up.child import BACK_OFF_S, EXIT_BAD_INPUT, STEADY_AFTER_S, Child, Job
+from services.commands.up.child import Child, Job
+from services.commands.up.retries import BACK_OFF_S, STEADY_AFTER_S
+from services.process.exit_codes import Exit
 
 START_NS = 10**9
 WITHIN_S = 10.0
@@ -88,8 +90,8 @@ def test_one_that_cannot_start_says_why_and_is_left_alone(child_of, said):
     child = child_of("frobnicate")
     child.poll(START_NS)
     gone(child, START_NS)
-    assert child.gave_up
-    assert child.exit_code == EXIT_BAD_INPUT
+    assert child.over.code == Exit.BAD_INPUT
+    assert "frobnicate" in child.over.line
     assert "frobnicate" in child.last_line
     assert said.lines == [("worker", child.last_line)]
     child.poll(START_NS + 10**12)
@@ -102,12 +104,12 @@ def test_a_task_is_done_when_it_ends_with_0_but_not_when_it_is_killed(child_of):
     task = child_of("topics", restart=False)
     task.poll(START_NS)
     killed(task, START_NS)
-    assert not task.gave_up
+    assert task.over is None
     now_ns = START_NS + round(BACK_OFF_S[0] * 1e9)
     task.poll(now_ns)
     gone(task, now_ns)
     assert task.exit_code == 0
-    assert not task.gave_up
+    assert task.over is None
     task.poll(now_ns + 10**12)
     assert not task.alive
     assert task.restarts == 1

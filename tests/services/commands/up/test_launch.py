@@ -4,7 +4,8 @@ import re
 
 import pytest
 
-from services.cli import configuration, parser, reachable
+from services.cli import parser
+from services.commands.settings import configuration, reachable
 from services.commands.up.launch import Launch
 from services.process.config import Keyboard, Scripted
 from services.process.exceptions import CommandFailed

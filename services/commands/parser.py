@@ -1,0 +1,45 @@
+"""A parser that says what is wrong in one line, and knows a command's flags only where the command is meant."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace, RawDescriptionHelpFormatter
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any, NoReturn
+
+from services.process.exit_codes import Exit
+
+
+class Parser(ArgumentParser):
+    """See `ArgumentParser`; help keeps the lines that it was written in.
+
+    Args:
+        fill: adds the arguments, when something is to be parsed or told.
+
+    Attributes:
+        about_later: makes the last lines of the help, when it is asked for.
+    """
+
+    def __init__(self, *, fill: Callable[[ArgumentParser], None] | None = None, **settings: Any) -> None:
+        super().__init__(formatter_class=partial(RawDescriptionHelpFormatter, max_help_position=28), **settings)
+        self.about_later: Callable[[], str] | None = None
+        self._fill = fill
+
+    def parse_known_args(  # type: ignore[override]  # of the base's overloads the one that argparse itself calls
+        self, args: Sequence[str] | None = None, namespace: Namespace | None = None
+    ) -> tuple[Namespace, list[str]]:
+        """As of any parser, its arguments added first."""
+        if self._fill is not None:
+            fill, self._fill = self._fill, None
+            fill(self)
+        return super().parse_known_args(args, namespace)
+
+    def format_help(self) -> str:
+        """As of any parser, with the last lines."""
+        if self.about_later is not None:
+            self.epilog = self.about_later()
+        return super().format_help()
+
+    def error(self, message: str) -> NoReturn:
+        """End with one line instead of the usage."""
+        self.exit(Exit.BAD_INPUT, f"{self.prog}: {' '.join(message.split())}; see '{self.prog} --help'\n")

@@ -1,0 +1,50 @@
+"""The configuration that a command's flags make."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+
+import msgspec
+
+from protocol.topics import checked_name
+from services.process.config import Configuration, Scripted, load
+
+_FLAGS = {"robot": "name", "operator": "operator", "connect": "connect", "listen": "listen", "seed": "seed"}
+"""Flag to the key that it stands for."""
+
+_STATION_FLAGS = {"headless": "scripted", "once": "once", "variant": "variant"}
+"""The same, of the station's section."""
+
+
+def configuration(arguments: Namespace) -> Configuration:
+    """The configuration file, where one was given, with the flags on top.
+
+    Raises:
+        ConfigurationError: the file cannot be used.
+        ProtocolError: the robot's or operator's name cannot stand in a message.
+        SimError: the scene has no such variant.
+    """
+    given = {flag: value for flag, value in vars(arguments).items() if value is not None}
+    result = load(arguments.config) if "config" in given else Configuration()
+    changes: dict[str, object] = {key: given[flag] for flag, key in _FLAGS.items() if flag in given}
+    if "listen" in given and "connect" not in given:
+        changes["connect"] = reachable(given["listen"])
+    if "scene" in given:
+        changes["robot"] = msgspec.structs.replace(result.robot, scene=given["scene"])
+    if given.get("headless"):
+        changes["master"] = msgspec.structs.replace(result.master, device=Scripted())
+    station = {key: given[flag] for flag, key in _STATION_FLAGS.items() if flag in given}
+    result = msgspec.structs.replace(result, station=msgspec.structs.replace(result.station, **station), **changes)
+    if result.station.variant:
+        # Imported here: few name a variant, and only they need the scenes.
+        from sim.tasks import scene  # noqa: PLC0415
+
+        scene(result.robot.scene).check(result.station.variant)
+    checked_name(result.name)
+    checked_name(result.operator)
+    return result
+
+
+def reachable(listen: str) -> str:
+    """The endpoint by which this machine reaches its own router that listens on all addresses."""
+    return listen.replace("/0.0.0.0:", "/127.0.0.1:").replace("/[::]:", "/[::1]:")

@@ -1,0 +1,119 @@
+"""What a supervisor hears of its robot's network, and what it tells people of it."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+import threading
+import time
+import webbrowser
+from collections.abc import Callable
+
+from protocol import topics
+from protocol.messages import Attempt, Heartbeat, Phase, TeachingState
+from services.bus.bus import Subscription
+from services.bus.zenoh import ZenohBus
+from services.commands.up.report import attempt_line
+from services.process.config import StationSection
+
+Say = Callable[[str, str], None]
+"""Prints a line under a name."""
+
+_EVERYWHERE = {"0.0.0.0": "127.0.0.1", "::": "::1"}  # told, not listened on
+
+
+class Watch:
+    """What the supervisor hears of the network.
+
+    Args:
+        bus: a session of its own.
+    """
+
+    def __init__(self, bus: ZenohBus) -> None:
+        self._bus = bus
+        self.teaching = bus.subscribe(topics.TEACHING_STATE)
+        self.robot = bus.subscribe(topics.ROBOT_STATE)
+        self.recording = bus.subscribe(topics.RECORDING)
+        self._heartbeats: Subscription[Heartbeat] = bus.subscribe(topics.HEARTBEAT)
+        self.beats: dict[str, Heartbeat] = {}
+
+    def update(self) -> None:
+        """Take what has come."""
+        for received in self._heartbeats.take():
+            self.beats[received.message.process] = received.message
+
+    def teaching_state(self) -> TeachingState | None:
+        """The newest state of the workflow."""
+        received = self.teaching.latest()
+        return received.message if received is not None else None
+
+    def moved(self) -> bool:
+        """Whether the robot is in motion."""
+        received = self.robot.latest()
+        return received is not None and received.message.phase in (Phase.RAMP, Phase.EXECUTE)
+
+    def close(self) -> None:
+        """Leave the network."""
+        self._bus.close()
+
+
+class Narrator:
+    """Tells a person what happens, each thing once.
+
+    Args:
+        say: prints a line.
+        started: when the command began, monotonic [s].
+
+    Attributes:
+        first_motion_s: from the start to the robot's first motion [s]; negative where it never moved.
+        attempts: every episode of the run by its number; the network tells of the newest only.
+    """
+
+    def __init__(self, say: Say, started: float) -> None:
+        self.first_motion_s = -1.0
+        self.attempts: dict[int, Attempt] = {}
+        self._say = say
+        self._started = started
+        self._phase = ""
+
+    def tell(self, watch: Watch) -> None:
+        """What is new."""
+        if self.first_motion_s < 0.0 and watch.moved():
+            self.first_motion_s = time.monotonic() - self._started
+            self._say("retouch", f"first motion after {self.first_motion_s:.1f} s")
+        teaching = watch.teaching_state()
+        if teaching is None:
+            return
+        if teaching.phase != self._phase:
+            self._phase = teaching.phase
+            self._say("teaching", teaching.text)
+        for place, attempt in enumerate(teaching.attempts, 1):
+            number = attempt.number or place
+            if number not in self.attempts:
+                self.attempts[number] = attempt
+                self._say("teaching", attempt_line(number, attempt))
+
+
+class Page:
+    """The operator's page, told and opened once it is there.
+
+    Args:
+        section: says where it is served.
+        opens: in a browser of this machine, where there is one.
+    """
+
+    def __init__(self, section: StationSection, *, opens: bool) -> None:
+        host = _EVERYWHERE.get(section.host, section.host)
+        self.url = f"http://{f'[{host}]' if ':' in host else host}:{section.port}/"
+        self._opens = opens
+        self._told = False
+
+    def tell(self, say: Say) -> None:
+        """Where it is, and what it waits for."""
+        if self._told:
+            return
+        self._told = True
+        say("retouch", f"the operator's page is {self.url}; the robot stands until somebody presses a button there")
+        if self._opens and (shutil.which("xdg-open") or sys.platform == "darwin"):
+            # On a thread of its own: some browsers return when they are closed.
+            threading.Thread(target=webbrowser.open, args=(self.url,), daemon=True).start()

@@ -1,0 +1,103 @@
+"""The command line: commands as data, one line for what is wrong, an exit code for its cause."""
+
+import errno
+import subprocess
+import sys
+from dataclasses import replace
+
+import pytest
+
+from services import cli
+from services.commands.command import Command
+from services.commands.table import COMMANDS
+from services.process.exceptions import CommandFailed, PortInUse, RoomMissing
+from services.process.exit_codes import Exit
+from services.process.isolation import retouch_command
+from sim.exceptions import DrawingLibraryMissing, UnknownScene
+
+SLOW = ("rich", "msgspec.toml", "numpy", "zenoh", "scipy", "mujoco")
+
+
+@pytest.fixture
+def failing(monkeypatch):
+    """A function that runs a command which fails by an error; the exit code."""
+
+    class Failing:
+        def __init__(self, error):
+            self.error = error
+
+        def add_arguments(self, parser):
+            parser.add_argument("--debug", action="store_true")
+
+        def run(self, arguments):
+            raise self.error
+
+    def run(error, *arguments):
+        monkeypatch.setattr(Command, "action", lambda _: Failing(error))
+        monkeypatch.setattr(cli, "COMMANDS", (replace(COMMANDS[0], name="fail"),))
+        monkeypatch.setattr(cli, "die_with_parent", lambda _: None)
+        return cli.main([*arguments, "fail"])
+
+    return run
+
+
+PORT = PortInUse("the page", "127.0.0.1", 80, "[station] port", "in use")
+
+
+@pytest.mark.parametrize(
+    ("error", "code"),
+    [
+        (CommandFailed("no"), Exit.BAD_INPUT),
+        (UnknownScene("kitchen", ("table",)), Exit.BAD_INPUT),
+        (PORT, Exit.ENVIRONMENT),
+        (RoomMissing("robot", "mujoco"), Exit.ENVIRONMENT),
+        (DrawingLibraryMissing("no"), Exit.ENVIRONMENT),
+        (OSError(errno.ENOSPC, "No space left on device", "out.json"), Exit.ENVIRONMENT),
+        (PermissionError(errno.EACCES, "Permission denied", "out.json"), Exit.ENVIRONMENT),
+        (ValueError("two\nlines"), Exit.CRASHED),
+        (KeyboardInterrupt(), Exit.INTERRUPTED),
+    ],
+)
+def test_the_exit_code_tells_the_cause_and_the_line_is_one(failing, capsys, error, code):
+    assert failing(error) == code
+    said = capsys.readouterr().err
+    assert said.count("\n") == (code is not Exit.INTERRUPTED)
+    assert "Traceback" not in said
+
+
+def test_a_supervisor_is_told_whether_waiting_may_help(failing):
+    assert failing(PORT, "--supervised", "1") == Exit.TRY_AGAIN
+    assert failing(RoomMissing("robot", "mujoco"), "--supervised", "1") == Exit.ENVIRONMENT
+
+
+def test_a_file_that_has_no_place_is_named(failing, capsys):
+    failing(OSError(errno.ENOSPC, "No space left on device", "out.json"))
+    assert "out.json: no space left on device" in capsys.readouterr().err
+
+
+def test_help_loads_nothing_that_takes_long():
+    script = (
+        f"import sys; from services.cli import parser; parser().format_help(); print(*set({SLOW}) & set(sys.modules))"
+    )
+    told = subprocess.run([sys.executable, "-I", "-c", script], capture_output=True, text=True, check=True)
+    assert not set(told.stdout.split()) & set(SLOW)
+
+
+def test_help_names_every_command(capsys):
+    with pytest.raises(SystemExit):
+        cli.main(["--help"])
+    said = capsys.readouterr().out
+    assert all(command.name in said and command.help.split()[0] in said for command in COMMANDS)
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=lambda command: command.name)
+def test_every_command_has_a_module_that_says_its_flags_and_runs(command):
+    action = command.action()
+    assert callable(action.add_arguments)
+    assert callable(action.run)
+
+
+def test_a_child_is_started_blind_to_the_working_folder_and_pythons_variables():
+    command = retouch_command(("robot",))
+    assert command[1:4] == ["-I", "-X", "utf8"]
+    assert command[-1] == "robot"
