@@ -13,6 +13,14 @@ from services.process.exceptions import ConfigurationError
 Port = Annotated[int, msgspec.Meta(ge=1, le=65535)]
 Positive = Annotated[float, msgspec.Meta(gt=0.0)]
 
+LONGEST_SILENCE_S = 0.25
+"""After this long without the operator or the master no file can let a robot move on [s]."""
+
+LONGEST_LEASE_S = 3.0
+"""No file can let the authority last longer than this without renewal [s]."""
+
+Silence = Annotated[float, msgspec.Meta(gt=0.0, le=LONGEST_SILENCE_S)]
+
 
 class _Section(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """A part of the configuration; a key that it does not know is an error."""
@@ -24,8 +32,9 @@ class RobotSection(_Section, frozen=True):
     Attributes:
         scene: which simulated scene it stands in: a name in `sim.tasks`.
         variant: the scene's arrangement to start in; empty for the one that the model was trained in.
-        hold_after_s: age of the master's newest sample at which a refinement holds [s].
-        lease_s: how long the authority lasts without renewal [s].
+        hold_after_s: age of the master's newest sample at which a refinement holds, at most `LONGEST_SILENCE_S` [s].
+        presence_after_s: age of the authority's newest renewal at which every motion holds, at most the same [s].
+        lease_s: how long the authority lasts without renewal, at most `LONGEST_LEASE_S` [s].
         velocity_scale: share of the joints' velocity limits that the robot may use.
         self_distance_stop: distance between its own parts at which it stops [m].
         master_gain: of the master's displacement on the reference; its rotation counts as it is.
@@ -33,11 +42,12 @@ class RobotSection(_Section, frozen=True):
 
     scene: str = "dishwasher"
     variant: str = ""
-    hold_after_s: Positive = 0.1
-    lease_s: Positive = 1.0
+    hold_after_s: Silence = 0.1
+    presence_after_s: Silence = 0.2
+    lease_s: Annotated[float, msgspec.Meta(gt=0.0, le=LONGEST_LEASE_S)] = 1.0
     velocity_scale: Annotated[float, msgspec.Meta(gt=0.0, le=1.0)] = 0.5
     self_distance_stop: Annotated[float, msgspec.Meta(ge=0.0)] = 0.005
-    master_gain: Positive = 1.0
+    master_gain: Annotated[float, msgspec.Meta(gt=0.0, le=10.0)] = 1.0
 
 
 class CameraSection(_Section, frozen=True):

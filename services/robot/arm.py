@@ -134,6 +134,10 @@ class Arm:
         self._episode = None
         self._stand()
 
+    def followed(self, wanted: Correction) -> Correction:
+        """What the arm follows of a correction, its reach included."""
+        return safety.clamp_correction(self._kinematics.admitted(wanted))[0]
+
     def begin(self, prediction: Trajectory, look_ahead: float) -> None:
         """Begin an episode, with a ramp from the measured pose to the prediction's start.
 
@@ -147,7 +151,7 @@ class Arm:
     def finish(self, reason: str) -> None:
         """Let the running episode end here; its outcome follows when the arm has settled."""
         if self._episode is not None:
-            self._episode.cut_short(reason)
+            self._episode.cut_short(reason, self.measured)
 
     def stop(self, reason: str = "") -> EpisodeOutcome | None:
         """Stand still where the arm is measured to be, at once.
@@ -183,9 +187,10 @@ class Arm:
         self._backend.command(self._q, (self._q - previous_q) / CONTROL_PERIOD)
         self._observe()
         outcome = None
-        if episode is not None and not holding:
-            commanded = self._kinematics.forward(self._q)
-            episode.record(self._reference, commanded, self.measured, clamped=bool(clamped))
+        if episode is not None:
+            if not holding:
+                commanded = self._kinematics.forward(self._q)
+                episode.record(self._reference, commanded, self.measured, clamped=bool(clamped))
             outcome = self._conclude(episode)
         return Tick(
             observation=self.observation,

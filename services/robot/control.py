@@ -12,20 +12,23 @@ from numpy.typing import NDArray
 
 from protocol import messages
 from protocol.messages import MasterState, Mode, Motion, Phase
-from protocol.queries import AcquireAuthority, Adapt, Execute, Finish, ReleaseAuthority, ReleaseStop, Reset
+from protocol.queries import AcquireAuthority, Adapt, Execute, Finish, ReleaseAuthority, ReleaseStop, Reset, Resume
 from services.bus.arrays import motion_from_wire
 from services.bus.bus import Received
 from services.process.exceptions import ServiceError
 from services.robot.admission import admit_prediction, admit_reset, admit_target
 from services.robot.arm import Arm, Tick
 from services.robot.authority import Lease
+from services.robot.backends.backend import CONTROL_PERIOD
+from services.robot.clutch import Clutch
 from services.robot.correction import UNCORRECTED, Correction
 from services.robot.episode import EpisodeOutcome
 from services.robot.execution import look_ahead
+from services.robot.hold import Hold
 from services.robot.latch import Latch
 from services.robot.memory import Memory
 from services.robot.refusal import Refusal
-from services.robot.safety import hold_reason
+from services.robot.safety import Watchdog
 from services.robot.starts import StartImpossible
 from sim.pose import Pose
 from sim.tasks import AnyScene
@@ -63,7 +66,7 @@ class Control:
         arm: that it commands.
         scene: that the arm stands in.
         lease_s: how long the authority lasts without renewal [s].
-        hold_after_s: age of the newest master state at which a refinement holds [s].
+        watchdog: that lets motions go on.
         master_gain: of the master's displacement on the reference; its rotation counts as it is.
         memory: where stop and epochs outlive the process.
         utc: the time of day.
@@ -75,7 +78,7 @@ class Control:
         scene: AnyScene,
         *,
         lease_s: float,
-        hold_after_s: float,
+        watchdog: Watchdog,
         master_gain: float,
         memory: Memory,
         utc: Callable[[], datetime],
@@ -90,14 +93,17 @@ class Control:
         self.lease = Lease(lease_s, epoch=max(recalled.epoch_bound, round(1e3 * utc().timestamp())))
         self.order: Order | None = None
         self.finished: Finished | None = None
-        self._hold_after_s = hold_after_s
+        self._watchdog = watchdog
+        self._hold = Hold()
+        self._clutch = Clutch(CONTROL_PERIOD)
+        self._master: int | None = None
         self.master_gain = master_gain
         self._place: Array = scene.training_positions[0]
 
     def acquire(self, request: AcquireAuthority, now_ns: int) -> int:
         """Give the authority to a holder; the epoch. An episode of another holder's does not go on under it."""
         self._check_stop()
-        epoch = self.lease.acquire(request.holder, now_ns, take_over=request.take_over)
+        epoch = self.lease.acquire(request.holder, now_ns, operator=request.operator, take_over=request.take_over)
         if self.order is not None and self.order.holder != request.holder:
             self.arm.finish(f"{request.holder} took the authority over from {self.order.holder}")
         return epoch
@@ -123,6 +129,7 @@ class Control:
         prediction = admit_prediction(positions, orientations, request.duration, self.arm.measured)
         self.order = Order(self.order.episode + 1 if self.order is not None else 1, request, self.lease.holder)
         self.finished = None
+        self._hold.ask(request.epoch)
         self.arm.begin(prediction, look_ahead(prediction) if request.adapt is Adapt.NEXT else 0.0)
         return self.order.episode
 
@@ -133,6 +140,14 @@ class Control:
             raise Refusal("no episode is running: nothing to finish")
         share = self.arm.episode.execution.progress
         self.arm.finish(f"finished by {self.lease.holder} at {share:.0%}")
+
+    def resume(self, request: Resume) -> None:
+        """Let an episode go on that waits to be asked."""
+        self._check_stop()
+        self.lease.check(request.epoch)
+        if not self.waiting:
+            raise Refusal("no episode waits to be asked: nothing to go on with")
+        self._hold.ask(request.epoch)
 
     def reset(self, request: Reset) -> None:
         """Put arm, target and scene back."""
@@ -171,22 +186,18 @@ class Control:
             sample: the newest master state of the authority's epoch, None where there was none.
         """
         self.lease.expire(now_ns)
-        reason = hold_reason(
-            holder=self.lease.holder,
-            refining=self.refining,
-            sample_age_s=sample.age_s(now_ns) if sample is not None else None,
-            engaged=sample is not None and sample.message.engaged,
-            hold_after_s=self._hold_after_s,
-        )
-        wanted = UNCORRECTED
-        if self.refining and sample is not None and not reason:
-            master = sample.message
-            wanted = Correction(self.master_gain * np.array(master.displacement), np.array(master.rotation))
-        tick = self.arm.tick(wanted, reason)
+        reason = self._hold_reason(now_ns, sample)
+        tick = self.arm.tick(self._wanted(sample, reason), reason)
         self._end(tick.outcome)
         # Only now, with the arm told to stand: a disk may take its time.
         self.memory.keep(self.latch, self.lease.epoch)
         return tick
+
+    @property
+    def waiting(self) -> bool:
+        """An episode goes on only when it is asked to."""
+        episode = self.arm.episode
+        return episode is not None and not episode.settling and self._hold.waiting
 
     @property
     def refining(self) -> bool:
@@ -196,6 +207,32 @@ class Control:
     def phase(self, tick: Tick) -> Phase:
         """What the robot is doing, the emergency stop before all."""
         return Phase.STOPPED if self.latch.latched else tick.phase
+
+    def _hold_reason(self, now_ns: int, sample: Received[MasterState] | None) -> str:
+        """Why a running episode may not go on in this period; empty where it may."""
+        if self.arm.episode is None:
+            return ""
+        cause = self._watchdog.presence(self.lease.holder, self.lease.silence_s(now_ns))
+        if self.refining and not cause:
+            age_s = sample.age_s(now_ns) if sample is not None else None
+            cause = self._watchdog.hand(age_s, engaged=sample is not None and sample.message.engaged)
+        return self._hold.reason(now_ns, cause, self.lease.epoch)
+
+    def _wanted(self, sample: Received[MasterState] | None, hold_reason: str) -> Correction:
+        """The correction that the operator asks for."""
+        episode = self.arm.episode
+        if episode is None or not self.refining or sample is None:
+            return UNCORRECTED
+        master = sample.message
+        if not master.engaged or master.publisher != self._master:
+            self._clutch.let_go()
+        self._master = master.publisher
+        if episode.execution.ramping:
+            self._clutch.rest()
+        if hold_reason or episode.execution.ramping:
+            return UNCORRECTED
+        asked = Correction(self.master_gain * np.array(master.displacement), np.array(master.rotation))
+        return self._clutch.correction(asked, self.arm.followed(asked), episode.execution.correction)
 
     def _end(self, outcome: EpisodeOutcome | None) -> None:
         if outcome is not None and self.order is not None:

@@ -7,6 +7,7 @@ import numpy as np
 from lfd.motion.trajectory import Trajectory
 from services.robot.correction import Correction
 from services.robot.execution import Execution
+from services.robot.hold import LONG_HOLD_S
 from services.robot.recording import Recording
 from services.robot.verdict import Verdict
 from sim.pose import Pose
@@ -72,6 +73,8 @@ class Episode:
         self._settled = 0
         self._ticks = 0
         self._held = 0
+        self._held_since = 0
+        self._standing: Pose | None = None
         self._clamped = 0
         self._input = False
 
@@ -85,16 +88,25 @@ class Episode:
         """Time for the verdict."""
         return self._settled * self._period >= SETTLE_S
 
-    def cut_short(self, reason: str) -> None:
-        """Let the reference stand from now on; the verdict follows when the arm has settled."""
+    def cut_short(self, reason: str, measured: Pose) -> None:
+        """Let the reference stand from now on; the verdict follows when the arm has settled.
+
+        Args:
+            reason: why.
+            measured: pose of the grasping frame now, where an arm that holds stays.
+        """
         if not self.settling:
             self._cut_short = reason
+            self._standing = measured if self.holding else self.execution.reference
 
     def hold(self) -> None:
-        """Let a control period pass without going on."""
+        """Let a control period pass without going on; what is over settles all the same."""
+        if not self.holding:
+            self._held_since = self._ticks
         self.holding = True
         self._ticks += 1
         self._held += 1
+        self._settled += self.settling
 
     def advance(self, wanted: Correction, measured: Pose) -> Pose:
         """Go on by one control period.
@@ -106,13 +118,14 @@ class Episode:
         Returns:
             The reference at the end of the period.
         """
-        if self.holding:
-            self.execution.rejoin(measured)
-            self.holding = False
+        held, self.holding = self.holding, False
         self._ticks += 1
         if self.settling:
             self._settled += 1
-            return self.execution.reference
+            return self._standing or self.execution.reference
+        if held:
+            duration = (self._ticks - 1 - self._held_since) * self._period
+            self.execution.rejoin(measured, at_once=duration <= LONG_HOLD_S)
         if not self.execution.ramping:
             self._input |= _counts(wanted)
         return self.execution.advance(wanted)

@@ -37,6 +37,8 @@ Array = NDArray[np.float64]
 RAMP_MIN_S = 0.5  # [s]
 RAMP_SPEED = 0.15  # [m/s] mean
 RAMP_TURN_SPEED = 0.5  # [rad/s] mean
+STILL_THERE = 0.01  # [m] from where it should be, an arm goes on after a short hold without a ramp
+STILL_TURNED = 0.1  # [rad] the same of its orientation
 
 
 def look_ahead(prediction: Trajectory) -> float:
@@ -65,7 +67,7 @@ class Execution:
         self._gain = -math.expm1(-period / look_ahead) if look_ahead > 0.0 else 1.0
         self._tick = 0
         self.correction: Correction = UNCORRECTED
-        self._ramp = Ramp(measured, self.nominal, period, RAMP_MIN_S)
+        self._ramp = Ramp(measured, self.nominal, period)
 
     @property
     def ramping(self) -> bool:
@@ -113,12 +115,16 @@ class Execution:
             self.correction = self.correction.towards(wanted, self._gain)
         return self.reference
 
-    def rejoin(self, measured: Pose) -> None:
-        """Ramp from the measured pose to where a hold left off; no time at all where the arm still is there.
+    def rejoin(self, measured: Pose, *, at_once: bool) -> None:
+        """Go on after a hold: with a ramp from the measured pose to where the prediction was left.
 
-        A ramp that the hold interrupted begins anew, with its least duration.
+        Args:
+            measured: pose of the grasping frame now.
+            at_once: do without the ramp, where the arm still is where it should be; a ramp that the hold interrupted
+                goes on then too, so that holds which come often do not keep the arm from its end.
         """
-        self._ramp = Ramp(measured, self._corrected(), self._period, RAMP_MIN_S if self.ramping else 0.0)
+        if not (at_once and _close(measured, self.reference)):
+            self._ramp = Ramp(measured, self._corrected(), self._period)
 
     def _corrected(self) -> Pose:
         return self.correction.of(self.nominal)
@@ -131,15 +137,14 @@ class Ramp:
         start: where it begins.
         goal: where it ends.
         period: of the control [s].
-        least: duration that it has at least [s].
     """
 
-    def __init__(self, start: Pose, goal: Pose, period: float, least: float) -> None:
+    def __init__(self, start: Pose, goal: Pose, period: float) -> None:
         self.start = start
         self.goal = goal
         distance = float(np.linalg.norm(goal.position - start.position))
         angle = angle_between(start.orientation, goal.orientation)
-        self._ticks = round(max(least, distance / RAMP_SPEED, angle / RAMP_TURN_SPEED) / period)
+        self._ticks = round(max(RAMP_MIN_S, distance / RAMP_SPEED, angle / RAMP_TURN_SPEED) / period)
         self._tick = 0
 
     @property
@@ -160,6 +165,11 @@ class Ramp:
     def advance(self) -> None:
         """Go on by one control period."""
         self._tick += 1
+
+
+def _close(one: Pose, other: Pose) -> bool:
+    apart = float(np.linalg.norm(one.position - other.position))
+    return apart <= STILL_THERE and angle_between(one.orientation, other.orientation) <= STILL_TURNED
 
 
 def angle_between(p: Array, q: Array) -> float:

@@ -114,6 +114,7 @@ class Reports:
             master_gain=self._control.master_gain,
             turn=vector3(tick.correction.turn),
             hold_reason=tick.hold_reason,
+            waiting=self._control.waiting,
             clamped=tick.clamped[:16],
             applied_sequence=applied_sequence,
             applied_latency=applied_latency,
@@ -121,7 +122,9 @@ class Reports:
 
     def _authority_state(self, now_ns: int) -> messages.AuthorityState:
         lease = self._control.lease
-        return messages.AuthorityState(holder=lease.holder, epoch=lease.epoch, expires_in=lease.expires_in_s(now_ns))
+        return messages.AuthorityState(
+            operator=lease.operator, holder=lease.holder, epoch=lease.epoch, expires_in=lease.expires_in_s(now_ns)
+        )
 
     def _safety_state(self, tick: Tick) -> messages.SafetyState:
         """As it is kept: a stop shows as latched when it would outlive this process, or a line says why not."""

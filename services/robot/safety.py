@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lfd.motion.rotations import slerp
+from services.process.config import LONGEST_SILENCE_S
 from services.robot.correction import Correction
 from sim.pose import Pose
 
@@ -23,25 +24,47 @@ STANDING_SPEED = 0.01  # [rad/s, torso m/s] of the fastest joint, below which th
 FORCE_STOP = 300.0  # [N] of a touch, above which the arm stops; running into a wall gives half of it
 
 
-def hold_reason(*, holder: str, refining: bool, sample_age_s: float | None, engaged: bool, hold_after_s: float) -> str:
-    """Why a running episode has to hold now; empty where it may go on.
+@dataclass(frozen=True)
+class Watchdog:
+    """Lets a motion go on only while its operator is present, and a refinement only while the master is heard.
 
-    Args:
-        holder: of the authority, empty for nobody.
-        refining: the operator shapes the motion, so that it must not go on without hearing from the master.
-        sample_age_s: of the newest master state of the authority's epoch, in the robot's clock [s]; None without any.
-        engaged: that state says that a hand is at the device.
-        hold_after_s: age that is tolerated [s].
+    No setting lifts `LONGEST_SILENCE_S`.
+
+    Attributes:
+        hold_after_s: age that is tolerated of the newest master state [s].
+        presence_after_s: age that is tolerated of the authority's newest renewal [s].
     """
-    if not holder:
-        return "nobody holds the authority"
-    if refining and sample_age_s is None:
-        return "no master state with the authority's epoch was heard"
-    if refining and sample_age_s is not None and sample_age_s > hold_after_s:
-        return f"the master has not been heard for more than {hold_after_s * 1e3:.0f} ms"
-    if refining and not engaged:
-        return "nobody is at the master"
-    return ""
+
+    hold_after_s: float
+    presence_after_s: float
+
+    def presence(self, holder: str, silence_s: float | None) -> str:
+        """Why nobody may move the robot now; empty where somebody may.
+
+        Args:
+            holder: of the authority, empty for nobody.
+            silence_s: time since its newest renewal, in the robot's clock [s]; None without any.
+        """
+        if not holder:
+            return "nobody holds the authority"
+        limit = min(LONGEST_SILENCE_S, self.presence_after_s)
+        if silence_s is None or not silence_s <= limit:
+            return f"no operator was present for more than {limit * 1e3:.0f} ms"
+        return ""
+
+    def hand(self, silence_s: float | None, *, engaged: bool) -> str:
+        """Why the master does not count now; empty where it does.
+
+        Args:
+            silence_s: age of its newest state under the authority, in the robot's clock [s]; None without any.
+            engaged: that state says that a hand is on it.
+        """
+        limit = min(LONGEST_SILENCE_S, self.hold_after_s)
+        if silence_s is None:
+            return "no master state with the authority's holder and epoch was heard"
+        if not silence_s <= limit:
+            return f"the master has not been heard for more than {limit * 1e3:.0f} ms"
+        return "" if engaged else "nobody is at the master"
 
 
 @dataclass(frozen=True, eq=False)

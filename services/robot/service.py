@@ -27,6 +27,7 @@ from services.robot.memory import Memory, safety_file
 from services.robot.pace import Pace
 from services.robot.refusal import Refusal
 from services.robot.reports import Reports
+from services.robot.safety import Watchdog
 from sim.robots.description import prepare
 from sim.tasks import scene as scene_named
 
@@ -68,7 +69,7 @@ def build(bus: Bus, clock: Clock, configuration: Configuration, memory: Memory |
         arm,
         scene,
         lease_s=section.lease_s,
-        hold_after_s=section.hold_after_s,
+        watchdog=Watchdog(section.hold_after_s, section.presence_after_s),
         master_gain=section.master_gain,
         memory=memory,
         utc=lambda: datetime.now(UTC),
@@ -128,6 +129,7 @@ class RobotService:
         self._release = bus.serve(queries.RELEASE)
         self._execute = bus.serve(queries.EXECUTE)
         self._finish = bus.serve(queries.FINISH)
+        self._resume = bus.serve(queries.RESUME)
         self._reset = bus.serve(queries.RESET)
         self._release_stop = bus.serve(queries.RELEASE_STOP)
         self._sample: Received[MasterState] | None = None
@@ -142,7 +144,7 @@ class RobotService:
         self._first_ns = now_ns if self._first_ns is None else self._first_ns
         self._hear()
         self._answer_all(now_ns)
-        sample = self._sample_of_this_epoch()
+        sample = self._sample_that_counts()
         if sample is not None:
             self._pace.heard(now_ns, sample.received_ns)
         tick = self._control.tick(now_ns, sample)
@@ -191,6 +193,7 @@ class RobotService:
         self._answer(self._release, _accepting(control.release))
         self._answer(self._execute, self._executed)
         self._answer(self._finish, _accepting(control.finish))
+        self._answer(self._resume, _accepting(control.resume))
         self._answer(self._reset, _accepting(control.reset))
         self._answer(self._release_stop, _accepting(control.release_stop))
 
@@ -208,13 +211,13 @@ class RobotService:
                 reply = Refused(refusal.reason)
             call.reply(reply)
 
-    def _sample_of_this_epoch(self) -> Received[MasterState] | None:
-        """The newest master state of the present authority; those of any other do not count."""
-        epoch = self._control.lease.epoch
+    def _sample_that_counts(self) -> Received[MasterState] | None:
+        """The newest master state under the present authority; those of any other holder or epoch do not count."""
+        covers = self._control.lease.covers
         for received in self._master.take():
-            if received.message.epoch == epoch:
+            if covers(received.message.holder, received.message.epoch):
                 self._sample = received
-        if self._sample is not None and self._sample.message.epoch != epoch:
+        if self._sample is not None and not covers(self._sample.message.holder, self._sample.message.epoch):
             self._sample = None
         return self._sample
 

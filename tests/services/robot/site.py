@@ -15,6 +15,7 @@ from services.process.clock import ManualClock
 from services.robot.assembly import kinematics_of, simulated_arm
 from services.robot.control import Control
 from services.robot.memory import Volatile
+from services.robot.safety import Watchdog
 from services.robot.service import RobotService, TimedKinematics
 from sim.robots.description import RobotDescription
 from sim.tasks import PARTICLE
@@ -69,7 +70,7 @@ class Site:
             self.arm,
             PARTICLE,
             lease_s=1.0,
-            hold_after_s=0.1,
+            watchdog=Watchdog(hold_after_s=0.1, presence_after_s=0.2),
             master_gain=master_gain,
             memory=memory or Volatile(),
             utc=self.utc,
@@ -143,7 +144,7 @@ class Site:
         return received.message if received else None
 
 
-def straight(duration=4.0, n=75, length=0.4):
+def straight(duration=1.0, n=75, length=0.4):
     """A motion along x from the particle's start."""
     positions = np.column_stack([np.linspace(0.0, length, n), np.zeros(n), np.zeros(n)])
     return motion_to_wire(positions, np.tile(IDENTITY, (n, 1)), duration)

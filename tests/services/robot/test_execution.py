@@ -6,10 +6,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from lfd.motion.rotations import exp_map
+from lfd.motion.rotations import exp_map, multiply
 from lfd.motion.trajectory import Trajectory
 from services.robot.correction import UNCORRECTED, Correction
-from services.robot.execution import RAMP_MIN_S, RAMP_SPEED, Execution, Ramp, angle_between, look_ahead
+from services.robot.execution import (
+    RAMP_MIN_S,
+    RAMP_SPEED,
+    STILL_THERE,
+    STILL_TURNED,
+    Execution,
+    Ramp,
+    angle_between,
+    look_ahead,
+)
 from sim.pose import Pose
 
 PERIOD = 0.01
@@ -167,10 +176,8 @@ def test_a_hold_is_left_from_the_measured_pose_and_ends_where_it_began():
     execution = past_the_ramp(prediction())
     execution.advance(Correction(np.array([0.1, 0.0, 0.0]), np.array([0.0, 0.3, 0.0])))
     before = execution.reference
-    execution.rejoin(before)
-    assert not execution.ramping, "an arm that is where it should be does not wait"
     elsewhere = Pose(before.position + np.array([0.0, 0.0, 0.05]), IDENTITY)
-    execution.rejoin(elsewhere)
+    execution.rejoin(elsewhere, at_once=True)
     np.testing.assert_allclose(execution.reference.position, elsewhere.position)
     while execution.ramping:
         execution.advance(Correction(np.full(3, 0.3), np.full(3, 0.3)))
@@ -178,11 +185,42 @@ def test_a_hold_is_left_from_the_measured_pose_and_ends_where_it_began():
     np.testing.assert_allclose(execution.reference.orientation, before.orientation, atol=1e-12)
 
 
-def test_a_hold_on_the_first_ramp_lets_it_begin_anew():
+@pytest.mark.parametrize(
+    ("aside", "turned", "at_once", "ramps"),
+    [
+        (0.0, 0.0, True, False),
+        (0.99 * STILL_THERE, 0.0, True, False),
+        (1.01 * STILL_THERE, 0.0, True, True),
+        (0.0, 0.99 * STILL_TURNED, True, False),
+        (0.0, 1.01 * STILL_TURNED, True, True),
+        (0.0, 0.0, False, True),
+    ],
+)
+def test_only_a_short_hold_of_an_arm_that_is_still_there_is_left_without_a_ramp(aside, turned, at_once, ramps):
+    execution = past_the_ramp(prediction())
+    before = execution.reference
+    turn = multiply(exp_map(np.array([turned, 0.0, 0.0])), before.orientation)
+    execution.rejoin(Pose(before.position + np.array([0.0, aside, 0.0]), turn), at_once=at_once)
+    assert execution.ramping is ramps
+
+
+def test_a_ramp_that_was_held_for_a_moment_goes_on_where_it_was():
+    motion = prediction()
+    start = Pose(motion.positions[0] + np.array([0.0, 0.2, 0.0]), motion.orientations[0])
+    execution, ticks = Execution(start, motion, look_ahead(motion), PERIOD), 0
+    while execution.ramping:
+        execution.advance(UNCORRECTED)
+        if ticks % 3 == 0:
+            execution.rejoin(execution.reference, at_once=True)
+        ticks += 1
+    assert ticks == round(0.2 / RAMP_SPEED / PERIOD)
+
+
+def test_a_long_hold_on_the_first_ramp_lets_it_begin_anew():
     motion = prediction()
     execution = Execution(at_start(motion), motion, look_ahead(motion), PERIOD)
     execution.advance(UNCORRECTED)
-    execution.rejoin(at_start(motion))
+    execution.rejoin(at_start(motion), at_once=False)
     for _ in range(round(RAMP_MIN_S / PERIOD)):
         assert execution.ramping
         execution.advance(UNCORRECTED)
@@ -203,7 +241,7 @@ def test_a_duration_that_is_no_multiple_of_the_period_ends_at_the_last_way_point
 )
 def test_the_ramp_takes_as_long_as_its_longest_way(distance, angle, seconds):
     goal = Pose(np.array([distance, 0.0, 0.0]), exp_map(np.array([0.0, angle, 0.0])))
-    ramp = Ramp(Pose(np.zeros(3), IDENTITY), goal, PERIOD, RAMP_MIN_S)
+    ramp = Ramp(Pose(np.zeros(3), IDENTITY), goal, PERIOD)
     ticks = 0
     while not ramp.finished:
         ramp.advance()
@@ -214,7 +252,7 @@ def test_the_ramp_takes_as_long_as_its_longest_way(distance, angle, seconds):
 
 
 def test_the_ramp_begins_at_the_measured_pose_and_is_smooth():
-    ramp = Ramp(Pose(np.zeros(3), IDENTITY), Pose(np.array([0.3, 0.0, 0.0]), IDENTITY), PERIOD, RAMP_MIN_S)
+    ramp = Ramp(Pose(np.zeros(3), IDENTITY), Pose(np.array([0.3, 0.0, 0.0]), IDENTITY), PERIOD)
     positions = [ramp.pose.position[0]]
     while not ramp.finished:
         ramp.advance()

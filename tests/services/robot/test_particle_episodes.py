@@ -142,7 +142,7 @@ class Site:
             renewal = messages.AuthorityRenewal(holder="ann", epoch=self.epoch)
             self.operator.publish(topics.AUTHORITY_RENEWAL, renewal)
             if master is not None:
-                state = messages.MasterState(displacement=master, engaged=True, epoch=self.epoch)
+                state = messages.MasterState(displacement=master, engaged=True, holder="ann", epoch=self.epoch)
                 self.operator.publish(topics.MASTER_STATE, state)
             self.service.step(self.clock.now_ns())
 
@@ -206,7 +206,8 @@ def test_an_operator_refines_it_over_the_bus(site):
         queries.EXECUTE, queries.Execute(site.epoch, Mode.REFINE, announce(site.operator, motion), 4.0, request=1)
     )
     assert isinstance(started, EpisodeStarted)
-    site.run(6.0, master=(0.02, 0.05, 0.0))
+    site.run(0.6, master=(0.0, 0.0, 0.0))
+    site.run(5.4, master=(0.02, 0.05, 0.0))
     result = site.results.latest().message
     assert result.completed
     assert result.operator_input

@@ -1,13 +1,16 @@
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from lfd.motion.rotations import exp_map
+from services.process.config import LONGEST_SILENCE_S
 from services.robot import safety
 from services.robot.correction import Correction
 from services.robot.execution import angle_between
-from services.robot.safety import JointLimits, hold_reason
+from services.robot.safety import JointLimits, Watchdog
 from sim.pose import Pose
 
 IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
@@ -16,21 +19,45 @@ PERIOD = 0.01
 
 
 @pytest.mark.parametrize(
-    ("holder", "refining", "age", "engaged", "expected"),
+    ("holder", "silence", "expected"),
     [
-        ("ann", False, None, False, ""),
-        ("ann", True, 0.1, True, ""),
-        ("ann", True, 0.1, False, "nobody is at the master"),
-        ("ann", True, 0.1001, True, "not been heard"),
-        ("ann", True, None, False, "no master state"),
-        ("", False, None, False, "nobody holds"),
-        ("", True, 0.0, True, "nobody holds"),
+        ("ann", 0.0, ""),
+        ("ann", 0.2, ""),
+        ("ann", 0.2001, "no operator was present for more than 200 ms"),
+        ("ann", None, "no operator was present"),
+        ("ann", math.nan, "no operator was present"),
+        ("", None, "nobody holds the authority"),
+        ("", 0.0, "nobody holds the authority"),
     ],
 )
-def test_the_watchdog_holds_where_nobody_is_in_command(holder, refining, age, engaged, expected):
-    reason = hold_reason(holder=holder, refining=refining, sample_age_s=age, engaged=engaged, hold_after_s=0.1)
+def test_no_motion_goes_on_without_an_operator(holder, silence, expected):
+    reason = Watchdog(hold_after_s=0.1, presence_after_s=0.2).presence(holder, silence)
     assert expected in reason
     assert bool(reason) == bool(expected)
+
+
+@pytest.mark.parametrize(
+    ("silence", "engaged", "expected"),
+    [
+        (0.1, True, ""),
+        (0.1, False, "nobody is at the master"),
+        (0.1001, True, "not been heard for more than 100 ms"),
+        (math.nan, True, "not been heard"),
+        (None, False, "no master state"),
+    ],
+)
+def test_no_refinement_goes_on_without_a_hand(silence, engaged, expected):
+    reason = Watchdog(hold_after_s=0.1, presence_after_s=0.2).hand(silence, engaged=engaged)
+    assert expected in reason
+    assert bool(reason) == bool(expected)
+
+
+@pytest.mark.parametrize("setting", [LONGEST_SILENCE_S + 0.001, 10.0, math.inf, math.nan])
+def test_no_setting_lets_a_robot_move_on_for_longer_than_the_bound(setting):
+    watchdog = Watchdog(hold_after_s=setting, presence_after_s=setting)
+    assert watchdog.presence("ann", LONGEST_SILENCE_S + 1e-6) != ""
+    assert watchdog.hand(LONGEST_SILENCE_S + 1e-6, engaged=True) != ""
+    assert watchdog.presence("ann", LONGEST_SILENCE_S) == ""
 
 
 @given(st.tuples(*[st.floats(-2.0, 2.0)] * 2), st.tuples(st.floats(0.0, 0.3), st.floats(-1.0, 1.0)))

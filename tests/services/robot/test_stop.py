@@ -24,7 +24,7 @@ def test_a_stop_latches_with_who_why_and_when_and_stands():
     site = Site()
     site.acquire()
     site.execute()
-    site.run(2.0)
+    site.run(1.0)
     before = site.state.q
     site.press("bob", "smoke")
     assert site.state.phase is Phase.STOPPED
@@ -40,9 +40,9 @@ def test_a_stop_is_not_shown_as_standing_while_a_joint_moves():
     site = Site()
     site.acquire()
     site.execute()
-    site.run(2.0)
+    site.run(1.0)
     assert not site.safety.standing
-    site.run(4.0)
+    site.run(1.5)
     assert site.safety.standing
 
 
@@ -50,7 +50,7 @@ def test_a_stopped_episode_is_not_completed():
     site = Site()
     site.acquire()
     site.execute()
-    site.run(2.0)
+    site.run(1.0)
     site.press("bob", "smoke")
     assert (site.result.completed, site.result.reason) == (False, "emergency stop by bob: smoke")
 
@@ -59,7 +59,7 @@ def test_a_stop_while_a_success_settles_is_a_stop():
     site = Site()
     site.acquire()
     site.execute()
-    site.run(0.5 + 4.0 + 0.3)
+    site.run(0.5 + 1.0 + 0.3)
     assert site.state.progress == 1.0
     assert site.result is None
     site.press("bob", "smoke")
@@ -190,7 +190,7 @@ def test_a_stop_ends_a_held_episode_whoever_is_dead(mode):
     site = Site()
     site.acquire()
     site.execute(mode)
-    site.run(3.0, renew=False)
+    site.run(1.5, renew=False)
     assert site.state.phase is Phase.HOLD
     site.press()
     assert site.state.phase is Phase.STOPPED

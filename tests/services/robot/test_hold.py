@@ -1,0 +1,68 @@
+"""A hold is left by itself after a moment, else only when it is asked to."""
+
+import pytest
+
+from services.robot.hold import ASK, LONG_HOLD_S, Hold
+
+MS = 1_000_000
+
+
+@pytest.fixture
+def hold():
+    asked = Hold()
+    asked.ask(7)
+    return asked
+
+
+def held(hold, milliseconds, since=0, epoch=7):
+    """Hold for so long, in periods of 10 ms."""
+    for now in range(since, since + milliseconds + 1, 10):
+        assert hold.reason(now * MS, "nobody there", epoch) == "nobody there"
+
+
+def test_without_a_cause_a_motion_goes_on(hold):
+    assert hold.reason(0, "", 7) == ""
+    assert not hold.waiting
+
+
+def test_a_hold_of_up_to_half_a_second_is_left_by_itself(hold):
+    held(hold, round(1e3 * LONG_HOLD_S))
+    assert not hold.waiting
+    assert hold.reason(600 * MS, "", 7) == ""
+
+
+def test_a_longer_one_waits_to_be_asked(hold):
+    held(hold, round(1e3 * LONG_HOLD_S) + 10)
+    assert hold.waiting
+    for later in (600, 6000):
+        assert hold.reason(later * MS, "", 7) == ASK
+
+
+def test_what_was_asked_goes_on_as_soon_as_nothing_keeps_it(hold):
+    held(hold, 1000)
+    hold.ask(7)
+    assert hold.reason(1010 * MS, "nobody there", 7) == "nobody there"
+    assert not hold.waiting
+    assert hold.reason(1020 * MS, "", 7) == ""
+
+
+def test_a_request_does_not_last_longer_than_a_short_hold(hold):
+    held(hold, 1000)
+    hold.ask(7)
+    held(hold, 510, since=1010)
+    assert hold.waiting
+
+
+def test_holds_that_come_one_after_the_other_do_not_add_up(hold):
+    for start in range(0, 5000, 500):
+        held(hold, 400, since=start)
+        assert hold.reason((start + 450) * MS, "", 7) == ""
+    assert not hold.waiting
+
+
+def test_under_another_authority_a_motion_waits_at_once(hold):
+    assert hold.reason(0, "", 8) == ASK
+    assert hold.waiting
+    assert hold.reason(10 * MS, "", 7) == ASK
+    hold.ask(8)
+    assert hold.reason(20 * MS, "", 8) == ""
