@@ -11,6 +11,7 @@ LfdError
 ├── TimesNotIncreasing      the times of samples do not increase strictly
 ├── OutOfRange              a number lies outside its range
 ├── NothingToTakeBack       a model without a correction has none to forget
+├── TableError              a table that a person wrote down cannot be read, or its numbers cannot be meant
 └── StorageError            the store's file cannot be used
     ├── StorageUnavailable  it cannot be opened or written now, through no fault of its own
     ├── BoundElsewhere      what it holds was learnt for another scene or robot
@@ -112,6 +113,15 @@ class NothingToTakeBack(LfdError):
 
     def __init__(self) -> None:
         super().__init__("the model has no correction to take back: it only knows its first demonstrations")
+
+
+class TableError(LfdError):
+    """A table that a person wrote down cannot be read, or its numbers cannot be meant."""
+
+    def __init__(self, path: Path, reason: str) -> None:
+        self.path = path
+        self.reason = reason
+        super().__init__(f"{path}: {reason}")
 
 
 class StorageError(LfdError):

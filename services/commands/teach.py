@@ -9,7 +9,10 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TypeVar
 
+import numpy as np
+
 from lfd.motion.waypoints import through_waypoints
+from lfd.store.waypoint_file import Surroundings, read_waypoints
 from protocol import queries
 from protocol.messages import ModelState, Vector3
 from protocol.queries import AddDemonstration, Kind, Learnt, Query, Undo
@@ -19,14 +22,13 @@ from services.bus.identity import new_number
 from services.bus.zenoh import connect
 from services.commands.arguments import add_network, add_scene, position, within
 from services.commands.settings import configuration as configured
-from services.commands.waypoint_file import read_waypoints
 from services.model.skill import binding_of
 from services.offline.first_demonstrations import first_demonstrations
 from services.process.clock import SystemClock
 from services.process.config import Configuration
 from services.process.exceptions import CommandFailed
 from services.process.runner import stop_on_signals
-from sim.tasks import AnyScene
+from sim.tasks import REACHING, AnyScene
 from sim.tasks import scene as find_scene
 
 log = logging.getLogger(__name__)
@@ -120,13 +122,17 @@ def teach_waypoints(configuration: Configuration, file: Path, object_position: V
         duration: of the motion [s].
 
     Raises:
-        ServiceError: the file cannot be used, or there is no model that takes the motion.
-        LfdError: the duration is not positive.
-        SimError: there is no such scene.
+        ServiceError: the scene has no object, or there is no model that takes the motion.
+        LfdError: the file cannot be used, or the duration is not positive.
+        SimError: there is no such scene, or no object of it can be there.
     """
     # All that a person can have got wrong shows before the network is asked for anything.
     scene = find_scene(configuration.robot.scene)
-    waypoints = read_waypoints(file)
+    if scene.name not in REACHING:
+        raise CommandFailed(f"scene {scene.name} has no object that waypoints lead to: use {' or '.join(REACHING)}")
+    target, reach = np.array(object_position), scene.robot.reach
+    scene.check_place(target, scene.margin)
+    waypoints = read_waypoints(file, Surroundings(np.array(reach.lower), np.array(reach.upper), target))
     taught = through_waypoints(waypoints.positions, waypoints.orientations, duration)
     motion = motion_to_wire(taught.positions, taught.orientations, taught.duration)
     with _model(configuration) as model:

@@ -2,7 +2,6 @@
 
 ServiceError
 ├── ConfigurationError       a wrong key, type or value in a configuration file
-├── WaypointFileError        waypoints in a file that make no motion
 ├── CommandFailed            a command ended without what it was started for
 ├── EnvironmentFault         the machine or the network, not what a person wrote; exit code 3
 │   ├── RouterUnreachable    no router answers (a BusError too)
@@ -45,15 +44,6 @@ class ConfigurationError(ServiceError):
         self.path = path
         self.reason = reason
         super().__init__(f"configuration {path}: {reason}")
-
-
-class WaypointFileError(ServiceError):
-    """A file of waypoints that cannot be used."""
-
-    def __init__(self, path: Path, reason: str) -> None:
-        self.path = path
-        self.reason = reason
-        super().__init__(f"waypoints {path}: {reason}")
 
 
 class EnvironmentFault(ServiceError):
