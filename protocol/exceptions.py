@@ -4,6 +4,7 @@ ProtocolError
 ├── MalformedMessage   the bytes are not a message of the topic or query
 ├── OversizedMessage   more bytes than the registry allows
 ├── WrongVersion       a message of another schema version
+├── Misplaced          a message, request or reply that belongs elsewhere
 └── InvalidName        a name that cannot be a chunk of a key expression
 """
 
@@ -39,6 +40,15 @@ class WrongVersion(ProtocolError):
         self.announced = announced
         self.expected = expected
         super().__init__(f"message on {subject} announces {announced}, this version reads {expected}")
+
+
+class Misplaced(ProtocolError):
+    """It came where it does not belong, or from a process that has no business there."""
+
+    def __init__(self, subject: str, reason: str) -> None:
+        self.subject = subject
+        self.reason = reason
+        super().__init__(f"misplaced on {subject}: {reason}")
 
 
 class InvalidName(ProtocolError):

@@ -71,11 +71,20 @@ class Topic(Generic[M]):
             return None
         return int(max(0.1, 10.0 / self.rate_hz) * 1e9)
 
+    def published_by(self, process: str) -> bool:
+        """Whether a process of this name publishes the topic: one of the role that the table names."""
+        return _NAME.fullmatch(process) is not None and self.publisher in ("any", role(process))
+
     def key(self, robot: str, source: str) -> str:
         """The key expression on which `source` publishes for `robot`."""
         return (
             f"retouch/{VERSION}/{checked_name(robot)}/{self.name}/{source if source == '*' else checked_name(source)}"
         )
+
+
+def role(process: str) -> str:
+    """What a process is by its name: the part before the first "-", behind which its operator or number stands."""
+    return process.partition("-")[0]
 
 
 def checked_name(name: str) -> str:

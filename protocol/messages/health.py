@@ -33,11 +33,14 @@ class TopicFigures(msgspec.Struct, frozen=True):
     stale: Count = 0
     repeated: Count = 0
     future: Count = 0
+    implausible: Count = 0
+    misplaced: Count = 0
 
     @property
     def drops(self) -> int:
         """All drops together."""
-        return self.malformed + self.oversized + self.wrong_version + self.stale + self.repeated + self.future
+        undecoded = self.malformed + self.oversized + self.wrong_version + self.misplaced
+        return undecoded + self.stale + self.repeated + self.future + self.implausible
 
 
 class Heartbeat(Message, frozen=True, kw_only=True):

@@ -11,10 +11,12 @@ from typing import Any, Generic, Protocol, TypeVar
 import msgspec
 
 from protocol.codec import decode, decode_request, encode_reply
-from protocol.exceptions import OversizedMessage, ProtocolError, WrongVersion
+from protocol.exceptions import Misplaced, OversizedMessage, ProtocolError, WrongVersion
 from protocol.messages import Message, TopicFigures
+from protocol.placement import check_announced, check_message
 from protocol.queries import Query, Refused
-from protocol.topics import Topic
+from protocol.topics import QoS, Topic
+from services.bus.clocks import Clocks
 from services.bus.freshness import Freshness, Judgement
 from services.bus.identity import same_clock
 
@@ -37,7 +39,11 @@ class Received(Generic[M]):
         return (now_ns - self.received_ns) / 1e9
 
 
-_CAUSES: dict[type[ProtocolError], str] = {OversizedMessage: "oversized", WrongVersion: "wrong_version"}
+_CAUSES: dict[type[ProtocolError], str] = {
+    OversizedMessage: "oversized",
+    WrongVersion: "wrong_version",
+    Misplaced: "misplaced",
+}
 
 
 @dataclass
@@ -50,6 +56,8 @@ class Drops:
     stale: int = 0
     repeated: int = 0
     future: int = 0
+    implausible: int = 0
+    misplaced: int = 0
 
     def count(self, cause: ProtocolError | Judgement) -> None:
         """One more was thrown away."""
@@ -61,36 +69,58 @@ class Subscription(Generic[M]):
     """The receiving end of a topic.
 
     The transport calls `receive` on its own threads; a service reads with `latest` or `take` in its step.
+
+    Args:
+        topic: that is received.
+        robot: whose.
+        own: the receiver's identity.
+        clocks: of the machines that anything was heard from.
     """
 
-    def __init__(self, topic: Topic[M], own: int) -> None:
+    def __init__(self, topic: Topic[M], robot: str, own: int, clocks: Clocks) -> None:
         self.topic = topic
         self.drops = Drops()
+        self._robot = robot
         self._fault = ""
         self._own = own
-        self._freshness = Freshness(topic.stale_after_ns, own)
+        self._freshness = Freshness(topic.stale_after_ns, own, topic.rate_hz, clocks)
         self._lock = threading.Lock()
         self._latest: Received[M] | None = None
         self._kept: deque[Received[M]] = deque(maxlen=topic.kept)
         self._count = 0
         self._counted_from_ns = 0
 
-    def receive(self, payload: bytes, schema: str, now_ns: int) -> None:
-        """Decode, judge, store; nothing else happens here."""
+    def receive(self, payload: bytes, schema: str, now_ns: int, key: str | None = None) -> None:
+        """Decode, judge, store; nothing else happens here.
+
+        Args:
+            payload: as received.
+            schema: as announced by the sender.
+            now_ns: the time.
+            key: that the transport names; None where it has no keys.
+        """
         with self._lock:
             try:
                 message = decode(self.topic, payload, schema)
+                check_message(self.topic, self._robot, message, key)
             except ProtocolError as error:
                 self.drops.count(error)
                 self._fault = str(error)
                 return
-            judgement = self._freshness.judge(message.publisher, message.sequence, message.stamp_ns, now_ns)
+            judgement = self._judge(message, now_ns)
             if judgement is not Judgement.FRESH:
                 self.drops.count(judgement)
+                if judgement is Judgement.IMPLAUSIBLE:
+                    self._fault = f"implausible on {self.topic.name}: {message.process!r} counts to {message.sequence}"
                 return
             self._count += 1
             self._latest = Received(message, now_ns)
             self._kept.append(self._latest)
+
+    def _judge(self, message: M, now_ns: int) -> Judgement:
+        if self.topic.qos is QoS.SAFETY:  # a stop counts whatever its stamp, and twice is not too often
+            return Judgement.FRESH
+        return self._freshness.judge(message.publisher, message.sequence, message.stamp_ns, now_ns, message.process)
 
     def latest(self) -> Received[M] | None:
         """The newest message that counts, however old it has become since."""
@@ -149,19 +179,25 @@ class Server(Generic[Req, Rep]):
     """The answering end of a query.
 
     The transport calls `receive` on its own threads; a service takes and answers in its step.
+
+    Args:
+        query: that is answered.
+        robot: whose.
     """
 
-    def __init__(self, query: Query[Req, Rep]) -> None:
+    def __init__(self, query: Query[Req, Rep], robot: str) -> None:
         self._query = query
+        self._robot = robot
         self._calls: deque[Call[Req, Rep]] = deque()
         self.drops = Drops()
         self._fault = ""
         self._count = 0
         self._counted_from_ns = 0
 
-    def receive(self, payload: bytes, schema: str, respond: Callable[[bytes], None]) -> None:
+    def receive(self, payload: bytes, announced: str, respond: Callable[[bytes], None]) -> None:
         """Queue the request; what is no request, or one too many, is refused at once."""
         try:
+            schema = check_announced(self._query, self._robot, announced)
             request = decode_request(self._query, payload, schema)
         except ProtocolError as error:
             self.drops.count(error)
@@ -256,16 +292,38 @@ class Bus(Protocol):
 
 @dataclass
 class Outbox:
-    """Fills in what every message carries."""
+    """Fills in what every message carries.
+
+    Attributes:
+        identity: of this incarnation.
+        robot: whose topics it publishes on.
+        process: its name; empty for a test that speaks for whoever publishes a topic.
+    """
 
     identity: int
+    robot: str
+    process: str
     _sequences: dict[str, int] = field(default_factory=dict)
     _lock: threading.Lock = field(default_factory=threading.Lock)
 
     def stamp(self, topic: Topic[M], message: M, now_ns: int) -> M:
-        """The message with identity, sequence and stamp."""
+        """The message with all that names its sender, and sequence and stamp.
+
+        Raises:
+            Misplaced: this process does not publish the topic.
+        """
+        process = self.process or (topic.publisher if topic.publisher != "any" else "anybody")
+        if not topic.published_by(process):
+            raise Misplaced(topic.name, f"comes from {process!r}: only the {topic.publisher} publishes it")
         with self._lock:
             sequence = self._sequences.get(topic.name, 0) + 1
             self._sequences[topic.name] = sequence
-        changes: dict[str, Any] = {"publisher": self.identity, "sequence": sequence, "stamp_ns": now_ns}
+        changes: dict[str, Any] = {
+            "robot": self.robot,
+            "topic": topic.name,
+            "process": process,
+            "publisher": self.identity,
+            "sequence": sequence,
+            "stamp_ns": now_ns,
+        }
         return msgspec.structs.replace(message, **changes)

@@ -26,6 +26,11 @@ def new_number() -> int:
     return secrets.randbits(53) or 1
 
 
+def machine(publisher: int) -> int:
+    """The number of the publisher's machine since its boot."""
+    return publisher >> _LOW_BITS
+
+
 def same_clock(publisher: int, other: int) -> bool:
-    """Whether the stamps of two publishers come from the same monotonic clock."""
-    return publisher >> _LOW_BITS == other >> _LOW_BITS
+    """Whether the stamps of two publishers come from the same clock."""
+    return machine(publisher) == machine(other)

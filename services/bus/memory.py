@@ -8,9 +8,11 @@ import msgspec
 
 from protocol.codec import decode_reply, encode, encode_request
 from protocol.messages import Message, TopicFigures
+from protocol.placement import announcement
 from protocol.queries import Query
 from protocol.topics import Topic
 from services.bus.bus import Failed, Outbox, Pending, Server, Subscription
+from services.bus.clocks import Clocks
 from services.bus.identity import new_publisher
 from services.process.clock import Clock
 
@@ -20,16 +22,26 @@ Rep = TypeVar("Rep", bound=msgspec.Struct)
 
 
 class MemoryNetwork:
-    """What the buses of a test have in common."""
+    """What the buses of a test have in common.
 
-    def __init__(self, clock: Clock) -> None:
+    Args:
+        clock: that all of them share.
+        robot: whose network it is.
+    """
+
+    def __init__(self, clock: Clock, robot: str = "robot1") -> None:
         self.clock = clock
+        self.robot = robot
         self.subscriptions: list[Subscription[Any]] = []
         self.servers: dict[str, Server[Any, Any]] = {}
 
-    def bus(self) -> MemoryBus:
-        """A new process' way in."""
-        return MemoryBus(self)
+    def bus(self, process: str = "") -> MemoryBus:
+        """A new process' way in.
+
+        Args:
+            process: its name; without one it speaks for whichever process publishes a topic.
+        """
+        return MemoryBus(self, process)
 
     def deliver(self, topic: Topic[Any], payload: bytes, schema: str = "") -> None:
         """Put bytes on a topic, as any program on a network could."""
@@ -41,9 +53,10 @@ class MemoryNetwork:
 class MemoryBus:
     """The bus of one process under test."""
 
-    def __init__(self, network: MemoryNetwork) -> None:
+    def __init__(self, network: MemoryNetwork, process: str) -> None:
         self._network = network
-        self._outbox = Outbox(new_publisher())
+        self._outbox = Outbox(new_publisher(), network.robot, process)
+        self._clocks = Clocks(self.identity)
         self._own: list[Subscription[Any]] = []
         self._servers: list[Server[Any, Any]] = []
 
@@ -59,14 +72,14 @@ class MemoryBus:
 
     def subscribe(self, topic: Topic[M]) -> Subscription[M]:
         """Receive what is published from now on."""
-        subscription = Subscription(topic, self.identity)
+        subscription = Subscription(topic, self._network.robot, self.identity, self._clocks)
         self._network.subscriptions.append(subscription)
         self._own.append(subscription)
         return subscription
 
     def serve(self, query: Query[Req, Rep]) -> Server[Req, Rep]:
         """Answer a query."""
-        server = Server(query)
+        server = Server(query, self._network.robot)
         self._network.servers[query.name] = server
         self._servers.append(server)
         return server
@@ -80,7 +93,8 @@ class MemoryBus:
             pending.settle(Failed(f"nobody answers {query.name}"))
             return pending
         payload = encode_request(query, request)
-        server.receive(payload, query.schema, lambda reply: pending.settle(decode_reply(query, reply)))
+        announced = announcement(query, self._network.robot, query.request)
+        server.receive(payload, announced, lambda reply: pending.settle(decode_reply(query, reply)))
         return pending
 
     def figures(self) -> tuple[TopicFigures, ...]:

@@ -225,27 +225,27 @@ class Witness:
     @property
     def robot(self):
         """The robot's fresh state, or None."""
-        return self._robot.fresh(time.monotonic_ns())
+        return self._robot.fresh(SystemClock().now_ns())
 
     @property
     def teaching(self):
         """The workflow's fresh state, or None."""
-        return self._teaching.fresh(time.monotonic_ns())
+        return self._teaching.fresh(SystemClock().now_ns())
 
     @property
     def authority(self):
         """Who may command, or None."""
-        return self._authority.fresh(time.monotonic_ns())
+        return self._authority.fresh(SystemClock().now_ns())
 
     @property
     def safety(self):
         """The robot's safety state, or None."""
-        return self._safety.fresh(time.monotonic_ns())
+        return self._safety.fresh(SystemClock().now_ns())
 
     @property
     def model(self):
         """The model's state, or None."""
-        return self._model.fresh(time.monotonic_ns())
+        return self._model.fresh(SystemClock().now_ns())
 
     def beats(self):
         """The newest heartbeat of each process."""

@@ -1,7 +1,6 @@
 """Nothing that arrives on a network stops a process, moves the robot or changes what is known."""
 
 import random
-import time
 from collections import Counter
 
 import msgpack
@@ -15,6 +14,7 @@ from protocol.messages import Array, Phase
 from protocol.topics import TOPICS
 from services.bus.bus import Outbox
 from services.bus.identity import new_publisher
+from services.process.clock import SystemClock
 from services.process.processes import PROCESS_NAMES
 from tests.system import garbage
 from tests.system.harness import START_S, Command, Stranger, Witness, configured, eventually, free_endpoint
@@ -29,6 +29,10 @@ EPISODE_S = 60.0
 STILL_RAD = 1e-3
 
 
+SOURCE_OF_ANY = "robot"
+"""Under whose name a stranger sends what any process may publish."""
+
+
 class Network:
     """A whole system that waits for its operator, a stranger on its network, and what passed on each topic."""
 
@@ -39,12 +43,15 @@ class Network:
         self.samples = samples
 
     def send(self, topic, payloads, schema=None):
+        """Under the key of a process that publishes the topic, as a stranger can."""
+        source = topic.publisher if topic.publisher != "any" else SOURCE_OF_ANY
         for payload in payloads:
-            self.stranger.put(topic.key("robot1", "stranger"), payload, topic.schema if schema is None else schema)
+            self.stranger.put(topic.key("robot1", source), payload, topic.schema if schema is None else schema)
 
     def publish(self, topic, message):
         """A sound message, of a sender that nobody knows."""
-        stamped = Outbox(new_publisher()).stamp(topic, message, time.monotonic_ns())
+        process = topic.publisher if topic.publisher != "any" else SOURCE_OF_ANY
+        stamped = Outbox(new_publisher(), "robot1", process).stamp(topic, message, SystemClock().now_ns())
         self.send(topic, [encode(topic, stamped)])
 
 
@@ -66,8 +73,14 @@ def network(tmp_path_factory):
             subject = "/".join(passing.key.split("/")[3:5])
             samples[subject] = passing.payload
         # The only topic on which nothing has passed yet.
-        press = messages.EmergencyStop(pressed=True, by="stranger", sequence=1)
+        press = messages.EmergencyStop(
+            robot="robot1", topic=topics.EMERGENCY_STOP.name, pressed=True, by="stranger", sequence=1
+        )
         samples[topics.EMERGENCY_STOP.name] = encode(topics.EMERGENCY_STOP, press)
+        for topic in TOPICS:
+            if topic.publisher == "any":
+                fields = msgpack.unpackb(samples[topic.name]) | {"process": SOURCE_OF_ANY}
+                samples[topic.name] = msgpack.packb(fields)
         network = Network(up, witness, stranger, samples)
         # A process that came up after the only prediction was made has not heard it yet.
         network.send(topics.PREDICTION, [samples[topics.PREDICTION.name]])
@@ -101,7 +114,7 @@ def drops(beats):
 def kinds_of_garbage(topic, sample, rng):
     """Cause to payloads that have to be dropped for it."""
     repeats = LARGE_REPEATS if topic.max_bytes > 100_000 else REPEATS
-    now_ns = time.monotonic_ns()
+    now_ns = SystemClock().now_ns()
     return {
         "malformed": [
             *garbage.no_messages(topic.max_bytes),
@@ -110,8 +123,8 @@ def kinds_of_garbage(topic, sample, rng):
         ],
         "oversized": garbage.oversized(topic.max_bytes, repeats),
         "wrong_version": [sample] * repeats,
-        "future": garbage.from_the_future(sample, now_ns, repeats),
-        # A replayed stop of a sender that nobody knows is a stop, and no message is too late to be an event.
+        # A stop is a stop whatever its stamp and however often it comes, and no message is too late to be an event.
+        "future": garbage.from_the_future(sample, now_ns, repeats) if topic is not topics.EMERGENCY_STOP else [],
         "repeated": [sample] * repeats if topic is not topics.EMERGENCY_STOP else [],
         "stale": garbage.from_the_past(sample, now_ns, repeats) if topic.stale_after_ns is not None else [],
     }

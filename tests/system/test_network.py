@@ -3,7 +3,6 @@
 import os
 import re
 import signal
-import time
 
 import msgpack
 import numpy as np
@@ -60,7 +59,7 @@ def heard(sender, topic, message, subscription):
 
 
 def test_the_latest_wins(bus):
-    sender, subscription = bus("a"), bus("b").subscribe(topics.MODEL_STATE)
+    sender, subscription = bus("model"), bus("b").subscribe(topics.MODEL_STATE)
     states = [
         ModelState(kind="adaptive", version=version, demonstrations=1, updates=0, scene="s") for version in range(4)
     ]
@@ -72,7 +71,7 @@ def test_the_latest_wins(bus):
 
 
 def test_what_a_topic_keeps_comes_whole_and_in_order(bus):
-    sender, subscription = bus("a"), bus("b").subscribe(topics.AUTHORITY_RENEWAL)
+    sender, subscription = bus("station"), bus("b").subscribe(topics.AUTHORITY_RENEWAL)
     heard(sender, topics.AUTHORITY_RENEWAL, AuthorityRenewal(holder="a", epoch=0), subscription)
     subscription.take()
     for epoch in range(1, topics.AUTHORITY_RENEWAL.kept + 1):
@@ -83,11 +82,12 @@ def test_what_a_topic_keeps_comes_whole_and_in_order(bus):
 
 
 def test_a_message_says_who_sent_it_and_when(bus):
-    sender, receiver = bus("a"), bus("b")
-    before = time.monotonic_ns()
+    sender, receiver = bus("master-ann"), bus("b")
+    before = SystemClock().now_ns()
     message = heard(sender, topics.MASTER_STATE, MasterState(), receiver.subscribe(topics.MASTER_STATE))
     assert message.publisher == sender.identity != receiver.identity
-    assert before <= message.stamp_ns <= time.monotonic_ns()
+    assert (message.robot, message.topic, message.process) == ("robot1", "cmd/master_state", "master-ann")
+    assert before <= message.stamp_ns <= SystemClock().now_ns()
     (figures,) = receiver.figures()
     assert 0.0 <= figures.latency < 1.0
 
@@ -241,14 +241,17 @@ def test_echo_ends_after_as_many_messages_as_asked_for(tmp_path, router):
 
 def test_a_newer_version_of_a_message_with_one_field_more_is_read(bus, router):
     subscription = bus("b").subscribe(topics.MASTER_STATE)
+    place = {"robot": "robot1", "topic": topics.MASTER_STATE.name, "process": "master"}
     fields = {"publisher": 1, "sequence": 1, "stamp_ns": 1, "engaged": True, "colour": "a field of the next version"}
     with Stranger(router) as stranger:
-        stranger.put(topics.MASTER_STATE.key("robot1", "a"), msgpack.packb(fields), topics.MASTER_STATE.schema)
+        stranger.put(
+            topics.MASTER_STATE.key("robot1", "master"), msgpack.packb(place | fields), topics.MASTER_STATE.schema
+        )
         eventually(subscription.latest, WITHIN_S, "it is read")
     assert subscription.latest().message.engaged
 
 
-def test_top_shows_the_live_processes_with_rate_age_latency_and_drops(tmp_path, router):
+def test_top_shows_the_live_processes_with_rate_age_latency_and_drops(tmp_path, bus, router):
     with (
         Command("model", "--connect", router, folder=tmp_path),
         Command("master", "--connect", router, folder=tmp_path) as master,
@@ -263,7 +266,7 @@ def test_top_shows_the_live_processes_with_rate_age_latency_and_drops(tmp_path, 
             return next(t for t in beat.topics if t.topic == topics.OPERATOR_INPUT.name).malformed
 
         eventually(dropped, WITHIN_S, "a drop is counted")
-        witness.bus.publish(topics.OPERATOR_INPUT, OperatorInput())
+        bus("station").publish(topics.OPERATOR_INPUT, OperatorInput())
         with Command("top", "--once", "--connect", router, folder=tmp_path) as top:
             assert top.ended(20.0) == 0
         for heading in ("process", "Hz", "rate", "age", "latency", "drops", "CPU", "late"):

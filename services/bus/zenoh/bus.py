@@ -13,9 +13,11 @@ import zenoh
 from protocol.codec import decode_reply, encode, encode_request
 from protocol.exceptions import ProtocolError
 from protocol.messages import Message, TopicFigures
+from protocol.placement import announcement, check_announced
 from protocol.queries import Query
 from protocol.topics import VERSION, QoS, Topic, checked_name
 from services.bus.bus import Failed, Outbox, Pending, Server, Subscription
+from services.bus.clocks import Clocks
 from services.bus.identity import new_publisher
 from services.bus.zenoh.encoding import announced, encoding
 from services.bus.zenoh.sessions import close_session, open_session
@@ -65,7 +67,8 @@ class ZenohBus:
         self._robot = checked_name(robot)
         self._process = checked_name(process)
         self._clock = clock
-        self._outbox = Outbox(new_publisher())
+        self._outbox = Outbox(new_publisher(), self._robot, self._process)
+        self._clocks = Clocks(self.identity)
         self._publishers: dict[str, zenoh.Publisher] = {}
         self._inlets: list[Subscription[Any] | Server[Any, Any]] = []
         self._token: zenoh.LivelinessToken | None = None
@@ -96,10 +99,11 @@ class ZenohBus:
 
     def subscribe(self, topic: Topic[M]) -> Subscription[M]:
         """Receive what any process publishes on the topic."""
-        subscription = Subscription(topic, self.identity)
+        subscription = Subscription(topic, self._robot, self.identity, self._clocks)
 
         def store(sample: zenoh.Sample) -> None:
-            subscription.receive(sample.payload.to_bytes(), announced(sample.encoding), self._clock.now_ns())
+            key = str(sample.key_expr)
+            subscription.receive(sample.payload.to_bytes(), announced(sample.encoding), self._clock.now_ns(), key)
 
         self._session.declare_subscriber(topic.key(self._robot, "*"), store)
         self._inlets.append(subscription)
@@ -107,13 +111,13 @@ class ZenohBus:
 
     def serve(self, query: Query[Req, Rep]) -> Server[Req, Rep]:
         """Answer a query."""
-        server = Server(query)
+        server = Server(query, self._robot)
         key = query.key(self._robot)
 
         def store(call: zenoh.Query) -> None:
             payload = call.payload.to_bytes() if call.payload is not None else b""
             schema = announced(call.encoding) if call.encoding is not None else ""
-            server.receive(payload, schema, _responder(call, key))
+            server.receive(payload, schema, _responder(call, key, announcement(query, self._robot, query.reply)))
 
         self._session.declare_queryable(key, store, complete=True)
         self._inlets.append(server)
@@ -128,6 +132,7 @@ class ZenohBus:
                 pending.settle(Failed(f"{query.name} was not answered in {timeout_s:g} s"))
                 return
             try:
+                check_announced(query, self._robot, announced(reply.ok.encoding))
                 pending.settle(decode_reply(query, reply.ok.payload.to_bytes()))
             except ProtocolError as error:
                 pending.settle(Failed(str(error)))
@@ -139,7 +144,7 @@ class ZenohBus:
             query.key(self._robot),
             zenoh.handlers.Callback(settle, end),
             payload=encode_request(query, request),
-            encoding=encoding(query.schema),
+            encoding=encoding(announcement(query, self._robot, query.request)),
             timeout=timeout_s,
         )
         return pending
@@ -170,9 +175,9 @@ class ZenohBus:
         return publisher
 
 
-def _responder(call: zenoh.Query, key: str) -> Callable[[bytes], None]:
+def _responder(call: zenoh.Query, key: str, says: str) -> Callable[[bytes], None]:
     def respond(payload: bytes) -> None:
-        call.reply(key, payload, encoding=encoding(""))
+        call.reply(key, payload, encoding=encoding(says))
         call.drop()  # type: ignore[no-untyped-call]  # Zenoh's stub leaves it bare
 
     return respond

@@ -3,6 +3,8 @@
 import pytest
 
 from protocol import queries, topics
+from protocol.codec import decode_reply, encode
+from protocol.exceptions import Misplaced
 from protocol.messages import EmergencyStop, MasterState, ModelState
 from services.bus.bus import Failed
 from services.bus.memory import MemoryNetwork
@@ -65,6 +67,74 @@ def test_what_is_thrown_away_is_counted_and_named_and_nothing_else_happens(netwo
     assert getattr(subscription.figures(clock.now_ns()), cause) == 1
     assert "cmd/master_state" in receiver.faults()[0]
     assert receiver.faults() == []
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {"robot": "robot2"},
+        {"robot": ""},
+        {"topic": "cmd/operator_input"},
+        {"topic": ""},
+        {"process": "station"},
+        {"process": "masterly"},
+        {"process": "master/*"},
+        {"process": ""},
+    ],
+    ids=str,
+)
+def test_a_message_that_belongs_elsewhere_is_dropped_counted_and_named(network, clock, changed):
+    receiver = network.bus()
+    subscription = receiver.subscribe(topics.MASTER_STATE)
+    place = {"robot": "robot1", "topic": "cmd/master_state", "process": "master-ann"}
+    network.deliver(topics.MASTER_STATE, encode(topics.MASTER_STATE, MasterState(**(place | changed))))
+    assert subscription.latest() is None
+    assert subscription.figures(clock.now_ns()).misplaced == 1
+    assert "misplaced on cmd/master_state" in receiver.faults()[0]
+    network.deliver(topics.MASTER_STATE, encode(topics.MASTER_STATE, MasterState(**place, sequence=1)))
+    assert subscription.latest() is not None
+
+
+def test_a_message_under_another_key_than_it_names_is_misplaced(network, clock):
+    subscription = network.bus().subscribe(topics.MASTER_STATE)
+    place = {"robot": "robot1", "topic": "cmd/master_state", "process": "master-ann"}
+    payload = encode(topics.MASTER_STATE, MasterState(**place, sequence=1))
+    for robot, source in (("robot2", "master-ann"), ("robot1", "master")):
+        subscription.receive(payload, "", clock.now_ns(), topics.MASTER_STATE.key(robot, source))
+    assert subscription.latest() is None
+    assert subscription.drops.misplaced == 2
+    subscription.receive(payload, "", clock.now_ns(), topics.MASTER_STATE.key("robot1", "master-ann"))
+    assert subscription.latest() is not None
+
+
+def test_a_process_publishes_its_own_topics_and_nobody_else_s(network):
+    subscription = network.bus().subscribe(topics.MASTER_STATE)
+    network.bus("master-ann").publish(topics.MASTER_STATE, MasterState())
+    message = subscription.latest().message
+    assert (message.robot, message.topic, message.process) == ("robot1", "cmd/master_state", "master-ann")
+    with pytest.raises(Misplaced, match="only the master publishes"):
+        network.bus("station").publish(topics.MASTER_STATE, MasterState())
+
+
+def test_a_stop_counts_whatever_its_stamp_and_however_often_it_comes(network, clock):
+    subscription = network.bus().subscribe(topics.EMERGENCY_STOP)
+    place = {"robot": "robot1", "topic": topics.EMERGENCY_STOP.name, "process": "cli-1"}
+    for stamp_ns in (0, 2**62, clock.now_ns(), clock.now_ns()):
+        press = EmergencyStop(pressed=True, by="ann", sequence=2**53, stamp_ns=stamp_ns, **place)
+        network.deliver(topics.EMERGENCY_STOP, encode(topics.EMERGENCY_STOP, press))
+    assert len(subscription.take()) == 4
+
+
+@pytest.mark.parametrize("announced", ["Undo/1 robot2 model/undo", "Undo/1 robot1 model/describe", "Undo/1 robot1"])
+def test_a_request_that_belongs_elsewhere_is_refused_and_counted(network, announced):
+    bus, answers = network.bus(), []
+    server = bus.serve(queries.UNDO)
+    server.receive(b"\x80", announced, answers.append)
+    assert server.take() == []
+    assert isinstance(decode_reply(queries.UNDO, answers[0]), queries.Refused)
+    assert server.drops.misplaced == 1
+    server.receive(b"\x80", "Undo/1 robot1 model/undo", answers.append)
+    assert len(server.take()) == 1
 
 
 def test_a_question_is_answered(network):
