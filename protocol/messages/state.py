@@ -61,7 +61,8 @@ class RobotState(Message, frozen=True, kw_only=True):
         waiting: it has held for so long that it goes on only when it is asked to (`cmd/resume`).
         clamped: what was clamped in this period, each a short word with the place.
         applied_sequence: of the last master state that took effect.
-        applied_latency: from that sample's stamp to its effect [s]; negative where the clocks are not comparable.
+        applied_latency: from that sample's stamp to when the arm was handed the command that it shaped [s]; negative
+            where the clocks are not comparable.
     """
 
     joint_names: Annotated[tuple[Name, ...], msgspec.Meta(max_length=64)] = ()

@@ -43,9 +43,21 @@ def admit_prediction(positions: Array, orientations: Array, duration: float, mea
         raise Refusal(f"the prediction has {prediction.n_points} way-points, at most {MOST_POINTS} are allowed")
     if not SHORTEST_S <= duration <= LONGEST_S:
         raise Refusal(f"the prediction takes {duration:.3g} s: give {SHORTEST_S:g} to {LONGEST_S:g} s")
-    interval = duration / (prediction.n_points - 1)
+    with np.errstate(over="ignore", invalid="ignore"):  # what is too large for a number is too large
+        _check_speeds(prediction)
+        distance = float(np.linalg.norm(prediction.positions[0] - measured.position))
+    if not distance <= START_DISTANCE:
+        raise Refusal(
+            f"the prediction starts {distance:.2f} m away from the gripper, at most {START_DISTANCE:g} m is allowed:"
+            " reset the robot first"
+        )
+    return prediction
+
+
+def _check_speeds(prediction: Trajectory) -> None:
+    interval = prediction.duration / (prediction.n_points - 1)
     speeds = np.linalg.norm(np.diff(prediction.positions, axis=0), axis=1) / interval
-    if np.max(speeds) > FASTEST:
+    if not np.max(speeds) <= FASTEST:
         point = int(np.argmax(speeds))
         raise Refusal(
             f"the prediction moves at {np.max(speeds):.2f} m/s after way-point {point}, at most {FASTEST:g} m/s is"
@@ -53,19 +65,12 @@ def admit_prediction(positions: Array, orientations: Array, duration: float, mea
         )
     turns = log_map(multiply(conjugate(prediction.orientations[:-1]), prediction.orientations[1:]))
     turn_speeds = np.linalg.norm(turns, axis=1) / interval
-    if np.max(turn_speeds) > FASTEST_TURN:
+    if not np.max(turn_speeds) <= FASTEST_TURN:
         point = int(np.argmax(turn_speeds))
         raise Refusal(
             f"the prediction turns at {np.max(turn_speeds):.2f} rad/s after way-point {point}, at most"
             f" {FASTEST_TURN:g} rad/s is allowed: give it more time"
         )
-    distance = float(np.linalg.norm(prediction.positions[0] - measured.position))
-    if distance > START_DISTANCE:
-        raise Refusal(
-            f"the prediction starts {distance:.2f} m away from the gripper, at most {START_DISTANCE:g} m is allowed:"
-            " reset the robot first"
-        )
-    return prediction
 
 
 def admit_target(scene: AnyScene, request: Reset) -> Array | None:

@@ -3,7 +3,9 @@
 The service and the offline rollout both drive this class; here execution, kinematics, limits, backend and verdict meet.
 """
 
+import logging
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,6 +25,9 @@ from sim.pose import Pose
 
 Array = NDArray[np.float64]
 
+log = logging.getLogger(__name__)
+
+LONGEST_FAULT = 200  # [characters]
 OUT_OF_REACH = 0.005  # [m] between reference and command from which it is reported
 OUT_OF_TURN = 0.05  # [rad] the same of their orientations, which give way first at the joints' limits
 
@@ -43,6 +48,7 @@ class Tick:
         self_distance: between parts of the robot, where they are nearest [m].
         verdict: now.
         outcome: of the episode that ended in this period.
+        fault: what is wrong with the arm, so that nothing is known of this period; empty where nothing is.
     """
 
     observation: Observation
@@ -56,6 +62,7 @@ class Tick:
     self_distance: float
     verdict: Verdict
     outcome: EpisodeOutcome | None
+    fault: str
 
 
 class Arm:
@@ -91,6 +98,7 @@ class Arm:
         self._self_distance_stop = self_distance_stop
         self._episode: Episode | None = None
         self._fault = ""
+        self._said = ""
         self._self_distance = 0.0
         self._stand()
 
@@ -166,32 +174,32 @@ class Arm:
         self._q = self.observation.q
         return episode.outcome(self._verdict, self.measured, reason) if episode is not None else None
 
-    def tick(self, wanted: Correction, hold_reason: str = "") -> Tick:
+    def tick(self, wanted: Correction, hold_reason: str = "", given: Callable[[], None] = lambda: None) -> Tick:
         """Give one command and see what it did.
 
         Args:
             wanted: the correction that the operator asks for.
             hold_reason: why a running episode may not go on, empty where it may.
+            given: called when the command has been handed over, before the period passes in which it acts.
         """
         episode = self._episode
-        clamped: tuple[str, ...] = ()
         holding = bool(episode is not None and hold_reason)
-        if episode is not None and holding:
-            if not episode.holding:
-                # A blocked arm's command lies ahead of it: the arm must not creep there while it holds.
-                self._q = self.observation.q
-            episode.hold()
-        previous_q = self._q
-        if episode is not None and not holding:
-            previous_q, clamped = self._follow(episode, wanted)
-        self._backend.command(self._q, (self._q - previous_q) / CONTROL_PERIOD)
-        self._observe()
+        clamped: tuple[str, ...] = ()
+        fault = ""
+        try:
+            previous_q, clamped = self._decide(episode, wanted, holding=holding)
+            self._backend.command(self._q, (self._q - previous_q) / CONTROL_PERIOD)
+            given()
+            self._backend.elapse()
+            self._observe()
+        except Exception as error:  # noqa: BLE001 (whatever hardware and solvers raise: the arm stands and says so)
+            fault = self._broken(error)
         outcome = None
         if episode is not None:
-            if not holding:
+            if not (holding or fault):
                 commanded = self._kinematics.forward(self._q)
                 episode.record(self._reference, commanded, self.measured, clamped=bool(clamped))
-            outcome = self._conclude(episode)
+            outcome = self.stop(fault) if fault else self._conclude(episode)
         return Tick(
             observation=self.observation,
             measured=self.measured,
@@ -204,7 +212,29 @@ class Arm:
             self_distance=self._self_distance,
             verdict=self._verdict,
             outcome=outcome,
+            fault=fault,
         )
+
+    def _decide(self, episode: Episode | None, wanted: Correction, *, holding: bool) -> tuple[Array, tuple[str, ...]]:
+        """Choose the next command; the joints that it starts from, and what was clamped."""
+        if episode is None:
+            return self._q, ()
+        if not holding:
+            return self._follow(episode, wanted)
+        if not episode.holding:
+            # A blocked arm's command lies ahead of it: the arm must not creep there while it holds.
+            self._q = self.observation.q
+        episode.hold()
+        return self._q, ()
+
+    def _broken(self, error: Exception) -> str:
+        """What is wrong with the arm, in one line, said once as long as it is the same."""
+        fault = f"the arm failed ({type(error).__name__}: {' '.join(str(error).split())[:LONGEST_FAULT]})"
+        if fault != self._said:
+            log.error("%s", fault)
+            log.debug("as raised", exc_info=error)
+        self._said = fault
+        return fault
 
     def _follow(self, episode: Episode, wanted: Correction) -> tuple[Array, tuple[str, ...]]:
         """Command the next reference; the joints that it started from, and what was clamped."""
@@ -221,6 +251,8 @@ class Arm:
             solved, _ = self._kinematics.solve_step(q, target.position, target.orientation, period)
         except InverseFailed as error:
             return q, (*clamped, str(error))
+        if not np.all(np.isfinite(solved)):
+            return q, (*clamped, "inverse kinematics gave no number")
         q_next, joints = self._limits.clamp(q, solved, CONTROL_PERIOD)
         clamped.extend(joints)
         distance = self._kinematics.self_distance(q_next)

@@ -178,17 +178,20 @@ class Control:
         self.latch = self.latch.released(request.by, self._now())
         self.lease.revoke()
 
-    def tick(self, now_ns: int, sample: Received[MasterState] | None) -> Tick:
+    def tick(self, now_ns: int, sample: Received[MasterState] | None, given: Callable[[], None]) -> Tick:
         """One control period.
 
         Args:
             now_ns: the time.
-            sample: the newest master state of the authority's epoch, None where there was none.
+            sample: the newest master state under the authority, None where there was none.
+            given: called when the arm's command has been handed over.
         """
         self.lease.expire(now_ns)
         reason = self._hold_reason(now_ns, sample)
-        tick = self.arm.tick(self._wanted(sample, reason), reason)
+        tick = self.arm.tick(self._wanted(sample, reason), reason, given)
         self._end(tick.outcome)
+        if tick.fault:
+            self.press("robot", tick.fault)
         # Only now, with the arm told to stand: a disk may take its time.
         self.memory.keep(self.latch, self.lease.epoch)
         return tick

@@ -54,7 +54,8 @@ class Reports:
             now_ns: the time.
             tick: the control period that ended.
             applied_sequence: of the last master state that took effect.
-            applied_latency: from its stamp to its effect [s]; negative where the clocks are not comparable.
+            applied_latency: from its stamp to the command that it shaped [s]; negative where the clocks are not
+                comparable.
         """
         control, due = self._control, self._schedule.due
         self._bus.publish(topics.ROBOT_STATE, self._robot_state(tick, applied_sequence, applied_latency))

@@ -36,6 +36,7 @@ log = logging.getLogger(__name__)
 Array = NDArray[np.float64]
 
 FIGURES_KEPT = 4096
+LONGEST_REASON = 900  # [characters] that fit into any reply
 
 
 def build(bus: Bus, clock: Clock, configuration: Configuration, memory: Memory | None = None) -> RobotService:
@@ -135,6 +136,7 @@ class RobotService:
         self._sample: Received[MasterState] | None = None
         self._applied: Received[MasterState] | None = None
         self._applied_latency = -1.0
+        self._given_ns = 0
         self._latencies: deque[float] = deque(maxlen=FIGURES_KEPT)
         self._first_ns: int | None = None
         self._ticks = self._touching = self._clamped = self._refused = 0
@@ -147,7 +149,7 @@ class RobotService:
         sample = self._sample_that_counts()
         if sample is not None:
             self._pace.heard(now_ns, sample.received_ns)
-        tick = self._control.tick(now_ns, sample)
+        tick = self._control.tick(now_ns, sample, self._given)
         self._measure(tick, sample)
         applied = self._applied.message.sequence if self._applied is not None else 0
         self._reports.publish(now_ns, tick, applied, self._applied_latency)
@@ -157,13 +159,17 @@ class RobotService:
         return self._pace.take_slew_ns()
 
     def figures(self) -> tuple[Figure, ...]:
-        """Since the last call: latency from the master's stamp to the command, inverse kinematics, contacts, clamps."""
+        """Since the last call.
+
+        The first two count from the master's stamp on a sample to when the arm was handed the first command that the
+        sample shaped, both by one machine's clock.
+        """
         latency_p50, latency_p99 = _quantiles(self._latencies)
         _, inverse_p99 = _quantiles(self._kinematics.steps_ns)
         elapsed = (self._clock.now_ns() - self._first_ns) / 1e9 if self._first_ns is not None else 0.0
         figures = (
-            Figure("applied_latency_p50", 1e3 * latency_p50, "ms"),
-            Figure("applied_latency_p99", 1e3 * latency_p99, "ms"),
+            Figure("sample_to_command_p50", 1e3 * latency_p50, "ms"),
+            Figure("sample_to_command_p99", 1e3 * latency_p99, "ms"),
             Figure("inverse_kinematics_p99", 1e-6 * inverse_p99, "ms"),
             Figure("simulation_lag", max(0.0, elapsed - self._ticks * CONTROL_PERIOD), "s"),
             Figure("touching", float(self._touching), "periods"),
@@ -206,10 +212,18 @@ class RobotService:
             try:
                 reply = answer(call.request)
             except Refusal as refusal:
-                self._refused += 1
-                log.warning("refused: %s", refusal)
-                reply = Refused(refusal.reason)
+                reply = self._refuse(refusal.reason)
+            except Exception as error:
+                # Nothing that a client sends may end the robot's process.
+                log.debug("as raised", exc_info=error)
+                reply = self._refuse(f"the robot failed at this request ({type(error).__name__}: {error})")
             call.reply(reply)
+
+    def _refuse(self, reason: str) -> Refused:
+        self._refused += 1
+        line = " ".join(reason.split())[:LONGEST_REASON]
+        log.warning("refused: %s", line)
+        return Refused(line)
 
     def _sample_that_counts(self) -> Received[MasterState] | None:
         """The newest master state under the present authority; those of any other holder or epoch do not count."""
@@ -221,6 +235,10 @@ class RobotService:
             self._sample = None
         return self._sample
 
+    def _given(self) -> None:
+        """The arm has its command: what follows in the step, simulated physics included, delays no sample."""
+        self._given_ns = self._clock.now_ns()
+
     def _measure(self, tick: Tick, sample: Received[MasterState] | None) -> None:
         """Count the tick, and the time that the sample took where it acted for the first time."""
         self._ticks += 1
@@ -231,7 +249,7 @@ class RobotService:
         self._applied = sample
         self._applied_latency = -1.0
         if sample is not None and same_clock(sample.message.publisher, self._bus.identity):
-            self._applied_latency = (self._clock.now_ns() - sample.message.stamp_ns) / 1e9
+            self._applied_latency = (self._given_ns - sample.message.stamp_ns) / 1e9
             self._latencies.append(self._applied_latency)
 
 

@@ -89,12 +89,16 @@ class Backend(Protocol):
         ...
 
     def command(self, q: Array, qd: Array) -> None:
-        """Command the joints for one control period; returns when it is over.
+        """Hand over the joints' command for one control period; returns at once.
 
         Args:
             q: positions at its end, shape (m,).
             qd: velocities towards them, shape (m,).
         """
+        ...
+
+    def elapse(self) -> None:
+        """Let the control period pass: simulated time does so by this alone, and that of hardware by itself."""
         ...
 
     def observe(self) -> Observation:

@@ -99,10 +99,15 @@ class ParticleBackend:
         self._variant = variant
         self._condition = place.copy()
         self._q, self._qd, self._time = q.copy(), np.zeros(3), 0.0
+        self._command = self._q, self._qd
 
     def command(self, q: Array, qd: Array) -> None:
+        """Where to be, and how fast, at the period's end."""
+        self._command = q.copy(), qd.copy()
+
+    def elapse(self) -> None:
         """One control period."""
-        self._q, self._qd = q.copy(), qd.copy()
+        self._q, self._qd = self._command
         self._time += CONTROL_PERIOD
 
     def observe(self) -> Observation:

@@ -20,6 +20,8 @@ class Simulation:
 
     def __init__(self, world: World) -> None:
         self._world = world
+        q = world.observe().q
+        self._command = q, np.zeros_like(q)
 
     @property
     def joint_names(self) -> tuple[str, ...]:
@@ -43,8 +45,12 @@ class Simulation:
             raise Blocked(*touch.between)
 
     def command(self, q: Array, qd: Array) -> None:
+        """The references of the servos."""
+        self._command = q.copy(), qd.copy()
+
+    def elapse(self) -> None:
         """Ten milliseconds of physics."""
-        self._world.step(q, qd)
+        self._world.step(*self._command)
 
     def observe(self) -> Observation:
         """Sensors and truth, which are one in simulation."""

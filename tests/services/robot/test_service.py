@@ -375,4 +375,4 @@ def test_the_figures_have_names_and_units(site):
     figures = {figure.name: figure for figure in site.service.figures()}
     assert figures["simulation_lag"].value == pytest.approx(0.0, abs=0.011)
     assert figures["touching"].value == 0.0
-    assert figures["applied_latency_p99"].unit == "ms"
+    assert figures["sample_to_command_p99"].unit == "ms"

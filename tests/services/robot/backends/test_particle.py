@@ -29,6 +29,7 @@ def test_steps_go_straight_to_the_position_and_no_faster_than_they_may(here, the
 def test_the_backend_is_where_it_was_told_to_be_one_period_later():
     backend = ParticleBackend(PARTICLE, FREE)
     backend.command(np.array([0.1, 0.05, 0.0]), np.array([0.04, 0.02, 0.0]))
+    backend.elapse()
     seen = backend.observe()
     assert seen.time == pytest.approx(CONTROL_PERIOD)
     np.testing.assert_array_equal(seen.q, [0.1, 0.05, 0.0])
@@ -39,6 +40,7 @@ def test_the_backend_is_where_it_was_told_to_be_one_period_later():
 def test_a_reset_puts_particle_and_via_points_in_place():
     backend = ParticleBackend(PARTICLE, FREE)
     backend.command(np.array([0.1, 0.05, 0.0]), np.zeros(3))
+    backend.elapse()
     backend.reset(np.array([0.1, -0.07]), OBSTACLE, np.zeros(3))
     seen = backend.observe()
     assert (seen.time, backend.variant) == (0.0, OBSTACLE)
@@ -61,6 +63,7 @@ def test_a_reset_puts_particle_and_via_points_in_place():
 def test_the_particle_touches_the_obstacle_with_its_surface(variant, position, touching):
     backend = ParticleBackend(PARTICLE, variant)
     backend.command(np.array(position), np.zeros(3))
+    backend.elapse()
     touch = backend.observe().touch
     assert (touch is not None) == touching
     if touch is not None:
