@@ -12,10 +12,11 @@ from protocol.messages.values import Condition, Count, Message, Name, Real, Text
 
 
 class Light(enum.Enum):
-    """The operator's traffic light: red watch, amber wait, green act."""
+    """The operator's traffic light: red watch, amber wait, hold where the robot stands in a motion, green act."""
 
     RED = "red"
     AMBER = "amber"
+    HOLD = "hold"
     GREEN = "green"
 
 

@@ -9,7 +9,8 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-WITHIN_S = 5.0
+WITHIN_S = 20.0
+SEAT = "the-seat-of-all-tests"
 
 
 def _free_port():
@@ -39,7 +40,7 @@ def eventually():
 @pytest.fixture(scope="session")
 def station():
     """A page that is served, and its feed."""
-    pytest.importorskip("nicegui")
+    pytest.importorskip("uvicorn")
     from harness import Feed, working_view
 
     from services.process.clock import SystemClock
@@ -56,21 +57,33 @@ def station():
 
 
 class Tab:
-    """A browser tab with the page open, and what it complained about or asked for."""
+    """A browser tab with the page open, and what it complained about or asked for.
 
-    def __init__(self, browser, url):
+    Args:
+        browser: to open it in.
+        url: of the page.
+        seat: by which the station knows the tab again; its own where there is none.
+        script: run in the page before any other.
+    """
+
+    def __init__(self, browser, url, seat=None, script=""):
         self.faults = []
         self.requests = []
         self.page = browser.new_page(viewport={"width": 1600, "height": 900})
         self.page.on("console", lambda message: self.faults.append(message.text) if message.type == "error" else None)
         self.page.on("pageerror", lambda error: self.faults.append(str(error)))
         self.page.on("request", lambda request: self.requests.append(request.url))
+        seated = f"sessionStorage.setItem('retouch-seat', '{seat}');" if seat else ""
+        self.page.add_init_script(f"if (window === window.top) {{ {seated} {script} }}")
         self.page.goto(url)
-        self.page.wait_for_selector("body[data-link]")
+        self.page.wait_for_selector("body:not([data-link=offline])")
 
     @property
     def link(self):
         return self.page.evaluate("document.body.dataset.link")
+
+    def wait(self, selector):
+        self.page.wait_for_selector(selector, timeout=WITHIN_S * 1e3)
 
 
 @pytest.fixture
@@ -78,8 +91,8 @@ def open_tab(browser, station):
     """A function that opens another tab."""
     tabs = []
 
-    def open_one():
-        tabs.append(Tab(browser, station[0].url))
+    def open_one(url=None, **options):
+        tabs.append(Tab(browser, url or station[0].url, **options))
         return tabs[-1]
 
     yield open_one
@@ -88,14 +101,63 @@ def open_tab(browser, station):
 
 
 @pytest.fixture
-def tab(station, open_tab, eventually):
-    """A tab that has the input, of a station where everything works."""
-    from harness import working_view
+def calm_station(station, eventually):
+    """A station where everything works, no tab is open and nothing waits."""
+    from harness import confirmed_view, working_view
 
     page, feed = station
-    feed.view = working_view()
     eventually(lambda: page.figures()[0].value == 0)
-    opened = open_tab()
-    eventually(lambda: page.take_input().focused)
-    page.take_actions()
-    return opened
+    feed.view = confirmed_view()
+    eventually(lambda: not page.take_actions())
+    page.show(feed.view)
+    feed.view = working_view()
+    return station
+
+
+@pytest.fixture
+def open_seated(calm_station, open_tab, eventually):
+    """A function that opens the tab that has the input: the same one in every test, since nobody inherits a seat."""
+
+    def open_one(url=None, **options):
+        opened = open_tab(url, seat=SEAT, **options)
+        opened.wait("body[data-link=armed]")
+        eventually(lambda: calm_station[0].take_input().focused)
+        return opened
+
+    return open_one
+
+
+@pytest.fixture
+def tab(open_seated):
+    """A tab that has the input, of a station where everything works."""
+    return open_seated()
+
+
+@pytest.fixture
+def hand(tab, station):
+    """A hand on the keys of the tab that has the input."""
+    from hand import Hand
+
+    return Hand(tab, station[0], WITHIN_S)
+
+
+@pytest.fixture
+def pressed(station, eventually):
+    """A function that waits for a press to arrive, and says which did."""
+
+    def wait():
+        taken = []
+        eventually(lambda: taken.extend(station[0].take_actions()) or taken)
+        return taken
+
+    return wait
+
+
+@pytest.fixture
+def cable(station):
+    """What lies between a browser and the station, to be cut."""
+    from cable import Cable
+
+    between = Cable(int(station[0].url.rpartition(":")[2]))
+    yield between
+    between.close()

@@ -63,6 +63,11 @@ def working_view() -> PageView:
     )
 
 
+def confirmed_view() -> PageView:
+    """The same, where the robot says that it is stopped and stands."""
+    return replace(working_view(), safety=messages.SafetyState(emergency_stop=True, by="anna", standing=True))
+
+
 class Feed:
     """Shows a view again and again, as a station's step does; `view` may be exchanged at any time."""
 

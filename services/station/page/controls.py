@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
-from nicegui.element import Element
-
-from services.station.page.elements import block, enable, icon, mark, text
+from protocol.keys import PUSH_KEYS, TURN_KEYS, Way
+from protocol.messages import SafetyState
+from services.station.page.input import Standing
+from services.station.page.values import Values
 from services.station.page.view import Shown
 
 
@@ -30,95 +32,86 @@ class Button:
 BUTTONS = (
     Button("execute", "Execute", "the robot alone", "play"),
     Button("refine", "Refine", "you correct it", "pen"),
+    Button("go_on", "Go on", "with this motion", "next"),
     Button("finish", "Finish", "Space", "flag"),
-    Button("next", "Next object", "a new place", "next"),
+    Button("next", "Next object", "a new place", "place"),
     Button("undo", "Undo", "the last update", "undo"),
     Button("end", "End", "this run", "end"),
     Button("take_over", "Take over", "the authority", "hand"),
 )
 
-MINUS = "\N{MINUS SIGN}"
 
-PUSH_KEYS = (
-    (("KeyQ", "Q", "+x", "forward"), ("KeyW", "W", "+y", "left"), ("KeyE", "E", "+z", "up")),
-    (("KeyA", "A", f"{MINUS}x", "back"), ("KeyS", "S", f"{MINUS}y", "right"), ("KeyD", "D", f"{MINUS}z", "down")),
-)
-"""Rows of keys as they lie under the hand: code, cap, axis of the base frame, direction."""
+@dataclass(frozen=True)
+class Key:
+    """A key that steers.
 
-TURN_KEYS = (
-    (("KeyR", "R", "+x", "roll right"), ("KeyT", "T", "+y", "tilt down"), ("KeyY", "Y", "+z", "turn left")),
-    (
-        ("KeyF", "F", f"{MINUS}x", "roll left"),
-        ("KeyG", "G", f"{MINUS}y", "tilt up"),
-        ("KeyH", "H", f"{MINUS}z", "turn right"),
-    ),
-)
-"""The same of the keys to their right, which rotate about the axis."""
+    Attributes:
+        code: its place, as `KeyboardEvent.code` names it.
+        cap: what is printed there on a US keyboard; the page's script shows what is printed on this person's.
+        axis: of the base frame.
+        direction: in which it pushes or turns.
+    """
 
-
-def keys() -> None:
-    """The keys and what they do; the page's script lights those that are held."""
-    with block("panel keys"):
-        with block("keyboards"):
-            for rows in (PUSH_KEYS, TURN_KEYS):
-                _keyboard(rows)
-        text("Hold a key to push or turn the gripper; let go to return.", "keys-help")
-        text("Let go of everything to use the keys again.", "keys-let-go")
+    code: str
+    cap: str
+    axis: str
+    direction: str
 
 
-def _keyboard(rows: tuple[tuple[tuple[str, str, str, str], ...], ...]) -> None:
-    with block("keyboard"):
-        for code, cap, axis, direction in (key for row in rows for key in row):
-            with block("key").props(f"data-key={code}"):
-                text(cap, "key-cap")
-                text(axis, "key-axis")
-                text(direction, "key-direction")
+_PUSHES = (("forward", "left", "up"), ("back", "right", "down"))
+_TURNS = (("roll right", "tilt down", "turn left"), ("roll left", "tilt up", "turn right"))
+"""Directions along the three axes, then against them: as the keys lie under the hand."""
 
 
-class Actions:
+def _keyboard(table: Mapping[str, Way], directions: tuple[tuple[str, ...], ...]) -> tuple[tuple[Key, ...], ...]:
+    code_of = {way: code for code, way in table.items()}
+    return tuple(
+        tuple(_key(code_of[axis, sign], axis, sign, direction) for axis, direction in enumerate(row))
+        for sign, row in zip((+1, -1), directions, strict=True)
+    )
+
+
+def _key(code: str, axis: int, sign: int, direction: str) -> Key:
+    return Key(code, code[-1], ("+" if sign > 0 else "\N{MINUS SIGN}") + "xyz"[axis], direction)
+
+
+KEYBOARDS = (_keyboard(PUSH_KEYS, _PUSHES), _keyboard(TURN_KEYS, _TURNS))
+"""Rows of the keys that push, and to their right of those that turn."""
+
+
+def actions(shown: Shown) -> Values:
     """What the operator may do now; the rest is there and cannot be pressed."""
-
-    def __init__(self) -> None:
-        with block("panel actions"):
-            self._buttons = {button.action: self._button(button) for button in BUTTONS}
-
-    @staticmethod
-    def _button(button: Button) -> Element:
-        with block("action", "button").props(f"type=button data-action={button.action}") as element:
-            icon(button.symbol)
-            text(button.label, "action-label")
-            text(button.hint, "action-hint")
-        enable(element, False)
-        return element
-
-    def update(self, shown: Shown) -> None:
-        """Follow the teaching state."""
-        teaching = shown.view.teaching
-        allowed = frozenset() if teaching is None else frozenset(teaching.actions)
-        for action, element in self._buttons.items():
-            enable(element, action in allowed)
+    teaching = shown.view.teaching
+    allowed = frozenset() if teaching is None else frozenset(teaching.actions)
+    return {f"action-{button.action}@disabled": button.action not in allowed for button in BUTTONS}
 
 
-class EmergencyStop:
-    """The big red button; where the stop is latched, who pressed it, and its release."""
+def emergency_stop(shown: Shown, standing: Standing) -> Values:
+    """The big red button; where a stop was pressed, whether the robot confirms it; who stopped, who released."""
+    safety = shown.view.safety
+    latched = safety is not None and safety.emergency_stop
+    return {
+        "stop@data-stop": _stop(standing.stop_pressed, safety),
+        "stop-unconfirmed": "It is latched, but the arm still moves." if latched else "The robot has not said so yet.",
+        "stop-reason": "" if safety is None else _because(safety),
+        "stop-reason@data-at": "" if safety is None else safety.at,
+        "stop-released": "" if safety is None or not safety.released_by else f"released by {safety.released_by}",
+        "stop-released@data-at": "" if safety is None or not safety.released_by else safety.at,
+    }
 
-    def __init__(self) -> None:
-        with block("stop") as self._box:
-            with block("stop-button", "button").props("type=button data-action=stop"):
-                icon("stop")
-                text("Emergency stop", "stop-label")
-                text("Escape", "stop-hint")
-            with block("stopped"):
-                with block("stopped-words"):
-                    text("Stopped", "stopped-title")
-                    self._reason = text("", "stopped-reason")
-                with block("release", "button").props("type=button data-action=release_stop"):
-                    text("Release", "release-label")
 
-    def update(self, shown: Shown) -> None:
-        """Show whether the stop is latched."""
-        safety = shown.view.safety
-        latched = safety is not None and safety.emergency_stop
-        mark(self._box, "data-stopped", "yes" if latched else "no")
-        if safety is not None and latched:
-            self._reason.set_text(": ".join(part for part in (safety.by, safety.reason) if part))
+def is_confirmed(safety: SafetyState | None) -> bool:
+    """Whether the robot says that it is stopped, and was measured to stand."""
+    return safety is not None and safety.emergency_stop and safety.standing
+
+
+def _stop(pressed: bool, safety: SafetyState | None) -> str:
+    if is_confirmed(safety):
+        return "stopped"
+    if safety is not None and safety.emergency_stop:
+        return "moving"
+    return "unconfirmed" if pressed else "ready"
+
+
+def _because(safety: SafetyState) -> str:
+    return ": ".join(part for part in (safety.by, safety.reason) if part)

@@ -12,7 +12,8 @@ LOOPBACK_NAMES = frozenset({"localhost", "127.0.0.1", "::1"})
 
 CONTENT_POLICY = "; ".join(
     (
-        "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:",  # NiceGUI compiles its templates in the page
+        "default-src 'self'",
+        "connect-src 'self' ws: wss:",  # not every browser counts the own server's WebSocket as 'self'
         "frame-src http: https:",  # the viewer has an address of its own
         "frame-ancestors 'none'",
         "object-src 'none'",

@@ -1,103 +1,73 @@
 """What comes from the browser: whose tab commands, what is held there, and which buttons were pressed.
 
-A browser says its FULL input state 50 times a second. Keys count only from one tab, only while it has the focus, and
-only while its samples keep coming; after any interruption they count again once everything has been let go.
+A browser says its FULL input state 50 times a second. Keys count only from the tab that has the seat, only while it has
+the focus, and only while its samples keep coming. After any interruption nobody is at the keys until everything that
+steers was let go: a held key that was not heard meanwhile must neither count nor look as if it did.
 """
 
 from __future__ import annotations
 
 import threading
+from collections import deque
 from dataclasses import dataclass
-from typing import Annotated
 
-import msgspec
-
-from protocol.exceptions import MalformedMessage, OversizedMessage, ProtocolError
-from protocol.messages import Count, OperatorInput
+from protocol.exceptions import ProtocolError
+from protocol.keys import PUSH_KEYS, TURN_KEYS
+from protocol.messages import OperatorInput
 from services.bus.freshness import Freshness, Judgement
+from services.station.page.presses import STOP, Presses
+from services.station.page.said import Held, Hello, Pressed, read
+from services.station.page.seat import ASKED_NS, Seat
 
 DEAD_MAN_NS = 150_000_000
 """Age at which the input state counts as zero."""
 
-ABANDONED_NS = 1_000_000_000
-"""Silence after which another tab that opens takes the input."""
+HEARD_NS = 1_000_000_000
+"""Silence after which nobody is present at a tab."""
 
-MAX_BYTES = 4_096
-ACTIONS_KEPT = 64
-STOP = "stop"
+BEATS = 3
+"""So many samples within `HEARD_NS` are a page that is alive; of one that is not seen, browsers let one through."""
 
-_SUBJECT = "the operator's page"
+SETTLED_NS = 1_000_000_000
+"""Nobody is present at a tab that has just sat down: opening a page, or a link that comes back, resumes nothing."""
+
+LATE_PRESS_NS = 1_000_000_000
+"""Age at which a press is dropped: what was asked for a moment ago may be wrong by now."""
+
+STEERING = frozenset({*PUSH_KEYS, *TURN_KEYS})
+"""What the device obeys: a key that does nothing, or an axis that no device uses, never keeps the others waiting."""
+
+TAKE, GIVE, KEEP = "take_input", "give_input", "keep_input"
+
 _OWN_CLOCK = 1 << 47
 """An identity on another machine than any tab's number, since a browser's clock is not comparable."""
-
-KeyCode = Annotated[str, msgspec.Meta(pattern="^[A-Za-z0-9]{1,32}$")]
-ActionName = Annotated[str, msgspec.Meta(pattern="^[a-z_]{1,32}$")]
-Axis = Annotated[float, msgspec.Meta(ge=-1.0, le=1.0)]
-
-
-class _FromBrowser(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_field="kind"):
-    """A message of the page's scripts."""
-
-
-class Held(_FromBrowser, frozen=True, tag="held"):
-    """The full input state of a tab.
-
-    Attributes:
-        sequence: counts the tab's samples, from 1.
-        stamp_ms: the tab's monotonic clock [ms].
-        keys: held down, by `KeyboardEvent.code`.
-        focused: the tab is visible and has the focus.
-        axes: of the gamepad.
-        drawn: number of the newest picture that was drawn, by camera.
-    """
-
-    sequence: Count
-    stamp_ms: Annotated[float, msgspec.Meta(ge=0.0, le=1e12)]
-    keys: Annotated[tuple[KeyCode, ...], msgspec.Meta(max_length=32)]
-    focused: bool
-    axes: Annotated[tuple[Axis, ...], msgspec.Meta(max_length=16)]
-    drawn: tuple[Count, Count]
-
-    @property
-    def neutral(self) -> bool:
-        """Nothing is held or deflected."""
-        return not self.keys and not any(self.axes)
-
-
-class Pressed(_FromBrowser, frozen=True, tag="pressed"):
-    """A button was pressed."""
-
-    action: ActionName
-
-
-class TakeInput(_FromBrowser, frozen=True, tag="take_input"):
-    """This tab wants to be the one that commands."""
-
-
-_DECODER: msgspec.json.Decoder[Held | Pressed | TakeInput] = msgspec.json.Decoder(Held | Pressed | TakeInput)
-
-
-def read(payload: str | bytes) -> Held | Pressed | TakeInput:
-    """The message in a WebSocket frame.
-
-    Raises:
-        OversizedMessage: before anything is decoded.
-        MalformedMessage: it is none of the page's messages.
-    """
-    if len(payload) > MAX_BYTES:
-        raise OversizedMessage(_SUBJECT, len(payload), MAX_BYTES)
-    try:
-        return _DECODER.decode(payload)
-    except (msgspec.DecodeError, RecursionError, UnicodeError) as error:
-        raise MalformedMessage(_SUBJECT, str(error)) from None
 
 
 @dataclass(frozen=True)
 class Standing:
-    """How a tab stands: whether its input counts, and whether everything has to be let go first."""
+    """How a tab stands.
+
+    Attributes:
+        armed: it has the seat: its input counts.
+        let_go: it counts once everything that steers was let go.
+        focused: it has the focus.
+        asked_s: somebody asks for this tab's seat, and gets it in so many seconds [s]; 0 where nobody does.
+        asking_s: this tab asks for the seat and gets it in so many seconds [s]; 0 where it does not.
+        kept: this tab asked for the seat, which was kept.
+        stop_pressed: an emergency stop was pressed in some tab, and the robot has not confirmed it yet.
+        accepted: numbers of this page's presses that were passed on.
+        refused: numbers of those that were not.
+    """
 
     armed: bool
     let_go: bool
+    focused: bool
+    asked_s: float
+    asking_s: float
+    kept: bool
+    stop_pressed: bool
+    accepted: tuple[int, ...]
+    refused: tuple[int, ...]
 
 
 class Desk:
@@ -107,27 +77,26 @@ class Desk:
         self.dropped = 0
         self.late = 0
         self._lock = threading.Lock()
-        self._tab: int | None = None
-        self._freshness = Freshness(DEAD_MAN_NS, _OWN_CLOCK)
+        self._hellos: dict[int, Hello] = {}
+        self._seat = Seat()
+        self._states = Freshness(DEAD_MAN_NS, _OWN_CLOCK)
+        self._ages = Freshness(LATE_PRESS_NS, _OWN_CLOCK)
         self._held: Held | None = None
         self._heard_ns = 0
+        self._sat_ns = 0
+        self._beats: deque[int] = deque(maxlen=BEATS)
         self._let_go = True
-        self._actions: list[str] = []
+        self._presses = Presses()
+        self._stop_pressed = False
 
-    def join(self, tab: int, now_ns: int) -> None:
-        """A tab opened; it commands where no other does."""
+    def leave(self, tab: int, now_ns: int) -> None:
+        """A tab has gone; nobody inherits its seat."""
         with self._lock:
-            if self._tab is None or now_ns - self._heard_ns > ABANDONED_NS:
-                self._arm(tab, now_ns)
+            self._hellos.pop(tab, None)
+            if self._seat.leave(tab, now_ns):
+                self._empty()
 
-    def leave(self, tab: int) -> None:
-        """A tab closed; nobody inherits its input."""
-        with self._lock:
-            if tab == self._tab:
-                self._tab = None
-                self._silence()
-
-    def receive(self, tab: int, payload: str | bytes, now_ns: int) -> Held | Pressed | TakeInput | None:
+    def receive(self, tab: int, payload: str | bytes, now_ns: int) -> Hello | Held | Pressed | None:
         """Read and keep a message; None, and counted, where it was none."""
         try:
             message = read(payload)
@@ -136,43 +105,69 @@ class Desk:
                 self.dropped += 1
             return None
         with self._lock:
+            self._expire(now_ns)
             match message:
+                case Hello():
+                    self._enter(tab, message, now_ns)
                 case Held():
                     self._hold(tab, message, now_ns)
                 case Pressed():
-                    self._press(tab, message.action)
-                case TakeInput():
-                    self._arm(tab, now_ns)
+                    self._press(tab, message, now_ns)
         return message
 
     def take_input(self, now_ns: int) -> OperatorInput:
-        """The input as it counts now."""
+        """The input as it counts now; focused only where keys would count."""
         with self._lock:
             self._expire(now_ns)
+            present = self._is_present(now_ns)
             held = self._held
-            if held is None:
-                return OperatorInput()
-            if self._let_go or not held.focused:
-                return OperatorInput(focused=held.focused)
-            return OperatorInput(keys=held.keys, focused=True, axes=held.axes)
+            if held is None or self._let_go:
+                return OperatorInput(present=present)
+            return OperatorInput(present=present, keys=held.keys, focused=True, axes=held.axes)
 
     def take_actions(self) -> list[str]:
-        """The buttons pressed since the last call, in order."""
+        """The buttons pressed since the last call, in order, a stop first."""
         with self._lock:
-            taken, self._actions = self._actions, []
-        return taken
+            return self._presses.take()
+
+    def confirm_stop(self) -> None:
+        """The robot says that it is stopped and stands."""
+        with self._lock:
+            self._stop_pressed = False
 
     def standing(self, tab: int, now_ns: int) -> Standing:
         """How the tab stands now."""
         with self._lock:
             self._expire(now_ns)
-            return Standing(tab == self._tab, self._let_go)
+            armed = tab == self._seat.tab
+            question = self._seat.question
+            left_s = (ASKED_NS - self._seat.asked_for_ns(now_ns)) / 1e9
+            hello = self._hellos.get(tab)
+            settled = self._presses.settled(hello.load) if hello is not None else {True: (), False: ()}
+            return Standing(
+                armed=armed,
+                let_go=self._let_go,
+                focused=armed and self._held is not None and self._held.focused,
+                asked_s=left_s if armed and question is not None else 0.0,
+                asking_s=left_s if question is not None and question.tab == tab else 0.0,
+                kept=tab == self._seat.kept_from,
+                stop_pressed=self._stop_pressed,
+                accepted=settled[True],
+                refused=settled[False],
+            )
 
-    def _arm(self, tab: int, now_ns: int) -> None:
-        self._tab = tab
-        self._heard_ns = now_ns
-        self._freshness = Freshness(DEAD_MAN_NS, _OWN_CLOCK)
+    def _enter(self, tab: int, message: Hello, now_ns: int) -> None:
+        self._hellos[tab] = message
+        if self._seat.enter(tab, message.seat, now_ns):
+            self._sit(now_ns)
+
+    def _sit(self, now_ns: int) -> None:
+        self._empty()
+        self._heard_ns = self._sat_ns = now_ns
+
+    def _empty(self) -> None:
         self._silence()
+        self._beats.clear()
 
     def _silence(self) -> None:
         self._held = None
@@ -181,26 +176,70 @@ class Desk:
     def _expire(self, now_ns: int) -> None:
         if now_ns - self._heard_ns > DEAD_MAN_NS:
             self._silence()
+        if self._seat.expire(now_ns):
+            self._sit(now_ns)
+
+    def _is_present(self, now_ns: int) -> bool:
+        settled = now_ns - self._sat_ns >= SETTLED_NS
+        return settled and len(self._beats) == BEATS and now_ns - self._beats[0] <= HEARD_NS
 
     def _hold(self, tab: int, message: Held, now_ns: int) -> None:
-        if tab != self._tab:
-            return
-        self._expire(now_ns)
         stamp_ns = round(message.stamp_ms * 1e6)
-        if self._freshness.judge(tab, message.sequence, stamp_ns, now_ns) is not Judgement.FRESH:
+        self._ages.judge(tab, message.sequence, stamp_ns, now_ns)
+        judgement = self._states.judge(tab, message.sequence, stamp_ns, now_ns)
+        if tab != self._seat.tab:
+            return
+        if judgement is not Judgement.FRESH:
             self.late += 1
             return
         self._held = message
         self._heard_ns = now_ns
-        if not message.focused:
+        if message.visible:
+            self._beats.append(now_ns)
+        else:
+            self._beats.clear()
+        if not (message.visible and message.focused):
             self._let_go = True
-        elif message.neutral:
+        elif STEERING.isdisjoint(message.keys):
             self._let_go = False
 
-    def _press(self, tab: int, action: str) -> None:
-        """A tab that only looks on may stop the robot, nothing else; a stop is never one too many."""
-        if action == STOP or (tab == self._tab and len(self._actions) < ACTIONS_KEPT):
-            if action != STOP or STOP not in self._actions:
-                self._actions.append(action)
-        else:
+    def _press(self, tab: int, message: Pressed, now_ns: int) -> None:
+        hello = self._hellos.get(tab)
+        if hello is None:
+            # Before it said who it is there is nothing by which to tell a press from its repetition.
+            self._pass_on(tab, message, now_ns)
+        elif self._presses.is_new(hello.load, message.number):
+            self._presses.settle(hello.load, message.number, self._pass_on(tab, message, now_ns))
+
+    def _pass_on(self, tab: int, message: Pressed, now_ns: int) -> bool:
+        """Whether the press counts. Any tab may stop the robot, at any time, and ask for the seat."""
+        if message.action == STOP:
+            self._stop_pressed = True
+            return self._presses.add(STOP)
+        stamp_ns = round(message.stamp_ms * 1e6)
+        if self._ages.judge(tab, message.sequence, stamp_ns, now_ns) is not Judgement.FRESH:
+            self.late += 1
+            return False
+        if message.action == TAKE:
+            return self._take(tab, now_ns)
+        if tab != self._seat.tab:
             self.dropped += 1
+            return False
+        if message.action in (GIVE, KEEP):
+            self._answer(message.action, now_ns)
+            return True
+        return self._presses.add(message.action)
+
+    def _take(self, tab: int, now_ns: int) -> bool:
+        hello = self._hellos.get(tab)
+        if hello is None:
+            return False
+        if self._seat.ask(tab, hello.seat, now_ns):
+            self._sit(now_ns)
+        return True
+
+    def _answer(self, action: str, now_ns: int) -> None:
+        if action == KEEP:
+            self._seat.keep()
+        elif self._seat.give(now_ns):
+            self._sit(now_ns)

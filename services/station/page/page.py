@@ -2,38 +2,37 @@
 
 from __future__ import annotations
 
-import gc
 import logging
 import socket
 import threading
-from pathlib import Path
 
 import uvicorn
-from fastapi import FastAPI
-from nicegui import ui
-from starlette.routing import Mount, WebSocketRoute
+from starlette.applications import Starlette
+from starlette.requests import Request
+from starlette.responses import HTMLResponse
+from starlette.routing import Mount, Route, WebSocketRoute
 from starlette.staticfiles import StaticFiles
 
 from protocol.messages import Figure, OperatorInput
 from services.process.clock import Clock
 from services.process.config import StationSection
 from services.process.exceptions import PortInUse, ServiceError
+from services.station.page.controls import is_confirmed
+from services.station.page.document import ASSETS, document, version
 from services.station.page.guard import Guard
 from services.station.page.input import Desk
-from services.station.page.layout import build
 from services.station.page.link import Link
 from services.station.page.view import Board, PageView
 
 log = logging.getLogger(__name__)
 
-ASSETS = Path(__file__).parent / "assets"
 START_WITHIN_S = 15.0
 STOP_POLITELY_S = 0.7
 STOP_AT_ONCE_S = 0.3
 
 
 class Page:
-    """The page and its web server. NiceGUI allows one of them in a process, started once.
+    """The page and its web server, started once.
 
     Args:
         station: where to listen.
@@ -47,7 +46,7 @@ class Page:
         self._clock = clock
         self._board = Board(clock)
         self._desk = Desk()
-        self._link = Link(self._desk, self._board, clock)
+        self._link = Link(self._desk, self._board, clock, version())
         self._server: uvicorn.Server | None = None
         self._thread: threading.Thread | None = None
 
@@ -72,13 +71,13 @@ class Page:
             if not self._thread.is_alive() or self._clock.now_ns() > deadline_ns:
                 raise ServiceError(f"the operator's page did not start on {self.url}; the log above says why")
             self._thread.join(0.02)
-        # The web framework's objects live as long as the process: collecting them only delays the step and the exit.
-        gc.freeze()
         log.info("the operator's page is on %s", self.url)
 
     def show(self, view: PageView) -> None:
-        """Show this from now on."""
+        """Show this from now on; a stop that was pressed here is confirmed by what the robot says."""
         self._board.put(view)
+        if is_confirmed(view.safety):
+            self._desk.confirm_stop()
 
     def take_input(self) -> OperatorInput:
         """The FULL input state; nothing is held where it is older than 150 ms, unfocused or gone."""
@@ -113,25 +112,23 @@ class Page:
             raise PortInUse("the operator's page", host, port, "[station] port", error.strerror or "") from None
 
     def _server_configuration(self) -> uvicorn.Config:
-        app = FastAPI(
-            openapi_url=None,
-            routes=[WebSocketRoute("/link", self._link.serve), Mount("/assets", StaticFiles(directory=ASSETS))],
-        )
-        ui.page("/")(lambda: build(self._robot, self._board))
-        ui.run_with(
-            app,
-            title=f"Retouch: {self._robot}",
-            favicon=ASSETS / "retouch.svg",
-            dark=True,
-            tailwind=False,
-            binding_refresh_interval=None,
-            show_welcome_message=False,
-        )
+        page = HTMLResponse(document(self._robot))
+
+        async def serve(request: Request) -> HTMLResponse:
+            del request
+            return page
+
+        routes = [
+            Route("/", serve),
+            WebSocketRoute("/link", self._link.serve),
+            Mount("/assets", StaticFiles(directory=ASSETS)),
+        ]
+        app = Starlette(routes=routes)
         return uvicorn.Config(
             Guard(app, self._station.host),
             log_config=None,
             access_log=False,
-            lifespan="on",
+            lifespan="off",
             ws="websockets-sansio",
             ws_max_size=65_536,
             ws_per_message_deflate=False,

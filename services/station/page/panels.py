@@ -1,198 +1,101 @@
-"""The page's regions that tell: header, traffic light, counters, verdict, cameras, live view."""
+"""The page's regions that tell: header, live view, traffic light, counters, verdict."""
 
 from __future__ import annotations
 
-from nicegui import ui
-from nicegui.element import Element
-
-from protocol.messages import Recording
-from services.station.page.elements import Chip, block, icon, mark, text
-from services.station.page.readout import (
-    LIGHT_WORDS,
-    criteria,
-    is_stale,
-    length,
-    outcome,
-    span,
-    tone,
-    viewer_address,
-)
+from protocol.messages import Light
+from services.station.page.input import Standing
+from services.station.page.readout import LIGHT_WORDS, criteria, is_stale, length, outcome, span, tone
+from services.station.page.values import Values
 from services.station.page.view import Shown
 
+CHIPS = (
+    ("phase", "Robot"),
+    ("age", "Data age"),
+    ("latency", "Hand to robot"),
+    ("object", "Object error"),
+    ("model", "Model"),
+    ("authority", "Authority"),
+)
+"""Figures in the header: name and title."""
 
-class Header:
-    """Name, figures, and who has the authority.
+COUNTERS = (("refinements", "Refinements"), ("updates", "Updates"))
+CRITERIA = (("reached", "Target reached"), ("kicked", "Not kicked over"), ("collision", "No collision"))
+"""The success criteria, each with a check or a cross and its evidence."""
 
-    Args:
-        robot: its name.
+
+def header(shown: Shown, standing: Standing) -> Values:
+    """The figures, and who has the authority."""
+    view, robot, model = shown.view, shown.view.robot, shown.view.model
+    holder = view.authority.holder if view.authority is not None else ""
+    yours = view.authority_is_mine and standing.armed
+    return {
+        "chip-phase-text": "unknown" if robot is None else robot.phase.value,
+        "chip-age-text": span(shown.robot_age_s),
+        "chip-age@data-tone": "bad" if is_stale(shown) else "good",
+        "chip-latency-text": " / ".join(span(figure.value) for figure in view.latencies) or "none",
+        "chip-object-text": "not seen" if view.object_pose is None else length(view.object_pose.error),
+        "chip-model-text": "none" if model is None else f"v{model.version}, {model.updates} learnt",
+        "chip-authority-text": "yours" if yours else holder or "nobody",
+        "chip-authority@data-tone": "good" if yours else "warn",
+    }
+
+
+def scene(shown: Shown) -> Values:
+    """Where the viewer's live view is, and whether its data is old."""
+    recording, stale = shown.view.recording, is_stale(shown)
+    never = shown.view.robot is None
+    age = "has not come yet" if never else f"is {span(shown.robot_age_s)} old"
+    return {
+        "scene@data-address": "" if recording is None else recording.viewer_url,
+        "scene@data-recording": "" if recording is None else recording.recording_id,
+        "scene@data-stale": "yes" if stale else "no",
+        "stale": f"Robot data {age}" if stale else "",
+    }
+
+
+def traffic_light(shown: Shown, standing: Standing) -> Values:
+    """May the operator act? Said by colour, shape and word; below it what to do.
+
+    Where this tab's keys do not count yet the robot holds, whatever the workflow says.
     """
-
-    def __init__(self, robot: str) -> None:
-        with block("header", "header"):
-            icon("retouch", "brand")
-            text("Retouch", "brand-name")
-            text(robot, "robot-name")
-            block("spring")
-            self._phase = Chip("phase", "Robot")
-            self._age = Chip("age", "Data age")
-            self._latency = Chip("latency", "Hand to robot")
-            self._object = Chip("object", "Object error")
-            self._model = Chip("model", "Model")
-            self._authority = Chip("authority", "Authority")
-
-    def update(self, shown: Shown) -> None:
-        """Show the view's figures."""
-        view, robot = shown.view, shown.view.robot
-        self._age.show(span(shown.robot_age_s), "bad" if is_stale(shown) else "good")
-        self._phase.show("unknown" if robot is None else robot.phase.value)
-        self._latency.show(" / ".join(span(figure.value) for figure in view.latencies) or "none")
-        self._object.show("not seen" if view.object_pose is None else length(view.object_pose.error))
-        model = view.model
-        self._model.show("none" if model is None else f"v{model.version}, {model.updates} learnt")
-        holder = view.authority.holder if view.authority is not None else ""
-        if view.authority_is_mine:
-            self._authority.show("yours", "good")
-        else:
-            self._authority.show(holder or "nobody", "warn")
-
-
-class TrafficLight:
-    """May the operator act? Said by colour, shape and word; below it what to do."""
-
-    def __init__(self) -> None:
-        with block("panel light") as self._box:
-            with block("lamps"):
-                icon("red", "lamp")
-                icon("amber", "lamp")
-                icon("green", "lamp")
-            with block("light-words"):
-                self._word = text("", "light-word")
-                self._text = text("", "light-text")
-                self._notice = text("", "notice")
-
-    def update(self, shown: Shown) -> None:
-        """Follow the teaching state."""
-        teaching = shown.view.teaching
-        mark(self._box, "data-light", "off" if teaching is None else teaching.light.value)
-        self._word.set_text("Starting" if teaching is None else LIGHT_WORDS[teaching.light])
+    teaching = shown.view.teaching
+    if teaching is None:
         waiting = "Waiting for the teaching workflow."
-        self._text.set_text(waiting if teaching is None else teaching.text or teaching.reason)
-        self._notice.set_text(shown.view.notice)
+        return {"light@data-light": "off", "light-word": "Starting", "light-text": waiting, "notice": ""}
+    light, words = teaching.light, teaching.text or teaching.reason
+    stopped = shown.view.safety is not None and shown.view.safety.emergency_stop
+    if light is Light.GREEN and not standing.armed:
+        light, words = Light.RED, "Whoever has the input acts."
+    elif light is Light.GREEN and teaching.phase == "executing" and standing.let_go:
+        light, words = Light.HOLD, "The robot holds until you steer again."
+    return {
+        "light@data-light": light.value,
+        "light-word": "Stopped" if stopped else LIGHT_WORDS[light],
+        "light-text": words,
+        "notice": shown.view.notice,
+    }
 
 
-class Counters:
+def counters(shown: Shown) -> Values:
     """How many refinements and updates are used."""
-
-    def __init__(self) -> None:
-        with block("panel counters"):
-            self._refinements = _Counter("Refinements", "refinements")
-            self._updates = _Counter("Updates", "updates")
-
-    def update(self, shown: Shown) -> None:
-        """Follow the teaching state."""
-        teaching = shown.view.teaching
-        if teaching is not None:
-            self._refinements.show(teaching.refinements, teaching.refinements_allowed)
-            self._updates.show(teaching.updates, teaching.updates_allowed)
-
-
-class _Counter:
-    def __init__(self, title: str, name: str) -> None:
-        with block("counter").props(f"data-counter={name}"):
-            text(title, "counter-title")
-            self._value = text("none", "counter-value")
-            self._bar = block("counter-bar")
-
-    def show(self, used: int, allowed: int) -> None:
-        self._value.set_text(f"{used} / {allowed}")
-        self._bar.style(f"--used: {used}; --allowed: {max(allowed, 1)}")
+    teaching = shown.view.teaching
+    if teaching is None:
+        return {}
+    return {
+        "refinements": f"{teaching.refinements} / {teaching.refinements_allowed}",
+        "refinements-bar@--used": str(teaching.refinements),
+        "refinements-bar@--allowed": str(max(teaching.refinements_allowed, 1)),
+        "updates": f"{teaching.updates} / {teaching.updates_allowed}",
+        "updates-bar@--used": str(teaching.updates),
+        "updates-bar@--allowed": str(max(teaching.updates_allowed, 1)),
+    }
 
 
-class VerdictPanel:
-    """The success criteria, each with a check or a cross and its evidence."""
-
-    _TITLES = ("Target reached", "Not kicked over", "No collision")
-
-    def __init__(self) -> None:
-        with block("panel verdict") as self._box:
-            self._outcome = text("", "outcome")
-            self._rows = [self._row(title) for title in self._TITLES]
-
-    @staticmethod
-    def _row(title: str) -> tuple[Element, ui.label]:
-        with block("criterion") as row:
-            for symbol in ("check", "cross", "dash"):
-                icon(symbol)
-            text(title, "criterion-title")
-            evidence = text("", "criterion-evidence")
-        return row, evidence
-
-    def update(self, shown: Shown) -> None:
-        """Show the verdict as it is now."""
-        good, word = outcome(shown)
-        mark(self._box, "data-tone", tone(good))
-        self._outcome.set_text(word)
-        for (row, evidence), (met, reason) in zip(self._rows, criteria(shown), strict=True):
-            mark(row, "data-tone", tone(met))
-            evidence.set_text(reason)
-
-
-def cameras() -> None:
-    """Head above wrist; the page's script draws the pictures and writes their age."""
-    with block("cameras"):
-        for camera, title in (("head", "Head camera"), ("wrist", "Wrist camera")):
-            with block("panel camera").props(f"data-camera={camera} data-state=waiting"):
-                block("picture", "canvas")
-                text("No picture yet", "camera-empty")
-                with block("caption"):
-                    text(title, "caption-title")
-                    text("", "camera-age")
-
-
-class Scene:
-    """The viewer's live view, or why there is none.
-
-    Args:
-        page_host: the name under which the browser opened the page.
-    """
-
-    def __init__(self, page_host: str) -> None:
-        self._page_host = page_host
-        self._loaded = ("", "")
-        with block("panel scene") as self._box:
-            self._frame = block("frame")
-            with block("scene-empty"):
-                icon("view")
-                text("No live view", "scene-empty-title")
-                text("The viewer process is not there yet; the page needs none to be used.", "scene-empty-text")
-            self._stale = text("", "scene-stale")
-            with block("legend"):
-                text("prediction", "legend-predicted")
-                text("refinement", "legend-refined")
-
-    def update(self, shown: Shown) -> None:
-        """Load the live view, anew where it is another recording, and say where its data is old."""
-        self._load(shown.view.recording)
-        stale = is_stale(shown)
-        mark(self._box, "data-stale", "yes" if stale else "no")
-        if stale:
-            self._stale.set_text(f"Robot data {_age(shown)}")
-
-    def _load(self, recording: Recording | None) -> None:
-        url = viewer_address(recording.viewer_url, self._page_host) if recording is not None else ""
-        wanted = (url, recording.recording_id if recording is not None and url else "")
-        mark(self._box, "data-view", "live" if url else "none")
-        if wanted == self._loaded:
-            return
-        self._loaded = wanted
-        self._frame.clear()
-        if url:
-            with self._frame:
-                frame = ui.element("iframe").classes("viewer")
-                frame.props["src"] = url
-                frame.props["title"] = "Live view"
-                frame.props["data-recording"] = wanted[1]
-
-
-def _age(shown: Shown) -> str:
-    return "has not come yet" if shown.view.robot is None else f"is {span(shown.robot_age_s)} old"
+def verdict(shown: Shown) -> Values:
+    """The success criteria as they are now."""
+    good, word = outcome(shown)
+    values: dict[str, str | bool] = {"verdict@data-tone": tone(good), "outcome": word}
+    for (name, _), (met, evidence) in zip(CRITERIA, criteria(shown), strict=True):
+        values[f"{name}@data-tone"] = tone(met)
+        values[f"{name}-evidence"] = evidence
+    return values

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from urllib.parse import urlsplit, urlunsplit
 
 from protocol.messages import Light, Phase, Verdict
 from services.station.page.view import Shown
@@ -13,9 +12,7 @@ STALE_AFTER_S = 0.3
 
 MOVING = frozenset({Phase.RAMP, Phase.EXECUTE, Phase.HOLD})
 
-LIGHT_WORDS = {Light.RED: "Watch", Light.AMBER: "Wait", Light.GREEN: "Act"}
-
-_LOOPBACK_TWINS = {"127.0.0.1": "localhost", "localhost": "127.0.0.1"}
+LIGHT_WORDS = {Light.RED: "Watch", Light.AMBER: "Wait", Light.HOLD: "Hold", Light.GREEN: "Act"}
 
 
 def span(seconds: float) -> str:
@@ -65,23 +62,6 @@ def outcome(shown: Shown) -> tuple[bool | None, str]:
     if False in met:
         return False, "Failure"
     return (True, "Success") if None not in met else (None, "Under way")
-
-
-def viewer_address(url: str, page_host: str) -> str:
-    """The viewer's address to embed: under another loopback name than the page's own.
-
-    A frame from another host name runs in a process of its own, so that drawing does not delay the keys.
-
-    Returns:
-        Empty where `url` is not an address that a frame may show.
-    """
-    parts = urlsplit(url)
-    if parts.scheme not in {"http", "https"} or not parts.hostname:
-        return ""
-    twin = _LOOPBACK_TWINS.get(page_host)
-    if parts.hostname not in _LOOPBACK_TWINS or twin is None:
-        return url
-    return urlunsplit(parts._replace(netloc=parts.netloc.replace(parts.hostname, twin, 1)))
 
 
 def _open_while_moving(shown: Shown) -> bool | None:

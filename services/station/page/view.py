@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+import msgspec
 
 from protocol.messages import (
     AuthorityState,
     Figure,
+    Light,
     ModelState,
     ObjectPose,
     Recording,
@@ -17,6 +20,9 @@ from protocol.messages import (
     Verdict,
 )
 from services.process.clock import Clock
+
+HOLD_SHOWN_NS = 600_000_000
+"""For how long a hold that is over is still shown."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +67,12 @@ class PageView:
 
 @dataclass(frozen=True)
 class Shown:
-    """A view and how long ago it was put up [s]: everything in it has aged by as much."""
+    """A view as the page shows it.
+
+    Attributes:
+        view: the newest.
+        elapsed_s: since it was put up [s]: everything in it has aged by as much.
+    """
 
     view: PageView
     elapsed_s: float
@@ -75,6 +86,8 @@ class Shown:
 class Board:
     """Where the service's thread hangs the newest view and the page's thread reads it.
 
+    A hold that comes and goes is shown for a moment longer, so that it can be read.
+
     Args:
         clock: by which views age.
     """
@@ -82,12 +95,28 @@ class Board:
     def __init__(self, clock: Clock) -> None:
         self._clock = clock
         self._newest = (PageView(), clock.now_ns())
+        self._held: tuple[TeachingState, int] | None = None
 
     def put(self, view: PageView) -> None:
         """Replace the view; one assignment, so that no reader sees half of it."""
-        self._newest = (view, self._clock.now_ns())
+        now_ns = self._clock.now_ns()
+        self._newest = (replace(view, teaching=self._steady(view.teaching, now_ns)), now_ns)
 
     def newest(self) -> Shown:
         """The newest view and its age."""
         view, put_ns = self._newest
         return Shown(view, (self._clock.now_ns() - put_ns) / 1e9)
+
+    def _steady(self, teaching: TeachingState | None, now_ns: int) -> TeachingState | None:
+        if teaching is None:
+            return None
+        if teaching.light is Light.HOLD:
+            self._held = (teaching, now_ns)
+        elif self._held is not None and self._outlasts(self._held, teaching, now_ns):
+            return msgspec.structs.replace(teaching, light=Light.HOLD, text=self._held[0].text)
+        return teaching
+
+    @staticmethod
+    def _outlasts(held: tuple[TeachingState, int], teaching: TeachingState, now_ns: int) -> bool:
+        before, held_ns = held
+        return before.phase == teaching.phase and teaching.light is Light.GREEN and now_ns - held_ns < HOLD_SHOWN_NS

@@ -1,181 +1,169 @@
-"""The laws of the operator's input: what counts, from whom, and for how long."""
+"""The laws of the operator's input: what counts, and for how long."""
 
-import msgspec
 import pytest
+from browser_tab import MS, BrowserTab
 from hypothesis import given
 from hypothesis import strategies as st
 
 from protocol.messages import OperatorInput
-from services.station.page.input import ACTIONS_KEPT, DEAD_MAN_NS, MAX_BYTES, Desk, Held, Pressed, TakeInput
+from services.station.page.input import BEATS, DEAD_MAN_NS, HEARD_NS, LATE_PRESS_NS, SETTLED_NS, Desk
+from services.station.page.presses import ACTIONS_KEPT
+from services.station.page.said import MAX_BYTES
 
-MS = 1_000_000
+DEAD_MAN_MS = DEAD_MAN_NS // MS
 NOTHING = OperatorInput()
 
 
-class Browser:
-    """A tab that says what is held, on a clock that the test moves."""
-
-    def __init__(self, desk, tab=1, now_ms=1_000):
-        self.desk = desk
-        self.tab = tab
-        self.now_ms = now_ms
-        self.sequence = 0
-        desk.join(tab, now_ms * MS)
-
-    def hold(self, *keys, focused=True, axes=(), later_ms=20, stamp_ms=None):
-        self.now_ms += later_ms
-        self.sequence += 1
-        stamp = self.now_ms if stamp_ms is None else stamp_ms
-        self.send(Held(self.sequence, float(stamp), keys, focused, axes, (0, 0)))
-
-    def send(self, message):
-        self.desk.receive(self.tab, msgspec.json.encode(message), self.now_ms * MS)
-
-    def input(self, later_ms=0):
-        return self.desk.take_input((self.now_ms + later_ms) * MS)
+@pytest.fixture
+def browser():
+    """A tab that has the seat, with nothing held."""
+    tab = BrowserTab(Desk())
+    tab.hold()
+    return tab
 
 
-def armed():
-    browser = Browser(Desk())
-    browser.hold()
-    return browser
-
-
-def test_the_full_state_arrives():
-    browser = armed()
+def test_the_full_state_arrives(browser):
     browser.hold("KeyE", "KeyQ", axes=(0.5, -1.0))
     assert browser.input() == OperatorInput(keys=("KeyE", "KeyQ"), focused=True, axes=(0.5, -1.0))
 
 
-def test_every_state_replaces_the_one_before():
-    browser = armed()
+def test_every_state_replaces_the_one_before(browser):
     browser.hold("KeyE")
     browser.hold("KeyQ")
     assert browser.input().keys == ("KeyQ",)
 
 
-def test_silence_longer_than_the_dead_man_time_is_zero():
-    browser = armed()
+def test_silence_longer_than_the_dead_man_time_is_zero(browser):
     browser.hold("KeyE")
-    assert browser.input(DEAD_MAN_NS // MS).keys == ("KeyE",)
-    assert browser.input(DEAD_MAN_NS // MS + 1) == NOTHING
+    assert browser.input(DEAD_MAN_MS).keys == ("KeyE",)
+    assert browser.input(DEAD_MAN_MS + 1) == NOTHING
 
 
-def test_after_silence_a_held_key_counts_again_only_once_everything_was_let_go():
-    browser = armed()
+def test_after_silence_nobody_is_at_the_keys_until_they_were_let_go(browser):
     browser.hold("KeyE")
-    browser.hold("KeyE", later_ms=200)
-    assert browser.input().keys == ()
+    browser.hold("KeyE", later_ms=DEAD_MAN_MS + 1)
+    assert browser.input() == NOTHING
+    assert browser.standing().let_go
+    browser.hold()
+    assert browser.input() == OperatorInput(focused=True)
+    assert not browser.standing().let_go
+    browser.hold("KeyE")
+    assert browser.input().keys == ("KeyE",)
+
+
+def test_samples_that_come_in_time_are_no_silence(browser):
+    browser.hold("KeyE", later_ms=DEAD_MAN_MS)
+    browser.hold("KeyE", later_ms=DEAD_MAN_MS)
+    assert browser.input().keys == ("KeyE",)
+
+
+@pytest.mark.parametrize("lost", [{"focused": False}, {"visible": False}])
+def test_without_the_focus_or_out_of_sight_nothing_counts_until_everything_was_let_go(browser, lost):
+    browser.hold("KeyE", **lost)
+    assert browser.input() == NOTHING
+    browser.hold("KeyE")
+    assert browser.input() == NOTHING
     browser.hold()
     browser.hold("KeyE")
     assert browser.input().keys == ("KeyE",)
 
 
-def test_a_deflected_axis_is_something_held_as_well():
-    browser = armed()
-    browser.hold(axes=(0.4,), later_ms=200)
-    assert browser.input().axes == ()
-    browser.hold(axes=(0.0,))
-    browser.hold(axes=(0.4,))
-    assert browser.input().axes == (0.4,)
-
-
-def test_without_the_focus_nothing_counts_until_everything_was_let_go():
-    browser = armed()
-    browser.hold("KeyE", focused=False)
-    assert browser.input() == NOTHING
-    browser.hold("KeyE")
-    assert browser.input() == OperatorInput(focused=True)
-
-
 def test_a_tab_that_opens_with_a_key_down_has_to_let_go_first():
-    browser = Browser(Desk())
+    browser = BrowserTab(Desk())
     browser.hold("KeyE")
-    assert browser.input().keys == ()
+    assert browser.input() == NOTHING
 
 
-def test_a_sample_that_was_under_way_for_too_long_does_not_count():
-    browser = armed()
-    sent_ms = browser.now_ms
-    browser.hold("KeyE", later_ms=140, stamp_ms=sent_ms)
+@pytest.mark.parametrize("state", [{"axes": (-1.0, 0.4)}, {"keys": ("F13", "ControlLeft")}])
+def test_what_steers_nothing_keeps_nobody_waiting(state):
+    browser = BrowserTab(Desk())
+    browser.hold(*state.get("keys", ()), axes=state.get("axes", ()))
+    browser.hold("KeyE")
     assert browser.input().keys == ("KeyE",)
-    browser.hold("KeyQ", later_ms=140, stamp_ms=sent_ms + 1)
+
+
+@pytest.mark.parametrize("key", ["KeyQ", "KeyD", "KeyR", "KeyH"])
+def test_every_key_that_steers_has_to_be_let_go(key):
+    browser = BrowserTab(Desk())
+    browser.hold(key)
+    assert browser.input() == NOTHING
+
+
+def test_a_sample_that_was_under_way_for_too_long_does_not_count(browser):
+    sent_ms = browser.now_ms
+    browser.hold("KeyE", later_ms=DEAD_MAN_MS - 10, stamp_ms=sent_ms)
+    assert browser.input().keys == ("KeyE",)
+    browser.hold("KeyQ", later_ms=DEAD_MAN_MS - 10, stamp_ms=sent_ms + 1)
     assert browser.input().keys == ("KeyE",)
     assert browser.desk.late == 1
 
 
-def test_a_repeated_sample_does_not_keep_the_input_alive():
-    browser = armed()
+def test_a_repeated_sample_does_not_keep_the_input_alive(browser):
     browser.hold("KeyE")
     browser.sequence -= 1
-    browser.hold("KeyE", later_ms=100)
-    assert browser.input(60) == NOTHING
+    browser.hold("KeyE", later_ms=DEAD_MAN_MS - 50)
+    assert browser.input(51) == NOTHING
 
 
-def test_one_tab_commands_and_the_others_look_on():
-    first = armed()
-    second = Browser(first.desk, tab=2, now_ms=first.now_ms)
-    second.hold()
-    second.hold("KeyQ")
-    first.hold("KeyE", later_ms=40)
-    assert first.input().keys == ("KeyE",)
-    assert first.desk.standing(1, first.now_ms * MS).armed
-    assert not first.desk.standing(2, first.now_ms * MS).armed
+def test_a_page_that_is_seen_and_heard_for_a_second_has_somebody_present(browser):
+    browser.keep_on(SETTLED_NS / 1e9 - 0.04)
+    assert not browser.input().present
+    browser.keep_on(0.04)
+    assert browser.input().present
 
 
-def test_taking_the_input_disarms_the_other_tab_at_once():
-    first = armed()
-    first.hold("KeyE")
-    second = Browser(first.desk, tab=2, now_ms=first.now_ms)
-    second.send(TakeInput())
-    assert first.input() == NOTHING
-    second.hold()
-    second.hold("KeyQ")
-    first.hold("KeyE", later_ms=45)
-    assert second.input().keys == ("KeyQ",)
+def test_nobody_is_present_once_the_page_was_not_heard_for_a_second(browser):
+    browser.keep_on(2.0)
+    since_the_beats_ms = 20 * (BEATS - 1)
+    assert browser.input(HEARD_NS // MS - since_the_beats_ms).present
+    assert not browser.input(HEARD_NS // MS - since_the_beats_ms + 1).present
 
 
-def test_a_closed_tab_leaves_nothing_behind_and_nobody_inherits_its_input():
-    first = armed()
-    second = Browser(first.desk, tab=2, now_ms=first.now_ms)
-    first.hold("KeyE")
-    first.desk.leave(1)
-    second.hold()
-    second.hold("KeyQ")
-    assert first.input() == NOTHING
-    assert second.input() == NOTHING
+def test_nobody_is_present_at_a_page_that_is_not_seen(browser):
+    browser.keep_on(2.0)
+    browser.hold(visible=False)
+    assert not browser.input().present
+    browser.keep_on(0.04)
+    assert not browser.input().present
+    browser.hold()
+    assert browser.input().present
 
 
-def test_a_new_tab_takes_the_input_from_one_that_fell_silent():
-    first = armed()
-    second = Browser(first.desk, tab=2, now_ms=first.now_ms + 1_001)
-    second.hold()
-    second.hold("KeyQ")
-    assert second.input().keys == ("KeyQ",)
+def test_a_page_without_the_focus_is_seen_all_the_same(browser):
+    browser.keep_on(2.0, focused=False)
+    assert browser.input() == OperatorInput(present=True)
 
 
-def test_buttons_arrive_once_and_in_order():
-    browser = armed()
-    for action in ("execute", "undo"):
-        browser.send(Pressed(action))
-    assert browser.desk.take_actions() == ["execute", "undo"]
-    assert browser.desk.take_actions() == []
+def test_a_throttled_page_is_nobody_s_presence(browser):
+    for _ in range(5):
+        browser.hold(later_ms=1_000)
+        assert not browser.input().present
 
 
-def test_a_tab_that_looks_on_may_stop_the_robot_and_nothing_else():
-    first = armed()
-    second = Browser(first.desk, tab=2, now_ms=first.now_ms)
-    second.send(Pressed("execute"))
-    second.send(Pressed("stop"))
-    assert first.desk.take_actions() == ["stop"]
+def test_samples_of_a_while_ago_are_nobody_s_presence(browser):
+    browser.keep_on(2.0)
+    sent_ms = browser.now_ms
+    browser.now_ms += 1_500
+    for sample in range(20):
+        browser.hold(later_ms=1, stamp_ms=sent_ms + 20 * sample)
+    assert not browser.input().present
 
 
-def test_a_stop_gets_through_where_too_many_buttons_wait():
-    browser = armed()
-    for _ in range(2 * ACTIONS_KEPT):
-        browser.send(Pressed("execute"))
-    browser.send(Pressed("stop"))
-    assert browser.desk.take_actions() == ["execute"] * ACTIONS_KEPT + ["stop"]
+def test_presence_does_not_outlive_the_tab(browser):
+    browser.keep_on(2.0)
+    browser.leave()
+    assert browser.input() == NOTHING
+
+
+def test_a_page_that_comes_back_resumes_nothing(browser):
+    browser.keep_on(2.0)
+    browser.leave()
+    again = BrowserTab(browser.desk, tab=2, now_ms=browser.now_ms + 300, token="seat-0001")
+    again.keep_on(SETTLED_NS / 1e9 - 0.02)
+    assert again.standing().armed
+    assert not again.input().present
+    again.keep_on(0.04)
+    assert again.input().present
 
 
 @pytest.mark.parametrize(
@@ -185,15 +173,15 @@ def test_a_stop_gets_through_where_too_many_buttons_wait():
         "[" * 4_000,
         "x" * (MAX_BYTES + 1),
         '{"kind":"held"}',
-        '{"kind":"pressed","action":"<script>"}',
-        '{"kind":"pressed","action":"stop","extra":1}',
-        '{"kind":"held","sequence":9,"stamp_ms":9,"keys":["KeyE"],"focused":true,"axes":[2],"drawn":[0,0]}',
-        '{"kind":"held","sequence":9,"stamp_ms":NaN,"keys":["KeyE"],"focused":true,"axes":[],"drawn":[0,0]}',
-        '{"kind":"held","sequence":9,"stamp_ms":9,"keys":["Key E"],"focused":true,"axes":[],"drawn":[0,0]}',
+        '{"kind":"hello","seat":"short","load":"abcdefgh"}',
+        '{"kind":"pressed","sequence":9,"stamp_ms":9,"number":1,"action":"<script>"}',
+        '{"kind":"pressed","sequence":9,"stamp_ms":9,"number":1,"action":"stop","extra":1}',
+        '{"kind":"held","sequence":9,"stamp_ms":9,"keys":[],"visible":true,"focused":true,"axes":[2],"drawn":[0,0]}',
+        '{"kind":"held","sequence":9,"stamp_ms":NaN,"keys":[],"visible":true,"focused":true,"axes":[],"drawn":[0,0]}',
+        '{"kind":"held","sequence":9,"stamp_ms":1,"keys":["+"],"visible":true,"focused":true,"axes":[],"drawn":[0,0]}',
     ],
 )
-def test_garbage_is_dropped_and_counted_and_changes_nothing(payload):
-    browser = armed()
+def test_garbage_is_dropped_and_counted_and_changes_nothing(browser, payload):
     browser.hold("KeyE")
     assert browser.desk.receive(1, payload, browser.now_ms * MS) is None
     assert browser.desk.dropped == 1
@@ -204,6 +192,79 @@ def test_garbage_is_dropped_and_counted_and_changes_nothing(payload):
 @given(st.binary(max_size=300))
 def test_no_bytes_break_the_desk(payload):
     desk = Desk()
-    desk.join(1, 0)
     assert desk.receive(1, payload, 0) is None
     assert desk.dropped == 1
+
+
+def test_buttons_arrive_once_and_in_order(browser):
+    for action in ("execute", "undo"):
+        browser.press(action)
+    assert browser.desk.take_actions() == ["execute", "undo"]
+    assert browser.desk.take_actions() == []
+
+
+def test_a_press_that_is_said_twice_is_done_once_and_acknowledged(browser):
+    browser.press("execute", number=7)
+    browser.press("execute", number=7)
+    assert browser.desk.take_actions() == ["execute"]
+    assert browser.standing().accepted == (7,)
+
+
+def test_a_press_is_known_again_on_another_connection(browser):
+    browser.press("execute", number=7)
+    browser.leave()
+    again = BrowserTab(browser.desk, tab=2, now_ms=browser.now_ms, token="seat-0001", load=browser.load)
+    again.hold()
+    again.press("execute", number=7)
+    assert browser.desk.take_actions() == ["execute"]
+    assert again.standing().accepted == (7,)
+
+
+def test_the_presses_of_a_page_that_was_loaded_anew_are_new_ones(browser):
+    browser.press("execute", number=1)
+    browser.leave()
+    again = BrowserTab(browser.desk, tab=2, now_ms=browser.now_ms, token="seat-0001")
+    again.hold()
+    again.press("execute", number=1)
+    assert browser.desk.take_actions() == ["execute", "execute"]
+
+
+def test_a_press_that_comes_late_is_refused_and_said_to_be(browser):
+    browser.keep_on(2.0)
+    browser.press("execute", age_ms=LATE_PRESS_NS // MS)
+    browser.press("refine", age_ms=LATE_PRESS_NS // MS + 1)
+    assert browser.desk.take_actions() == ["execute"]
+    assert (browser.standing().accepted, browser.standing().refused) == ((1,), (2,))
+    assert browser.desk.late == 1
+
+
+def test_a_stop_is_never_late_and_comes_before_everything_else(browser):
+    browser.keep_on(2.0)
+    browser.press("execute")
+    browser.press("stop", age_ms=2_500)
+    assert browser.desk.take_actions() == ["stop", "execute"]
+    assert browser.standing().accepted == (1, 2)
+
+
+def test_a_stop_counts_even_before_the_tab_said_who_it_is():
+    desk = Desk()
+    desk.receive(9, b'{"kind":"pressed","sequence":1,"stamp_ms":9,"number":1,"action":"stop"}', 0)
+    assert desk.take_actions() == ["stop"]
+
+
+def test_a_stop_gets_through_where_too_many_buttons_wait(browser):
+    for _ in range(ACTIONS_KEPT + 1):
+        browser.press("execute")
+    browser.press("stop")
+    assert browser.standing().refused == (ACTIONS_KEPT + 1,)
+    assert browser.desk.take_actions() == ["stop"] + ["execute"] * ACTIONS_KEPT
+
+
+def test_a_stop_is_unconfirmed_in_every_tab_until_the_robot_confirms_it(browser):
+    other = BrowserTab(browser.desk, tab=2, now_ms=browser.now_ms)
+    assert not browser.standing().stop_pressed
+    other.press("stop")
+    assert browser.standing().stop_pressed
+    assert other.standing().stop_pressed
+    browser.desk.confirm_stop()
+    assert not browser.standing().stop_pressed

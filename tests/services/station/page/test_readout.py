@@ -4,9 +4,9 @@ import math
 
 import pytest
 
-from protocol.messages import Phase, Pose, RobotState, Verdict
+from protocol.messages import Light, Phase, Pose, RobotState, TeachingState, Verdict
 from services.process.clock import ManualClock
-from services.station.page.readout import criteria, is_stale, outcome, span, viewer_address
+from services.station.page.readout import criteria, is_stale, outcome, span
 from services.station.page.view import Board, PageView, Shown
 
 POSE = Pose((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
@@ -60,16 +60,21 @@ def test_a_collision_says_where_and_how_hard():
     assert criteria(Shown(PageView(verdict=verdict), 0.0))[2] == (False, "4.2 N at 0.50, 0.10, 0.25")
 
 
-@pytest.mark.parametrize(
-    ("url", "page_host", "embedded"),
-    [
-        ("http://127.0.0.1:9090/v?a=1", "127.0.0.1", "http://localhost:9090/v?a=1"),
-        ("http://localhost:9090/", "localhost", "http://127.0.0.1:9090/"),
-        ("http://localhost:9090/", "127.0.0.1", "http://localhost:9090/"),
-        ("https://desk.example/view", "127.0.0.1", "https://desk.example/view"),
-        ("javascript:alert(1)", "127.0.0.1", ""),
-        ("", "127.0.0.1", ""),
-    ],
-)
-def test_the_viewer_is_embedded_under_another_loopback_name_than_the_page(url, page_host, embedded):
-    assert viewer_address(url, page_host) == embedded
+def test_a_hold_that_comes_and_goes_is_shown_for_a_moment_longer():
+    clock = ManualClock()
+    board = Board(clock)
+
+    def shown(light, phase="executing"):
+        board.put(PageView(teaching=TeachingState(phase=phase, text=light.value, light=light)))
+        return board.newest().view.teaching.light
+
+    assert shown(Light.GREEN) is Light.GREEN
+    assert shown(Light.HOLD) is Light.HOLD
+    clock.advance(0.59)
+    assert shown(Light.GREEN) is Light.HOLD
+    assert board.newest().view.teaching.text == "hold"
+    clock.advance(0.01)
+    assert shown(Light.GREEN) is Light.GREEN
+    assert shown(Light.HOLD) is Light.HOLD
+    assert shown(Light.RED) is Light.RED
+    assert shown(Light.GREEN, phase="deciding") is Light.GREEN

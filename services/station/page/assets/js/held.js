@@ -1,0 +1,41 @@
+// What is held down in this tab: keys by their physical place, whether it is seen and has the focus, the gamepad's axes.
+
+import { gamepadAxes } from "/assets/js/gamepads.js";
+
+const KEYS_AT_MOST = 32;
+
+export class Held {
+  constructor(changed) {
+    this.keys = new Set();
+    this.changed = changed;
+    window.addEventListener("blur", () => this.clear());
+    window.addEventListener("focus", () => this.changed());
+    window.addEventListener("pagehide", () => this.clear());
+    document.addEventListener("visibilitychange", () => this.clear());
+  }
+
+  press(code) {
+    if (this.keys.has(code) || this.keys.size >= KEYS_AT_MOST || !/^[A-Za-z0-9]{1,32}$/.test(code)) return;
+    this.keys.add(code);
+    this.changed();
+  }
+
+  // A release that cannot be told to be of one key lets go of all; while Meta is down some systems swallow the others'.
+  release(code) {
+    if (code !== "" && !code.startsWith("Meta") && !this.keys.has(code)) return;
+    if (code === "" || code.startsWith("Meta")) this.keys.clear();
+    else this.keys.delete(code);
+    this.changed();
+  }
+
+  clear() {
+    this.keys.clear();
+    this.changed();
+  }
+
+  state() {
+    const visible = document.visibilityState === "visible";
+    const focused = visible && document.hasFocus();
+    return { keys: [...this.keys], visible, focused, axes: focused ? gamepadAxes() : [] };
+  }
+}

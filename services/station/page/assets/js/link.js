@@ -1,0 +1,101 @@
+// The WebSocket to the station: connects again when it is lost or silent, and never lets input pile up.
+
+const WATCH_MS = 100;
+const RETRY_MS = 200;
+const SILENT_MS = 1000;
+const STOOD_STILL_MS = 500;
+const BACKLOG_BYTES = 2048;
+
+// For how long a connection may take to come about: short, so that a link that is back is found at once, and every
+// fourth time long, so that a slow one is found at all.
+const CONNECT_MS = [500, 500, 500, 4000];
+
+export class Link {
+  constructor(tab, { onOpen, onNews, onPicture, onSilence }) {
+    Object.assign(this, { tab, onOpen, onNews, onPicture, onSilence });
+    this.attempts = 0;
+    this.watched = performance.now();
+    this.connect();
+    setInterval(() => this.watch(), WATCH_MS);
+    window.addEventListener("pagehide", () => this.abandon());
+  }
+
+  get alive() {
+    return this.told && this.isOpen && performance.now() - this.since < SILENT_MS;
+  }
+
+  get isOpen() {
+    return this.socket.readyState === WebSocket.OPEN;
+  }
+
+  connect() {
+    const scheme = location.protocol === "https:" ? "wss:" : "ws:";
+    const socket = new WebSocket(`${scheme}//${location.host}/link`);
+    socket.binaryType = "arraybuffer";
+    socket.onopen = () => this.opened();
+    socket.onmessage = ({ data }) => this.received(data);
+    socket.onclose = () => this.lost();
+    Object.assign(this, { socket, sequence: 0, told: false, since: performance.now() });
+    this.attempts += 1;
+  }
+
+  opened() {
+    this.attempts = 0;
+    this.since = performance.now();
+    this.send({ kind: "hello", seat: this.tab.seat, load: this.tab.load });
+    this.onOpen();
+  }
+
+  received(data) {
+    this.since = performance.now();
+    if (typeof data !== "string") return this.onPicture(data);
+    this.told = true;
+    return this.onNews(JSON.parse(data));
+  }
+
+  lost() {
+    this.since = performance.now();
+    this.onSilence();
+  }
+
+  abandon() {
+    this.socket.onopen = this.socket.onmessage = this.socket.onclose = null;
+    this.socket.close();
+    this.onSilence();
+  }
+
+  watch() {
+    const now = performance.now();
+    const stoodStill = now - this.watched > STOOD_STILL_MS;
+    this.watched = now;
+    // Where this tab itself was suspended, the silence was its own.
+    if (stoodStill && this.isOpen) this.since = now;
+    if (now - this.since <= this.patience) return;
+    this.abandon();
+    this.connect();
+  }
+
+  get patience() {
+    if (this.isOpen) return SILENT_MS;
+    const connecting = this.socket.readyState === WebSocket.CONNECTING;
+    return connecting ? CONNECT_MS[(this.attempts - 1) % CONNECT_MS.length] : RETRY_MS;
+  }
+
+  // A state that cannot leave at once is not worth sending: a newer one follows within 20 ms.
+  sayHeld(state) {
+    if (this.isOpen && this.socket.bufferedAmount <= BACKLOG_BYTES) this.say("held", performance.now(), state);
+  }
+
+  sayPressed({ at, number, action }) {
+    this.say("pressed", at, { number, action });
+  }
+
+  say(kind, stamp, content) {
+    this.sequence += 1;
+    this.send({ kind, sequence: this.sequence, stamp_ms: stamp, ...content });
+  }
+
+  send(message) {
+    this.socket.send(JSON.stringify(message));
+  }
+}

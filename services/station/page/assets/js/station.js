@@ -1,0 +1,114 @@
+// The operator's page in the browser: the input state out at 50 Hz; pictures, and what to show, in.
+
+import { Held } from "/assets/js/held.js";
+import { Keyboard, isSpace, isStop } from "/assets/js/keyboard.js";
+import { Link } from "/assets/js/link.js";
+import { LiveView } from "/assets/js/live_view.js";
+import { Pictures } from "/assets/js/pictures.js";
+import { Presses } from "/assets/js/presses.js";
+import { Tab } from "/assets/js/tab.js";
+import { show } from "/assets/js/values.js";
+
+const INPUT_PERIOD_MS = 20;
+const AGES_PERIOD_MS = 100;
+const TAKES_KEYS = "button, a, input, textarea, select, [contenteditable]";
+
+const tab = new Tab();
+const presses = new Presses(tab);
+
+// Before everything else that listens: nothing stands between a person and the stop.
+window.addEventListener("keydown", stopByKey, { capture: true });
+window.addEventListener("pointerdown", stopByHand, { capture: true });
+
+const pictures = new Pictures();
+const keyboard = new Keyboard();
+const held = new Held(changed);
+const liveView = new LiveView(keyOfLiveView);
+const link = new Link(tab, { onOpen, onNews, onPicture: (buffer) => pictures.receive(buffer), onSilence });
+presses.link = link;
+
+setInterval(say, INPUT_PERIOD_MS);
+setInterval(showAges, AGES_PERIOD_MS);
+window.addEventListener("keydown", down, { capture: true });
+window.addEventListener("keyup", (event) => held.release(keyboard.placeOf(event)), { capture: true });
+document.addEventListener("click", clicked);
+
+function onOpen() {
+  pictures.restart();
+  say();
+  presses.say();
+}
+
+function onNews(news) {
+  presses.settle(news);
+  show(news.values);
+  liveView.show();
+  document.body.dataset.link = news.armed ? "armed" : "view-only";
+  document.body.toggleAttribute("data-let-go", news.armed && news.let_go);
+  document.body.toggleAttribute("data-renewed", news.version !== document.body.dataset.version);
+}
+
+function onSilence() {
+  document.body.dataset.link = "offline";
+}
+
+function say() {
+  link.sayHeld({ ...held.state(), drawn: pictures.drawn });
+}
+
+function changed() {
+  say();
+  for (const key of document.querySelectorAll("[data-key]")) {
+    key.toggleAttribute("data-held", held.keys.has(key.dataset.key));
+  }
+}
+
+function stopByKey(event) {
+  if (!isStop(event)) return;
+  presses.press("stop");
+  event.preventDefault?.();
+}
+
+// The stop counts when it is touched, not when it is let go.
+function stopByHand({ target }) {
+  if (target.closest?.('[data-action="stop"]')) presses.press("stop");
+}
+
+function down(event) {
+  const code = keyboard.placeOf(event);
+  if (event.ctrlKey || event.metaKey || event.altKey) return;
+  keyboard.learn(event);
+  const control = event.target?.closest?.(TAKES_KEYS);
+  if (control?.matches("button") && event.repeat && !keyboard.steers(code)) event.preventDefault?.();
+  if (control && (isSpace(event) || !control.matches("button"))) return;
+  if (keyboard.steers(code) || isSpace(event)) event.preventDefault?.();
+  if (event.repeat) return;
+  if (isSpace(event)) pressButton(document.querySelector('[data-action="finish"]'));
+  held.press(code);
+}
+
+// A click into the live view gives it the keyboard; the viewer's page posts the keys back.
+function keyOfLiveView(key) {
+  if (!key.down) return held.release(keyboard.placeOf(key));
+  stopByKey(key);
+  return down(key);
+}
+
+function clicked(event) {
+  const button = event.target.closest?.("[data-action]");
+  if (!button) return;
+  const byHand = event.detail > 0;
+  if (button.dataset.action !== "stop" || !byHand) pressButton(button);
+  // A button that was clicked does not keep the focus, so that Space is for Finish again.
+  if (byHand) button.blur();
+}
+
+function pressButton(button) {
+  if (button && !button.disabled) presses.press(button.dataset.action);
+}
+
+function showAges() {
+  if (!link.alive) onSilence();
+  presses.say();
+  pictures.showAges();
+}

@@ -1,0 +1,25 @@
+// Shows what the station says, value by value: a text, or after "@" an attribute or a style property of the
+// element of that name.
+
+export function show(values) {
+  for (const [name, value] of Object.entries(values)) {
+    const [element, attribute] = find(name);
+    if (!element) continue;
+    if (attribute === undefined) element.textContent = value;
+    else if (attribute.startsWith("--")) element.style.setProperty(attribute, value);
+    else if (typeof value === "boolean") element.toggleAttribute(attribute, value);
+    else element.setAttribute(attribute, value);
+    if (attribute === "data-at") element.dataset.time = timeOfDay(value);
+  }
+}
+
+function find(name) {
+  const [element, attribute] = name.split("@");
+  return [document.querySelector(`[data-value="${element}"]`), attribute];
+}
+
+// A moment as this person's clock shows it.
+function timeOfDay(iso) {
+  const moment = new Date(iso);
+  return Number.isNaN(moment.getTime()) ? "" : moment.toLocaleTimeString();
+}

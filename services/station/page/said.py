@@ -1,0 +1,92 @@
+"""What a browser tab says: who it is, what is held down in it, and what was pressed."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import msgspec
+
+from protocol.exceptions import MalformedMessage, OversizedMessage
+from protocol.messages import Count
+
+MAX_BYTES = 4_096
+
+_SUBJECT = "the operator's page"
+
+KeyCode = Annotated[str, msgspec.Meta(pattern="^[A-Za-z0-9]{1,32}$")]
+ActionName = Annotated[str, msgspec.Meta(pattern="^[a-z_]{1,32}$")]
+Token = Annotated[str, msgspec.Meta(pattern="^[A-Za-z0-9-]{8,64}$")]
+Milliseconds = Annotated[float, msgspec.Meta(ge=0.0, le=1e12)]
+Axis = Annotated[float, msgspec.Meta(ge=-1.0, le=1.0)]
+
+
+class _FromBrowser(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_field="kind"):
+    """A message of the page's scripts."""
+
+
+class Hello(_FromBrowser, frozen=True, tag="hello"):
+    """The first message of a connection.
+
+    Attributes:
+        seat: random, of the tab; the same after a reload and after a lost link.
+        load: random, of the loaded page; the same after a lost link. Presses are numbered within it.
+    """
+
+    seat: Token
+    load: Token
+
+
+class Held(_FromBrowser, frozen=True, tag="held"):
+    """The full input state of a tab.
+
+    Attributes:
+        sequence: counts what the tab says, from 1.
+        stamp_ms: the tab's monotonic clock [ms].
+        keys: held down, by `KeyboardEvent.code`.
+        visible: a person can see the tab.
+        focused: it has the focus as well.
+        axes: of the gamepad.
+        drawn: number of the newest picture that was drawn, by camera.
+    """
+
+    sequence: Count
+    stamp_ms: Milliseconds
+    keys: Annotated[tuple[KeyCode, ...], msgspec.Meta(max_length=32)]
+    visible: bool
+    focused: bool
+    axes: Annotated[tuple[Axis, ...], msgspec.Meta(max_length=16)]
+    drawn: tuple[Count, Count]
+
+
+class Pressed(_FromBrowser, frozen=True, tag="pressed"):
+    """A button was pressed. Said again until it is acknowledged, so that its number may come several times.
+
+    Attributes:
+        sequence: counts what the tab says.
+        stamp_ms: of the press, by the tab's monotonic clock [ms].
+        number: of the press, within the loaded page.
+        action: the button's name.
+    """
+
+    sequence: Count
+    stamp_ms: Milliseconds
+    number: Count
+    action: ActionName
+
+
+_DECODER: msgspec.json.Decoder[Hello | Held | Pressed] = msgspec.json.Decoder(Hello | Held | Pressed)
+
+
+def read(payload: str | bytes) -> Hello | Held | Pressed:
+    """The message in a WebSocket frame.
+
+    Raises:
+        OversizedMessage: before anything is decoded.
+        MalformedMessage: it is none of the page's messages.
+    """
+    if len(payload) > MAX_BYTES:
+        raise OversizedMessage(_SUBJECT, len(payload), MAX_BYTES)
+    try:
+        return _DECODER.decode(payload)
+    except (msgspec.DecodeError, RecursionError, UnicodeError) as error:
+        raise MalformedMessage(_SUBJECT, str(error)) from None

@@ -1,0 +1,24 @@
+"""What the page shows, by name: a text, or an attribute by which the style sheet tells how something looks.
+
+A name is an element's `data-value`; with "@" an attribute of it follows, which True sets empty and False takes away, or
+a style property that begins with "--".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+Values = Mapping[str, str | bool]
+
+
+class Sent:
+    """What a tab has been sent: it is told only what is new to it."""
+
+    def __init__(self) -> None:
+        self._values: dict[str, str | bool] = {}
+
+    def news(self, values: Values) -> Values:
+        """The values that the tab does not show yet; from now on it does."""
+        news = {name: value for name, value in values.items() if self._values.get(name) != value}
+        self._values.update(news)
+        return news

@@ -1,0 +1,49 @@
+"""A browser tab in a unit test: says what is held, on a clock that the test moves."""
+
+import msgspec
+
+from services.station.page.said import Held, Hello, Pressed
+
+MS = 1_000_000
+PERIOD_MS = 20
+
+
+class BrowserTab:
+    """A tab of a desk."""
+
+    def __init__(self, desk, tab=1, now_ms=1_000, token=None, load=None):
+        self.desk = desk
+        self.tab = tab
+        self.now_ms = now_ms
+        self.sequence = 0
+        self.number = 0
+        self.load = load or f"load-{tab:04}"
+        self.send(Hello(token or f"seat-{tab:04}", self.load))
+
+    def send(self, message):
+        self.desk.receive(self.tab, msgspec.json.encode(message), self.now_ms * MS)
+
+    def hold(self, *keys, focused=True, visible=True, axes=(), later_ms=PERIOD_MS, stamp_ms=None):
+        self.now_ms += later_ms
+        self.sequence += 1
+        stamp = self.now_ms if stamp_ms is None else stamp_ms
+        self.send(Held(self.sequence, float(stamp), keys, visible, focused, axes, (0, 0)))
+
+    def keep_on(self, seconds, *keys, **state):
+        for _ in range(round(seconds * 1_000 / PERIOD_MS)):
+            self.hold(*keys, **state)
+
+    def press(self, action, *, number=None, age_ms=0):
+        self.number += 1
+        self.sequence += 1
+        number = self.number if number is None else number
+        self.send(Pressed(self.sequence, float(self.now_ms - age_ms), number, action))
+
+    def input(self, later_ms=0):
+        return self.desk.take_input((self.now_ms + later_ms) * MS)
+
+    def standing(self, later_ms=0):
+        return self.desk.standing(self.tab, (self.now_ms + later_ms) * MS)
+
+    def leave(self):
+        self.desk.leave(self.tab, self.now_ms * MS)
