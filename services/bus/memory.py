@@ -11,9 +11,11 @@ from protocol.messages import Message, TopicFigures
 from protocol.placement import announcement
 from protocol.queries import Query
 from protocol.topics import Topic
-from services.bus.bus import Failed, Outbox, Pending, Server, Subscription
+from services.bus.bus import Failed, Outbox, Pending
 from services.bus.clocks import Clocks
 from services.bus.identity import new_publisher
+from services.bus.server import Server
+from services.bus.subscription import Subscription
 from services.process.clock import Clock
 
 M = TypeVar("M", bound=Message)
@@ -79,7 +81,7 @@ class MemoryBus:
 
     def serve(self, query: Query[Req, Rep]) -> Server[Req, Rep]:
         """Answer a query."""
-        server = Server(query, self._network.robot)
+        server = Server(query, self._network.robot, self._network.clock)
         self._network.servers[query.name] = server
         self._servers.append(server)
         return server

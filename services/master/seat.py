@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 from protocol.messages import AuthorityState, OperatorInput
 from protocol.topics import AUTHORITY_STATE, OPERATOR_INPUT
-from services.bus.bus import Bus, Received
+from services.bus.bus import Bus
+from services.bus.subscription import Received
 
 
 @dataclass(frozen=True)

@@ -17,8 +17,9 @@ from lfd.store.database import DemonstrationStore, Kind, StoredDemonstration
 from protocol import messages, queries, topics
 from protocol.queries import AddDemonstration, Learnt, Predict, Predicted, Refused, Undo
 from services.bus.arrays import motion_from_wire, motion_to_wire, to_wire
-from services.bus.bus import Bus, Rep, Req, Server
+from services.bus.bus import Bus, Rep, Req
 from services.bus.identity import new_number
+from services.bus.server import Server
 from services.model.learning import learn_all
 from services.model.skill import binding_of, check_demonstration, check_situation, open_store
 from services.process.clock import Clock

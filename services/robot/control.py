@@ -14,7 +14,7 @@ from protocol import messages
 from protocol.messages import MasterState, Mode, Motion, Phase
 from protocol.queries import AcquireAuthority, Adapt, Execute, Finish, ReleaseAuthority, ReleaseStop, Reset, Resume
 from services.bus.arrays import motion_from_wire
-from services.bus.bus import Received
+from services.bus.subscription import Received
 from services.process.exceptions import ServiceError
 from services.robot.admission import admit_prediction, admit_reset, admit_target
 from services.robot.arm import Arm, Tick

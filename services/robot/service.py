@@ -13,9 +13,11 @@ from numpy.typing import NDArray
 from protocol import queries, topics
 from protocol.messages import Figure, MasterState, Phase
 from protocol.queries import Accepted, AuthorityGranted, EpisodeStarted, Execute, Refused
-from services.bus.bus import Bus, Received, Rep, Req, Server
+from services.bus.bus import Bus, Rep, Req
 from services.bus.identity import same_clock
 from services.bus.predictions import Predictions
+from services.bus.server import Server
+from services.bus.subscription import Received
 from services.process.clock import Clock
 from services.process.config import Configuration
 from services.robot.arm import Tick

@@ -13,7 +13,8 @@ import numpy as np
 from protocol import messages, topics
 from protocol.messages import Figure, OperatorInput
 from services.bus.arrays import vector3
-from services.bus.bus import Bus, Pending, Received, Subscription
+from services.bus.bus import Bus, Pending
+from services.bus.subscription import Received, Subscription
 from services.process.clock import Clock
 from services.process.config import Configuration, StationSection
 from services.station.page.view import PageView, Picture

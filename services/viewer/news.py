@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Generic, TypeVar
 
 from protocol.messages import Message
-from services.bus.bus import Subscription
+from services.bus.subscription import Subscription
 
 M = TypeVar("M", bound=Message)
 

@@ -16,9 +16,11 @@ from protocol.messages import Message, TopicFigures
 from protocol.placement import announcement, check_announced
 from protocol.queries import Query
 from protocol.topics import VERSION, QoS, Topic, checked_name
-from services.bus.bus import Failed, Outbox, Pending, Server, Subscription
+from services.bus.bus import Failed, Outbox, Pending
 from services.bus.clocks import Clocks
 from services.bus.identity import new_publisher
+from services.bus.server import Server
+from services.bus.subscription import Subscription
 from services.bus.zenoh.encoding import announced, encoding
 from services.bus.zenoh.sessions import close_session, open_session
 from services.process.clock import Clock
@@ -111,7 +113,7 @@ class ZenohBus:
 
     def serve(self, query: Query[Req, Rep]) -> Server[Req, Rep]:
         """Answer a query."""
-        server = Server(query, self._robot)
+        server = Server(query, self._robot, self._clock)
         key = query.key(self._robot)
 
         def store(call: zenoh.Query) -> None:

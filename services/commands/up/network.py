@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 from protocol import topics
 from protocol.messages import Attempt, Heartbeat, Phase, TeachingState
-from services.bus.bus import Subscription
+from services.bus.subscription import Subscription
 from services.bus.zenoh import ZenohBus
 from services.commands.up.report import attempt_line
 from services.process.config import StationSection

@@ -211,7 +211,7 @@ def test_a_refused_newcomer_is_not_remembered(freshness):
 
 
 def test_every_judgement_is_a_cause_that_is_counted():
-    from services.bus.bus import Drops
+    from services.bus.subscription import Drops
 
     drops = Drops()
     for judgement in module.Judgement:
