@@ -135,7 +135,15 @@ class StorageError(LfdError):
 
 
 class StorageUnavailable(StorageError):
-    """The file cannot be opened or written now: held by another process, read-only, or on a full disk."""
+    """The file cannot be opened or written now, through no fault of its own.
+
+    Attributes:
+        passes: Whether waiting may help: another process holds it, or the disk is full.
+    """
+
+    def __init__(self, path: Path, reason: str, remedy: str, *, passes: bool) -> None:
+        self.passes = passes
+        super().__init__(path, reason, remedy)
 
 
 class BoundElsewhere(StorageError):

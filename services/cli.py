@@ -9,7 +9,7 @@ import logging
 import sys
 from collections.abc import Sequence
 
-from lfd.exceptions import LfdError
+from lfd.exceptions import LfdError, StorageUnavailable
 from protocol.exceptions import ProtocolError
 from services.commands.parser import Parser
 from services.commands.table import COMMANDS
@@ -89,7 +89,7 @@ def _log_to_stderr(level: int) -> None:
 def _ending(error: Exception) -> tuple[str, Exit]:
     """What a person reads of an error, and the exit code."""
     match error:
-        case EnvironmentFault() | DescriptionMissing() | DrawingLibraryMissing():
+        case EnvironmentFault() | StorageUnavailable() | DescriptionMissing() | DrawingLibraryMissing():
             return str(error), Exit.ENVIRONMENT
         case ServiceError() | ProtocolError() | SimError() | LfdError():
             return str(error), Exit.BAD_INPUT
@@ -100,4 +100,4 @@ def _ending(error: Exception) -> tuple[str, Exit]:
 
 
 def _passes(error: Exception) -> bool:
-    return isinstance(error, EnvironmentFault) and error.passes
+    return isinstance(error, EnvironmentFault | StorageUnavailable) and error.passes

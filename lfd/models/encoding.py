@@ -63,12 +63,18 @@ class Encoding:
             x: As of `encode`.
             situation: Whose origin the motion is relative to, and whose start pose it begins at, if anchored.
             n: Number of points.
+
+        Raises:
+            NotFinite: The vector stands for no motion: its duration is beyond all numbers.
+            InvalidDuration: Or it is none.
         """
         outputs = self.outputs(x, situation, np.linspace(0.0, 1.0, n))
+        with np.errstate(over="ignore"):
+            duration = float(np.exp(x[-1]))
         return Trajectory(
             positions=outputs[:, :3] + situation.origin,
             orientations=multiply(self.rotation, exp_map(outputs[:, 3:])),
-            duration=float(np.exp(x[-1])),
+            duration=duration,
         )
 
     def positions(self, changes: Array, n: int) -> Array:

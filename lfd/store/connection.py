@@ -4,23 +4,35 @@ import sqlite3
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from lfd.exceptions import StorageError, StorageUnavailable
 
 BUSY_TIMEOUT = 1.0  # [s] how long a statement waits for another connection's lock
 
+
+class _Cause(NamedTuple):
+    """Why a sound file cannot be used, what to do, and whether waiting helps."""
+
+    reason: str
+    remedy: str
+    passes: bool
+
+
+_HELD = _Cause("another process holds it", "end that process, or wait until it is done", passes=True)
+_READ_ONLY = _Cause("it cannot be written", "make the file and its folder writable", passes=False)
+
 _UNAVAILABLE = {
-    sqlite3.SQLITE_BUSY: ("another process holds it", "end that process, or wait until it is done"),
-    sqlite3.SQLITE_LOCKED: ("another process holds it", "end that process, or wait until it is done"),
-    sqlite3.SQLITE_READONLY: ("it cannot be written", "make the file and its folder writable"),
-    sqlite3.SQLITE_PERM: ("it cannot be written", "make the file and its folder writable"),
-    sqlite3.SQLITE_FULL: ("the disk is full", "make room on it"),
-    sqlite3.SQLITE_IOERR: ("the disk does not take it", "check the disk and the room on it"),
-    sqlite3.SQLITE_CANTOPEN: ("it cannot be opened", "check that its folder is there and may be used"),
-    sqlite3.SQLITE_NOMEM: ("there is not enough memory", "end other programs"),
+    sqlite3.SQLITE_BUSY: _HELD,
+    sqlite3.SQLITE_LOCKED: _HELD,
+    sqlite3.SQLITE_READONLY: _READ_ONLY,
+    sqlite3.SQLITE_PERM: _READ_ONLY,
+    sqlite3.SQLITE_FULL: _Cause("the disk is full", "make room on it", passes=True),
+    sqlite3.SQLITE_IOERR: _Cause("the disk does not take it", "check the disk and the room on it", passes=True),
+    sqlite3.SQLITE_CANTOPEN: _Cause("it cannot be opened", "check that its folder may be used", passes=False),
+    sqlite3.SQLITE_NOMEM: _Cause("there is not enough memory", "end other programs", passes=True),
 }
-"""What is no fault of the file, by SQLite's primary result code: what is the case, and what to do."""
+"""What is no fault of the file, by SQLite's primary result code."""
 
 _PRIMARY = 0xFF  # SQLite's extended result codes carry the primary one in their lowest byte
 
@@ -88,8 +100,8 @@ class Connection:
         try:
             yield
         except sqlite3.Error as error:
-            known = _UNAVAILABLE.get(getattr(error, "sqlite_errorcode", 0) & _PRIMARY)
-            if known is not None:
-                raise StorageUnavailable(self.path, *known) from error
+            cause = _UNAVAILABLE.get(getattr(error, "sqlite_errorcode", 0) & _PRIMARY)
+            if cause is not None:
+                raise StorageUnavailable(self.path, cause.reason, cause.remedy, passes=cause.passes) from error
             reason = f"not readable ({error})"
             raise StorageError(self.path, reason, "restore it from a copy or move it away") from error

@@ -21,7 +21,7 @@ from services.bus.bus import Bus, Rep, Req
 from services.bus.identity import new_number
 from services.bus.server import Server
 from services.model.learning import learn_all
-from services.model.skill import binding_of, check_demonstration, check_situation, open_store
+from services.model.skill import binding_of, check_demonstration, check_duration, check_situation, open_store
 from services.process.clock import Clock
 from services.process.config import Configuration
 from services.process.exceptions import ServiceError
@@ -38,7 +38,8 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> ModelService:
     """The service, its store opened and its model rebuilt.
 
     Raises:
-        ServiceError: the database cannot be used, or holds what was learnt for another scene or robot.
+        StorageError: the database cannot be used, or holds what was learnt for another scene or robot.
+        EnvironmentFault: its folder cannot be made or written.
         SimError: there is no such scene.
     """
     del clock
@@ -46,9 +47,9 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> ModelService:
     store = open_store(configuration.model, configuration.name, binding_of(scene))
     try:
         return ModelService(bus, store, configuration.model.kind, scene)
-    except LfdError as error:
+    except BaseException:
         store.close()
-        raise ServiceError(str(error)) from None
+        raise
 
 
 class ModelService:
@@ -121,6 +122,7 @@ class ModelService:
         situation = _situation(request)
         check_situation(self._scene, situation)
         prediction = self._model.predict(situation)
+        check_duration("the prediction's duration", prediction.trajectory)
         variances = np.diagonal(prediction.position_covariances, axis1=1, axis2=2)
         motion = prediction.trajectory
         self._newest = messages.Prediction(

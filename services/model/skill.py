@@ -8,14 +8,18 @@ import numpy as np
 
 from lfd.exceptions import BoundElsewhere, OutOfRange, StorageError
 from lfd.motion.demonstration import Demonstration, Situation, check_dimension
+from lfd.motion.trajectory import Trajectory
 from lfd.store.database import Binding, DemonstrationStore
 from services.process.config import ModelSection
-from services.process.exceptions import ServiceError
+from services.process.exceptions import CannotWrite
 from services.process.files import data_folder
 from sim.tasks import AnyScene
 
 _EARLIER = "model.sqlite"
 """Where a robot's demonstrations lay, whatever their scene, before each scene had a file of its own."""
+
+SHORTEST_S, LONGEST_S = 0.1, 3600.0
+"""Of a robot's motion: no arm is faster, and no message carries a longer one."""
 
 _CONDITION_WITHIN = 5.0  # [m] no object is farther from where a motion starts, no via-point from the origin
 
@@ -34,20 +38,23 @@ def open_store(section: ModelSection, robot: str, binding: Binding) -> Demonstra
         binding: what the skill is for.
 
     Raises:
-        ServiceError: the file cannot be used, or holds what was learnt for something else.
+        StorageError: the file cannot be used, or holds what was learnt for something else.
+        EnvironmentFault: its folder cannot be made or written.
     """
+    if section.database:
+        path = Path(section.database)
+        _make(path.parent)
+        return _opened(path, binding)
+    folder = data_folder() / robot
+    _make(folder)
+    return _earlier(folder / _EARLIER, binding) or _opened(folder / f"{binding.scene}.sqlite", binding)
+
+
+def _make(folder: Path) -> None:
     try:
-        if section.database:
-            path = Path(section.database)
-            path.parent.mkdir(parents=True, exist_ok=True)
-            return _opened(path, binding)
-        folder = data_folder() / robot
-        folder.mkdir(exist_ok=True)
-        return _earlier(folder / _EARLIER, binding) or _opened(folder / f"{binding.scene}.sqlite", binding)
-    except StorageError as error:
-        raise ServiceError(str(error)) from None
+        folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise ServiceError(f"cannot make {error.filename}: {error.strerror}") from None
+        raise CannotWrite(folder, error.strerror or str(error)) from None
 
 
 def _opened(path: Path, binding: Binding) -> DemonstrationStore:
@@ -82,8 +89,10 @@ def check_demonstration(scene: AnyScene, demonstration: Demonstration) -> None:
         demonstration: to be learnt.
 
     Raises:
+        OutOfRange: it is too fast or too slow for a robot.
         OutOfReach: the motion or its target is beyond the robot's reach.
     """
+    check_duration("the motion's duration", demonstration.trajectory)
     scene.robot.check("the motion passes", demonstration.trajectory.positions)
     check_situation(scene, demonstration.situation)
 
@@ -102,3 +111,17 @@ def check_situation(scene: AnyScene, situation: Situation) -> None:
     furthest = float(np.max(np.abs(situation.condition)))
     if furthest > _CONDITION_WITHIN:
         raise OutOfRange("the condition's largest number", furthest, f"at most {_CONDITION_WITHIN:g} m")
+
+
+def check_duration(what: str, motion: Trajectory) -> None:
+    """Let pass a motion that takes as long as a robot's can.
+
+    Args:
+        what: its duration is called in an error.
+        motion: taught or predicted.
+
+    Raises:
+        OutOfRange: it takes less or more.
+    """
+    if not SHORTEST_S <= motion.duration <= LONGEST_S:
+        raise OutOfRange(what, motion.duration, f"from {SHORTEST_S:g} to {LONGEST_S:g} s")

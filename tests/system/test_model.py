@@ -1,8 +1,15 @@
 """The model process, killed as a computer's failure would: what was asked twice is done once, and said the same."""
 
+import sqlite3
+from contextlib import closing
+
 import numpy as np
 import pytest
 
+from lfd.motion.demonstration import Demonstration
+from lfd.motion.trajectory import Trajectory
+from lfd.store.database import Binding, DemonstrationStore
+from lfd.store.database import Kind as StoredKind
 from protocol import queries
 from protocol.queries import Kind, Undo
 from services.bus.arrays import motion_to_wire
@@ -62,3 +69,28 @@ def test_teaching_another_scene_than_the_running_models_is_refused_by_both_names
             assert teach.ended(20.0) != 0
         assert "dishwasher" in teach.err
         assert "table" in teach.err
+
+
+@pytest.mark.parametrize(
+    ("file", "code", "said"),
+    [("notes", 2, "not readable"), ("of the table", 2, "scene table"), ("held", 3, "holds it")],
+)
+def test_a_database_that_cannot_be_used_ends_the_process_in_one_line_and_the_code_tells_why(
+    tmp_path, router, file, code, said
+):
+    path = tmp_path / "model.sqlite"
+    configuration = configured(tmp_path, router, model=f'database = "{path}"')
+    if file == "of the table":
+        with DemonstrationStore(path) as store:
+            motion = Trajectory(np.linspace((0.5, 0, 0.4), OBJECT, 9), np.tile((1.0, 0, 0, 0), (9, 1)), 5.0)
+            store.add(Demonstration.reaching(motion, np.array(OBJECT)), StoredKind.INITIAL, Binding("table", "tiago"))
+    with closing(sqlite3.connect(path, isolation_level=None)) as holder:
+        if file == "held":
+            holder.execute("BEGIN EXCLUSIVE")
+        if file == "notes":
+            path.write_bytes(b"these are notes" * 100)
+        with Command("model", "--config", configuration, folder=tmp_path) as model:
+            assert model.ended(30.0) == code, model.tail()
+        (line,) = [line for line in model.err.splitlines() if not line.startswith("INFO")]
+        assert str(path) in line
+        assert said in line

@@ -4,6 +4,7 @@ import msgspec
 import numpy as np
 import pytest
 
+from lfd.exceptions import StorageError
 from protocol import messages, queries, topics
 from protocol.messages import Pose
 from protocol.queries import AddDemonstration, Kind, Learnt, Predicted, Undo
@@ -12,7 +13,6 @@ from services.bus.memory import MemoryNetwork
 from services.model.service import build
 from services.process.clock import ManualClock
 from services.process.config import Configuration, ModelSection, RobotSection
-from services.process.exceptions import ServiceError
 
 START = Pose((0.5, 0.0, 0.4), (1.0, 0.0, 0.0, 0.0))
 OBJECT = (0.85, 0.05, 0.55)
@@ -35,10 +35,10 @@ class Rig:
         self.service.step(self.clock.now_ns())
         return pending.poll()
 
-    def teach(self, kind, bend=0.0, at=OBJECT, **more):
+    def teach(self, kind, bend=0.0, at=OBJECT, duration=10.0, **more):
         t = np.linspace(0.0, 1.0, 40)[:, None]
         path = np.array(START.position) + t * (np.array(at) - START.position) + np.sin(np.pi * t) * [0.0, 0.0, bend]
-        motion = motion_to_wire(path, np.tile(START.orientation, (40, 1)), 10.0)
+        motion = motion_to_wire(path, np.tile(START.orientation, (40, 1)), duration)
         given = {"scene": "dishwasher", **more}
         return self.ask(queries.ADD_DEMONSTRATION, AddDemonstration(kind, motion, at, **given))
 
@@ -192,7 +192,7 @@ def test_a_database_of_another_scene_is_refused_by_both_names_and_untouched(path
     first.teach(Kind.INITIAL)
     first.service.close()
     for scene in ("table", "particle"):
-        with pytest.raises(ServiceError, match=rf"model\.sqlite.*dishwasher.*{scene}") as caught:
+        with pytest.raises(StorageError, match=rf"model\.sqlite.*dishwasher.*{scene}") as caught:
             Rig(path, scene=scene)
         assert "\n" not in str(caught.value)
     again = Rig(path)
@@ -226,11 +226,20 @@ def test_nothing_is_predicted_for_a_robot_that_stands_in_another_scene(rig):
         ({"bend": -2.0}, "the motion passes"),
         ({"condition": (900.0, 0.0, 0.0)}, "condition"),
         ({"condition": (0.1, 0.2)}, "condition"),
+        ({"duration": 1e-300}, "from 0.1 to 3600 s"),
     ],
 )
 def test_a_motion_that_the_robot_cannot_have_made_is_refused_and_nothing_is_learnt(rig, beyond, said):
     assert said in rig.teach(Kind.INITIAL, **beyond).reason
     assert rig.described().version == 0
+
+
+def test_a_prediction_that_no_robot_can_take_is_refused_and_the_process_goes_on(rig):
+    """The logarithm of the duration is carried on in a straight line beyond the demonstrations."""
+    rig.teach(Kind.INITIAL, duration=0.1)
+    rig.teach(Kind.INITIAL, at=(0.85, 0.1, 0.55), duration=3600.0)
+    assert "duration" in rig.predict(at=(0.85, 0.9, 0.55)).reason
+    assert isinstance(rig.predict(), Predicted)
 
 
 def test_nothing_is_predicted_for_a_target_beyond_the_reach(rig):
@@ -249,6 +258,6 @@ def test_a_motion_that_is_no_number_is_refused_and_nothing_is_learnt(rig):
 
 def test_a_file_that_is_no_database_is_named_in_one_line(path):
     path.write_bytes(b"this is no database, whatever its name says" * 100)
-    with pytest.raises(ServiceError, match=r"model\.sqlite") as caught:
+    with pytest.raises(StorageError, match=r"model\.sqlite") as caught:
         Rig(path)
     assert "\n" not in str(caught.value)

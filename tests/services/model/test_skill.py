@@ -8,7 +8,7 @@ from lfd.motion.trajectory import Trajectory
 from lfd.store.database import Binding, DemonstrationStore, Kind
 from services.model.skill import binding_of, open_store
 from services.process.config import ModelSection
-from services.process.exceptions import ServiceError
+from services.process.exceptions import EnvironmentFault
 from sim.tasks import DISHWASHER, PARTICLE, TABLE
 
 SECTION = ModelSection()
@@ -55,6 +55,6 @@ def test_a_configured_file_is_made_with_its_folder(tmp_path):
 
 def test_a_configured_folder_that_cannot_be_made_is_named_in_one_line(tmp_path):
     (tmp_path / "file").write_text("")
-    with pytest.raises(ServiceError, match="file") as caught:
+    with pytest.raises(EnvironmentFault, match="file") as caught:
         open_store(ModelSection(database=str(tmp_path / "file" / "skill.sqlite")), "robot1", Binding("table", "tiago"))
     assert "\n" not in str(caught.value)
