@@ -3,10 +3,11 @@
 import os
 import sys
 from pathlib import Path
+from typing import NoReturn
 
 
-def start() -> int:
-    """Run the command, in an interpreter that is isolated from other projects; the exit code."""
+def start() -> NoReturn:
+    """Run the command, in an interpreter that is isolated from other projects, and end with its exit code."""
     sys.path.insert(0, str(Path(__file__).parent.parent))
     from services.process.isolation import retouch_command  # noqa: PLC0415  # only found now
 
@@ -15,15 +16,17 @@ def start() -> int:
         os.execv(command[0], command)
     from services.cli import main  # noqa: PLC0415
     from services.process import streams  # noqa: PLC0415
+    from services.process.ending import leave  # noqa: PLC0415
 
     streams.prepare()
     try:
-        return main()
+        code = main()
     except BrokenPipeError:  # whoever read has enough
-        return 0
+        code = 0
     finally:
         streams.leave()
+    leave(code)
 
 
 if __name__ == "__main__":
-    raise SystemExit(start())
+    start()

@@ -13,6 +13,7 @@ import msgpack
 from services.bus.zenoh import Passing, close_session, open_session, watch
 from services.commands.arguments import add_network, whole
 from services.commands.settings import configuration
+from services.process.ending import end_within
 from services.process.runner import stop_on_signals
 
 LONG = 64
@@ -64,8 +65,9 @@ def echo(connect: str, key: str, count: int | None) -> None:
         BusError: there is no such network, or the key is no key expression.
     """
     stop = stop_on_signals()
+    end_within()
     passing: queue.Queue[Passing] = queue.Queue(maxsize=10_000)
-    session = open_session(connect, timeout_s=5.0)
+    session = open_session(connect, 5.0, stop)
     try:
         watch(session, key, passing.put)
         shown_count = 0

@@ -9,6 +9,7 @@ from services.bus.zenoh import close_session, open_router
 from services.commands.arguments import add_network
 from services.commands.settings import configuration as configured
 from services.process.config import Configuration
+from services.process.ending import end_within
 from services.process.runner import stop_on_signals
 
 log = logging.getLogger(__name__)
@@ -37,6 +38,7 @@ def run_router(configuration: Configuration, upstream: str | None = None) -> Non
         BusError: nothing can listen there.
     """
     stop = stop_on_signals()
+    end_within()
     session = open_router(configuration.listen, upstream)
     try:
         log.info("listening on %s", configuration.listen)

@@ -17,6 +17,7 @@ from services.bus.zenoh import Passing, close_session, open_session, watch
 from services.commands.arguments import add_network
 from services.commands.settings import configuration
 from services.process.clock import SystemClock
+from services.process.ending import end_within
 from services.process.runner import stop_on_signals
 
 GONE_AFTER_S = 5.0
@@ -99,7 +100,8 @@ def top(connect: str, *, once: bool) -> None:
         BusError: there is no such network.
     """
     stop = stop_on_signals()
-    session = open_session(connect, timeout_s=5.0)
+    end_within()
+    session = open_session(connect, 5.0, stop)
     beats = Beats()
     console = Console(width=None if Console().is_terminal else 160)
     try:

@@ -8,7 +8,8 @@ from typing import Annotated
 import msgspec
 
 from protocol.queries import Adapt
-from services.process.exceptions import ConfigurationError
+from services.bus import endpoint
+from services.process.exceptions import BadEndpoint, ConfigurationError
 
 Port = Annotated[int, msgspec.Meta(ge=1, le=65535)]
 Positive = Annotated[float, msgspec.Meta(gt=0.0)]
@@ -180,6 +181,11 @@ class Configuration(_Section, frozen=True):
     station: StationSection = StationSection()
     viewer: ViewerSection = ViewerSection()
 
+    def __post_init__(self) -> None:
+        """Judge the endpoints before anybody waits for them; raises BadEndpoint."""
+        endpoint.parse(self.connect)
+        endpoint.parse(self.listen)
+
 
 def load(path: Path) -> Configuration:
     """Read a configuration file: TOML, or JSON where its name ends so.
@@ -194,6 +200,8 @@ def load(path: Path) -> Configuration:
         return msgspec.toml.decode(content, type=Configuration)
     except OSError as error:
         raise ConfigurationError(path, error.strerror or str(error)) from None
+    except BadEndpoint as error:
+        raise ConfigurationError(path, str(error)) from None
     except (msgspec.DecodeError, UnicodeDecodeError) as error:
         raise ConfigurationError(path, str(error).replace("Object contains unknown field", "unknown key")) from None
 

@@ -13,6 +13,7 @@ ServiceError
 │   ├── CannotWrite          a file that cannot be written: a full disk, no rights
 │   └── KeepsFailing         a process that ends again and again, for a reason that does not go away
 ├── BusError                 the network cannot be opened or used
+│   └── BadEndpoint          no endpoint, or one of a host that nobody knows
 ├── NotFinite                an array from the wire that holds NaN or infinity (services.bus.arrays)
 ├── Refusal                  a request that the robot will not carry out (services.robot.refusal)
 ├── StartImpossible          a place where no motion can start (services.robot.starts)
@@ -60,15 +61,27 @@ class BusError(ServiceError):
     """The network cannot be opened or used."""
 
 
+class BadEndpoint(BusError):
+    """A text that is no endpoint, or one whose host does not exist."""
+
+    def __init__(self, endpoint: str, reason: str, right: str) -> None:
+        self.endpoint = endpoint
+        self.reason = reason
+        self.right = right
+        super().__init__(f"{endpoint!r} is no endpoint: {reason}; {right} would be one")
+
+
 class RouterUnreachable(BusError, EnvironmentFault):
     """No router answered."""
 
     passes = True
 
-    def __init__(self, endpoint: str, within_s: float) -> None:
+    def __init__(self, endpoint: str, within_s: float, reason: str) -> None:
         self.endpoint = endpoint
+        self.reason = reason
         super().__init__(
-            f"no router answers at {endpoint} after {within_s:g} s: start one there, or give another with --connect"
+            f"no router answers at {endpoint} after {within_s:g} s: {reason};"
+            " start one there, or give another with --connect"
         )
 
 

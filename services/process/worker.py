@@ -11,6 +11,7 @@ from services.bus.bus import Bus
 from services.bus.zenoh import connect
 from services.process.clock import Clock, SystemClock
 from services.process.config import Configuration
+from services.process.ending import end_within
 from services.process.exceptions import RoomMissing
 from services.process.processes import Process
 from services.process.runner import Service, run, stop_on_signals
@@ -30,8 +31,9 @@ def run_process(process: Process, configuration: Configuration) -> None:
     """
     os.nice(process.nice)
     stop = stop_on_signals()
+    end_within()
     clock = SystemClock()
-    bus = connect(configuration.connect, configuration.name, process.name, clock)
+    bus = connect(configuration.connect, configuration.name, process.name, clock, stop=stop)
     try:
         service = _build(process, bus, clock, configuration)
         log.info("started on %s", configuration.connect)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -24,7 +25,7 @@ from services.bus.subscription import Subscription
 from services.bus.zenoh.encoding import announced, encoding
 from services.bus.zenoh.sessions import close_session, open_session
 from services.process.clock import Clock
-from services.process.exceptions import NameTaken
+from services.process.exceptions import NameTaken, RouterUnreachable
 
 M = TypeVar("M", bound=Message)
 Req = TypeVar("Req", bound=msgspec.Struct)
@@ -33,6 +34,8 @@ Rep = TypeVar("Rep", bound=msgspec.Struct)
 
 NAME_WAIT_S = 3.0
 """How long the token of a killed predecessor may linger before its name counts as taken."""
+
+NAME_ASK_S = 0.5
 
 
 @dataclass(frozen=True)
@@ -44,7 +47,8 @@ class _Transport:
     express: bool
 
 
-# Nothing blocks: a full link must not stop a control loop. What must not be lost is repeated by its publisher.
+# Nothing blocks: a full link must not stop a control loop. What must not be lost is repeated by its publisher; a
+# question that was lost fails in time and is asked again. An answer travels as its question did.
 _TRANSPORTS = {
     QoS.SAFETY: _Transport(zenoh.Priority.REAL_TIME, zenoh.CongestionControl.DROP, True),
     QoS.REALTIME: _Transport(zenoh.Priority.INTERACTIVE_HIGH, zenoh.CongestionControl.DROP, True),
@@ -80,18 +84,27 @@ class ZenohBus:
         """This incarnation."""
         return self._outbox.identity
 
-    def claim_name(self) -> None:
+    def claim_name(self, stop: threading.Event | None = None) -> None:
         """Announce this process on the network.
+
+        Args:
+            stop: ends the waiting for a predecessor's token to go.
 
         Raises:
             NameTaken: another one of the name is there and stays there.
+            TimeoutError: the router did not say whether there is one.
+            KeyboardInterrupt: `stop` was set.
         """
         key = f"retouch/{VERSION}/{self._robot}/alive/{self._process}"
         deadline = time.monotonic() + NAME_WAIT_S
-        while list(self._session.liveliness().get(key, timeout=1.0)):
+        while held := list(self._session.liveliness().get(key, timeout=NAME_ASK_S)):
+            if stop is not None and stop.is_set():
+                raise KeyboardInterrupt
             if time.monotonic() > deadline:
-                raise NameTaken(self._robot, self._process)
-            time.sleep(0.2)
+                if any(reply.ok is not None for reply in held):
+                    raise NameTaken(self._robot, self._process)
+                raise TimeoutError
+            time.sleep(0.1)
         self._token = self._session.liveliness().declare_token(key)
 
     def publish(self, topic: Topic[M], message: M) -> None:
@@ -142,12 +155,16 @@ class ZenohBus:
         def end() -> None:
             pending.settle(Failed(f"nobody answers {query.name}: is the {query.server} process of this robot running?"))
 
+        transport = _TRANSPORTS[QoS.EVENT]
         self._session.get(
             query.key(self._robot),
             zenoh.handlers.Callback(settle, end),
             payload=encode_request(query, request),
             encoding=encoding(announcement(query, self._robot, query.request)),
             timeout=timeout_s,
+            congestion_control=transport.congestion_control,
+            priority=transport.priority,
+            express=transport.express,
         )
         return pending
 
@@ -185,16 +202,36 @@ def _responder(call: zenoh.Query, key: str, says: str) -> Callable[[bytes], None
     return respond
 
 
-def connect(endpoint: str, robot: str, process: str, clock: Clock, timeout_s: float = 30.0) -> ZenohBus:
+def connect(
+    endpoint: str,
+    robot: str,
+    process: str,
+    clock: Clock,
+    *,
+    timeout_s: float = 30.0,
+    stop: threading.Event | None = None,
+) -> ZenohBus:
     """A bus for one process, its name claimed.
 
+    Args:
+        endpoint: of the router.
+        robot: whose topics these are.
+        process: this process' name.
+        clock: for stamps and receipt times.
+        timeout_s: how long to wait for the router [s].
+        stop: ends the waiting too.
+
     Raises:
-        BusError: no router answers.
+        BusError: see `open_session`.
         NameTaken: the robot has such a process already.
+        KeyboardInterrupt: `stop` was set.
     """
-    bus = ZenohBus(open_session(endpoint, timeout_s), robot, process, clock)
+    bus = ZenohBus(open_session(endpoint, timeout_s, stop), robot, process, clock)
     try:
-        bus.claim_name()
+        bus.claim_name(stop)
+    except TimeoutError:
+        bus.close()
+        raise RouterUnreachable(endpoint, NAME_WAIT_S, "it took the connection and says nothing") from None
     except BaseException:
         bus.close()
         raise

@@ -3,16 +3,39 @@
 from __future__ import annotations
 
 import json
+import logging
 import re
 import threading
+import time
 from typing import Any
 
 import zenoh
 
-from services.process.exceptions import BusError, EndpointInUse, RouterUnreachable
+from services.bus.endpoint import Endpoint, parse
+from services.bus.reach import Silence, open_timeout_ms, probe
+from services.process.exceptions import BusError, EndpointInUse, RouterUnreachable, ServiceError
+
+log = logging.getLogger(__name__)
+
+LEASE_MS = 1000
+"""A link on which nothing was heard for so long is given up; a shorter cut TCP bridges by itself."""
+
+REDIAL_MS = 50
+"""Between two attempts to open a link again."""
+
+FULL_LINK_US = 200_000
+"""How long what may not be dropped (a declaration) waits for room on a full link; then the link is dialled anew."""
+
+CLOSE_S = 0.5
+"""How long a session may take to leave; where its router hangs with a full link it would take ten seconds."""
+
+TELL_AFTER_S = 1.0
+"""A router that is being started is no news."""
+
+POLL_S = 0.02
 
 
-def _configuration(mode: str, connect: str | None, listen: str | None) -> zenoh.Config:
+def _configuration(mode: str, connect: str | None, listen: str | None, open_ms: int) -> zenoh.Config:
     """No discovery: a network is what was named. Links that die are noticed and dialled again within a second."""
     config: dict[str, Any] = {
         "mode": mode,
@@ -22,9 +45,17 @@ def _configuration(mode: str, connect: str | None, listen: str | None) -> zenoh.
             "endpoints": [connect] if connect else [],
             "timeout_ms": -1,
             "exit_on_failure": False,
-            "retry": {"period_init_ms": 100, "period_max_ms": 500, "period_increase_factor": 1.5},
+            "retry": {"period_init_ms": REDIAL_MS, "period_max_ms": REDIAL_MS, "period_increase_factor": 1.0},
         },
-        "transport": {"unicast": {"open_timeout": 1000}, "link": {"tx": {"lease": 2000}}},
+        "transport": {
+            "unicast": {"open_timeout": open_ms},
+            "link": {
+                "tx": {
+                    "lease": LEASE_MS,
+                    "queue": {"congestion_control": {"block": {"wait_before_close": FULL_LINK_US}}},
+                }
+            },
+        },
     }
     return zenoh.Config.from_json5(json.dumps(config))
 
@@ -37,44 +68,121 @@ def open_router(listen: str, connect: str | None = None) -> zenoh.Session:
         connect: another router's endpoint, where there is one.
 
     Raises:
+        BadEndpoint: one of them is none.
         EndpointInUse: nothing can listen there.
-        BusError: the endpoints are no endpoints.
+        BusError: the transport cannot use them.
     """
+    parse(listen)
+    trip = probe(parse(connect)) if connect else 0.0
+    open_ms = open_timeout_ms(0.0 if isinstance(trip, Silence) else trip)
     try:
-        return zenoh.open(_configuration("router", connect, listen))
+        return zenoh.open(_configuration("router", connect, listen, open_ms))
     except zenoh.ZError as error:
         if "listener bound to" in str(error):
             raise EndpointInUse(listen) from None
         raise BusError(f"cannot open a router on {listen}: {reason(error)}") from None
 
 
-def open_session(connect: str, timeout_s: float) -> zenoh.Session:
-    """A client's session; waits until the router is there.
+def open_session(connect: str, timeout_s: float, stop: threading.Event | None = None) -> zenoh.Session:
+    """A client's session; waits until the router is there, and says what it waits for.
+
+    Args:
+        connect: the router's endpoint.
+        timeout_s: how long to wait at most [s].
+        stop: ends the waiting too.
 
     Raises:
-        BusError: no router answered in time, or the endpoint is none.
+        BadEndpoint: the endpoint is none, or nobody knows its host; at once.
+        RouterUnreachable: no router answered in time.
+        BusError: the transport cannot use the endpoint.
+        KeyboardInterrupt: `stop` was set.
     """
-    opened: list[zenoh.Session | zenoh.ZError] = []
+    dialling = _Dialling(parse(connect))
+    dialling.start()
+    deadline = time.monotonic() + timeout_s
+    while dialling.is_alive() and time.monotonic() < deadline:
+        if stop is not None and stop.is_set():
+            dialling.give_up()
+            raise KeyboardInterrupt
+        dialling.join(POLL_S)
+    if dialling.error is not None:
+        raise dialling.error
+    session = dialling.session
+    if session is None:
+        dialling.give_up()
+        raise RouterUnreachable(connect, timeout_s, dialling.silence)
+    return session
 
-    def dial() -> None:
+
+class _Dialling(threading.Thread):
+    """Waits until somebody listens, then opens the session; a daemon, for it may hang in the transport.
+
+    Attributes:
+        session: once it is open.
+        error: why it never will be.
+        silence: why it is not open yet.
+
+    Args:
+        endpoint: of the router.
+    """
+
+    def __init__(self, endpoint: Endpoint) -> None:
+        super().__init__(name="dialling", daemon=True)
+        self.session: zenoh.Session | None = None
+        self.error: ServiceError | None = None
+        self.silence = "it does not answer as a router"
+        self._endpoint = endpoint
+        self._given_up = threading.Event()
+
+    def give_up(self) -> None:
+        """A session that opens later is closed again."""
+        self._given_up.set()
+
+    def run(self) -> None:
+        """Dial."""
         try:
-            opened.append(zenoh.open(_configuration("client", connect, None)))
+            trip = self._reach()
+            if trip is None:
+                return
+            session = zenoh.open(_configuration("client", self._endpoint.text, None, open_timeout_ms(trip)))
         except zenoh.ZError as error:
-            opened.append(error)
+            self.error = BusError(f"cannot connect to {self._endpoint.text}: {reason(error)}")
+        except ServiceError as error:
+            self.error = error
+        else:
+            self.session = session
+            if self._given_up.is_set():
+                close_session(session)
 
-    thread = threading.Thread(target=dial, daemon=True)
-    thread.start()
-    thread.join(timeout_s)
-    if not opened:
-        raise RouterUnreachable(connect, timeout_s)
-    if isinstance(opened[0], zenoh.ZError):
-        raise BusError(f"cannot connect to {connect}: {reason(opened[0])}")
-    return opened[0]
+    def _reach(self) -> float | None:
+        told = ""
+        began = time.monotonic()
+        while isinstance(trip := probe(self._endpoint), Silence):
+            self.silence = trip.reason
+            if trip.reason != told and time.monotonic() - began > TELL_AFTER_S:
+                told = trip.reason
+                log.info("waiting for a router at %s: %s", self._endpoint.text, told)
+            if self._given_up.wait(REDIAL_MS / 1e3):
+                return None
+        self.silence = "something listens there, but does not answer as a router"
+        return trip
 
 
 def close_session(session: zenoh.Session) -> None:
-    """Leave the network; without it a process with a subscriber never ends."""
-    session.close()  # type: ignore[no-untyped-call]  # Zenoh's stub leaves it bare
+    """Leave the network; without it a process with a subscriber never ends.
+
+    A session that cannot leave in `CLOSE_S` is left behind: its router will notice by itself.
+    """
+    closing = threading.Thread(target=_close, args=(session,), name="closing", daemon=True)
+    closing.start()
+    closing.join(CLOSE_S)
+
+
+def _close(session: zenoh.Session) -> None:
+    try:
+        session.close()  # type: ignore[no-untyped-call]  # Zenoh's stub leaves it bare
+    except zenoh.ZError as error:
+        log.debug("the session could not leave: %s", reason(error))
 
 
 def reason(error: zenoh.ZError) -> str:

@@ -1,0 +1,49 @@
+"""Who listens is told from who does not, and how long a link may take to open follows the way there."""
+
+import socket
+
+import pytest
+
+from services.bus import reach
+from services.bus.endpoint import parse
+from services.bus.reach import OPEN_LEAST_MS, OPEN_MOST_MS, Silence, open_timeout_ms, probe
+from services.process.exceptions import BadEndpoint
+
+
+def test_somebody_who_listens_is_reached():
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        assert isinstance(probe(parse(f"tcp/127.0.0.1:{server.getsockname()[1]}")), float)
+
+
+def test_a_port_where_nobody_listens_is_waited_for_with_its_reason():
+    with socket.socket() as bound:
+        bound.bind(("127.0.0.1", 0))
+        assert probe(parse(f"tcp/127.0.0.1:{bound.getsockname()[1]}")) == Silence("connection refused")
+
+
+@pytest.mark.parametrize(
+    "error", [socket.gaierror(socket.EAI_NONAME, "Name or service not known"), UnicodeError("label too long")]
+)
+def test_a_host_that_nobody_knows_is_no_endpoint(monkeypatch, error):
+    monkeypatch.setattr(reach.socket, "getaddrinfo", failing(error))
+    with pytest.raises(BadEndpoint, match="'robot' is not known") as caught:
+        probe(parse("tls/robot:7447"))
+    assert caught.value.right == "tls/192.0.2.1:7447"
+
+
+def test_a_network_that_is_not_up_yet_is_waited_for(monkeypatch):
+    monkeypatch.setattr(reach.socket, "getaddrinfo", failing(socket.gaierror(socket.EAI_AGAIN, "try again")))
+    assert probe(parse("tcp/robot:7447")) == Silence("no name server answers")
+
+
+def test_a_link_may_take_longer_to_open_where_the_way_is_long():
+    assert open_timeout_ms(0.0) == OPEN_LEAST_MS
+    assert OPEN_LEAST_MS + 3 * 600 < open_timeout_ms(0.6) < OPEN_MOST_MS
+    assert open_timeout_ms(60.0) == OPEN_MOST_MS
+
+
+def failing(error):
+    def fail(*_, **__):
+        raise error
+
+    return fail
