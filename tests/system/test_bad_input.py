@@ -39,8 +39,13 @@ def complaint(*arguments, folder, environment=None):
         (("up", "--robot", "**"), ("'**'", "letters")),
         (("master", "--robot", ""), ("''", "letters")),
         (("echo", "**", "--count", "0"), ("--count", "0")),
-        (("top", "--once", "--connect", "nonsense"), ("nonsense",)),
-        (("router", "--listen", "nonsense"), ("nonsense", "<protocol>/<address>")),
+        (("top", "--once", "--connect", "tcp://192.0.2.1:7447"), ("slash", "tcp/192.0.2.1:7447")),
+        (("up", "--connect", "tcp/192.0.2.1"), ("no port", "tcp/192.0.2.1:7447")),
+        (("stop", "--connect", "tcp/192.0.2.1:99999"), ("99999", "65535")),
+        (("master", "--connect", "tcp/no-such-host.invalid:7447"), ("no-such-host.invalid", "not known")),
+        (("echo", "**", "--connect", "foo/robot:7447"), ("'foo'", "tcp/robot:7447")),
+        (("teach", "--connect", ""), ("empty", "tcp/")),
+        (("router", "--listen", "nonsense"), ("nonsense", "no protocol", "tcp/nonsense:7447")),
         (("up", "--config", "missing.toml"), ("missing.toml", "No such file")),
         (("teach", "--waypoints", "missing.csv", "--object", "0.85,0,0.55"), ("missing.csv", "No such file")),
         (("teach", "--waypoints", "notes.rrd", "--object", "0.85,0,0.55"), ("notes.rrd", "x,y,z,qw,qx,qy,qz")),
@@ -150,8 +155,9 @@ def test_a_network_that_is_not_there_is_named(tmp_path):
             for arguments in (("top", "--once"), ("stop",), ("echo", "**"))
         ]
         for command in commands:
-            assert command.ended(WITHIN_S) == 2, command.tail()
-            (line,) = command.err.splitlines()
+            assert command.ended(WITHIN_S) == 3, command.tail()
+            waiting, line = command.err.splitlines()
+            assert f"waiting for a router at {endpoint}: connection refused" in waiting
             assert endpoint in line
             assert "--connect" in line
 
