@@ -40,6 +40,11 @@ def test_what_is_saved_is_what_is_loaded(tmp_path):
         ("[station]\nport = 70000", "`$.station.port`"),
         ("[master.device]\nkind = 'mouse'", "mouse"),
         ("[robot]\nvelocity_scale = 2.0", "`$.robot.velocity_scale`"),
+        ("[robot]\nhold_after_s = 0.26", "`$.robot.hold_after_s`"),
+        ("[robot]\npresence_after_s = 0.26", "`$.robot.presence_after_s`"),
+        ("[robot]\nlease_s = 3.01", "`$.robot.lease_s`"),
+        ("[robot]\nlease_s = nan", "`$.robot.lease_s`"),
+        ("[robot]\nmaster_gain = 11.0", "`$.robot.master_gain`"),
         ("seed = ", "nvalid"),
     ],
 )

@@ -1,6 +1,9 @@
+import re
+
 import numpy as np
 import pytest
 
+from lfd.motion.rotations import exp_map
 from protocol.queries import Reset
 from services.robot.admission import admit_prediction, admit_reset, admit_target
 from services.robot.refusal import Refusal
@@ -39,6 +42,82 @@ def test_an_unsound_prediction_is_refused_with_one_clear_line(motion, duration, 
     with pytest.raises(Refusal, match=reason) as refused:
         admit_prediction(*motion, duration, MEASURED)
     assert "\n" not in str(refused.value)
+
+
+def turning(speed, n=75, duration=10.0):
+    """A motion that stands and turns [rad/s]."""
+    turns = np.outer(np.linspace(0.0, speed * duration, n), [0.0, 0.0, 1.0])
+    return np.tile(MEASURED.position, (n, 1)), exp_map(turns)
+
+
+@pytest.mark.parametrize(
+    ("motion", "duration"),
+    [
+        (line(n=1000), 10.0),
+        (line(n=2), 10.0),
+        (line(), 0.5),
+        (line(length=0.05), 120.0),
+        (line(length=1.0 - 1e-9), 1.0),
+        (turning(3.0 - 1e-9), 10.0),
+        (line(start=1.0), 10.0),
+        (line(start=0.0), 10.0),
+    ],
+)
+def test_a_prediction_at_the_limits_passes(motion, duration):
+    assert admit_prediction(*motion, duration, MEASURED).duration == duration
+
+
+@pytest.mark.parametrize(
+    ("motion", "duration", "reason"),
+    [
+        (line(n=1001), 10.0, "has 1001 way-points, at most 1000 are allowed"),
+        (line(), 0.499, "takes 0.499 s: give 0.5 to 120 s"),
+        (line(length=0.05), 120.1, "takes 120 s: give 0.5 to 120 s"),
+        (line(length=1.01), 1.0, "moves at 1.01 m/s after way-point"),
+        (turning(3.01), 10.0, "turns at 3.01 rad/s after way-point"),
+        (line(start=1.01), 10.0, "starts 0.51 m away from the gripper, at most 0.5 m is allowed"),
+        (line(start=-0.01), 10.0, "starts 0.51 m away"),
+    ],
+)
+def test_a_prediction_just_beyond_them_is_refused(motion, duration, reason):
+    with pytest.raises(Refusal, match=reason):
+        admit_prediction(*motion, duration, MEASURED)
+
+
+def test_the_way_point_that_is_too_fast_is_named():
+    positions, orientations = line(n=11, length=0.1)
+    positions[7:] += 0.5
+    with pytest.raises(Refusal, match="after way-point 6"):
+        admit_prediction(positions, orientations, 1.0, MEASURED)
+
+
+@pytest.mark.parametrize("axis", range(3))
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_motion_starts_within_reach_of_the_scenes_own_start(axis, side):
+    table = scene("dishwasher")
+    place, offset = table.training_positions[0], np.zeros(3)
+    offset[axis] = side
+    for far, refused in ((0.2999, False), (0.3001, True)):
+        start = Pose(table.start.position + far * offset, IDENTITY)
+        if refused:
+            with pytest.raises(Refusal, match="no motion can start at"):
+                admit_reset(table, "b1", place, start)
+        else:
+            admit_reset(table, "b1", place, start)
+
+
+def test_the_region_that_is_named_is_the_one_that_is_allowed():
+    table = scene("dishwasher")
+    with pytest.raises(Refusal) as refused:
+        admit_reset(table, "b1", np.full(3, 9.0))
+    numbers = [float(number) for number in re.findall(r"-?\d+\.\d{3}", str(refused.value))]
+    lower, upper = np.array(numbers[3:6]), np.array(numbers[6:9])
+    assert numbers[:3] == [9.0] * 3
+    for corner in (lower + 0.001, upper - 0.001):
+        admit_reset(table, "b1", corner)
+    for corner in (lower - 0.001, upper + 0.001):
+        with pytest.raises(Refusal):
+            admit_reset(table, "b1", corner)
 
 
 def test_a_prediction_that_spins_is_refused():

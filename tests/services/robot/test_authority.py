@@ -1,7 +1,10 @@
+import math
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from services.process.config import LONGEST_LEASE_S
 from services.robot.authority import NOBODY, Lease
 from services.robot.refusal import Refusal
 
@@ -59,6 +62,82 @@ def test_only_the_holder_releases():
         lease.release("ann", epoch + 1)
     lease.release("ann", epoch)
     assert lease.expires_in_s(0) == 0.0
+
+
+def test_the_lease_says_how_long_it_lasts():
+    lease = Lease(1.0)
+    epoch = lease.acquire("ann", 0)
+    assert lease.expires_in_s(0) == 1.0
+    assert lease.expires_in_s(SECOND // 4) == 0.75
+    lease.renew("ann", epoch, SECOND // 2)
+    assert lease.expires_in_s(SECOND // 2) == 1.0
+    assert lease.expires_in_s(5 * SECOND) == 0.0
+
+
+def test_a_renewal_that_comes_late_does_not_shorten_the_lease():
+    lease = Lease(1.0)
+    epoch = lease.acquire("ann", SECOND)
+    lease.renew("ann", epoch, SECOND // 2)
+    assert lease.expires_in_s(SECOND) == 1.0
+
+
+def test_the_lease_ends_after_its_last_nanosecond():
+    lease = Lease(1.0)
+    lease.acquire("ann", 0)
+    lease.expire(SECOND)
+    assert lease.holder == "ann"
+    lease.expire(SECOND + 1)
+    assert lease.holder == NOBODY
+
+
+@pytest.mark.parametrize("setting", [3.001, 1e9, math.inf, math.nan])
+def test_no_setting_makes_the_lease_last_longer_than_its_bound(setting):
+    lease = Lease(setting)
+    lease.acquire("ann", 0)
+    assert lease.expires_in_s(0) == LONGEST_LEASE_S
+
+
+def test_nobody_has_no_silence_and_a_new_holder_has_not_been_heard():
+    lease = Lease(1.0)
+    assert lease.silence_s(0) is None
+    epoch = lease.acquire("ann", 0)
+    assert lease.silence_s(SECOND) is None
+    lease.renew("ann", epoch, SECOND)
+    assert lease.silence_s(SECOND + SECOND // 4) == 0.25
+    lease.renew("ann", epoch, SECOND // 2)
+    assert lease.silence_s(SECOND + SECOND // 4) == 0.25
+    lease.acquire("ann", 2 * SECOND)
+    assert lease.silence_s(2 * SECOND) is None
+
+
+def test_only_the_holder_under_the_present_epoch_is_covered():
+    lease = Lease(1.0)
+    assert not lease.covers(NOBODY, lease.epoch)
+    epoch = lease.acquire("ann", 0)
+    assert lease.covers("ann", epoch)
+    assert not lease.covers("bob", epoch)
+    assert not lease.covers("ann", epoch - 1)
+    lease.revoke()
+    assert not lease.covers("ann", epoch)
+    assert not lease.covers(NOBODY, lease.epoch)
+
+
+def test_the_operator_goes_with_the_authority():
+    lease = Lease(1.0)
+    lease.acquire("station-1", 0, operator="Ann")
+    assert lease.operator == "Ann"
+    lease.acquire("station-2", 0, take_over=True)
+    assert lease.operator == ""
+    lease.acquire("station-2", 0, operator="Bob")
+    lease.revoke()
+    assert lease.operator == ""
+
+
+def test_each_change_raises_the_epoch_by_one():
+    lease = Lease(1.0, epoch=41)
+    assert lease.acquire("ann", 0) == 42
+    lease.revoke()
+    assert lease.epoch == 43
 
 
 def test_a_nameless_holder_is_refused():

@@ -80,7 +80,7 @@ def test_the_reference_cannot_jump():
     far = Pose(np.array([1.0, 0.0, 0.0]), IDENTITY)
     near, clamped = safety.clamp_reference(Pose(np.zeros(3), IDENTITY), far, PERIOD)
     assert clamped == ("reference speed",)
-    assert np.linalg.norm(near.position) == pytest.approx(safety.REFERENCE_SPEED * PERIOD)
+    np.testing.assert_allclose(near.position, [safety.REFERENCE_SPEED * PERIOD, 0.0, 0.0])
     assert safety.clamp_reference(near, near, PERIOD) == (near, ())
 
 
@@ -109,10 +109,55 @@ def test_a_correction_keeps_to_its_reach_and_its_direction_and_each_clamp_is_nam
         np.testing.assert_allclose(np.cross(vector, clamped), 0.0, atol=1e-12)
 
 
+@given(st.tuples(*[st.floats(-1.0, 1.0)] * 3), st.tuples(*[st.floats(-1.0, 1.0)] * 3))
+def test_the_reference_goes_towards_what_is_wanted_as_far_as_it_may(previous, wanted):
+    previous, wanted = np.array(previous), np.array(wanted)
+    pose, clamped = safety.clamp_reference(Pose(previous, IDENTITY), Pose(wanted, IDENTITY), PERIOD)
+    farthest = safety.REFERENCE_SPEED * PERIOD
+    way = np.linalg.norm(wanted - previous)
+    assert np.linalg.norm(pose.position - previous) == pytest.approx(min(way, farthest), abs=1e-12)
+    assert np.linalg.norm(wanted - pose.position) == pytest.approx(max(0.0, way - farthest), abs=1e-12)
+    assert bool(clamped) == (way > farthest * (1.0 + 1e-9))
+
+
+def test_a_reference_that_turns_too_fast_arrives_at_its_place_all_the_same():
+    wanted = Pose(np.array([0.01, 0.0, 0.0]), exp_map(np.array([0.0, 0.5, 0.0])))
+    pose, clamped = safety.clamp_reference(Pose(np.zeros(3), IDENTITY), wanted, PERIOD)
+    np.testing.assert_array_equal(pose.position, wanted.position)
+    assert clamped == ("reference turn speed",)
+    assert angle_between(pose.orientation, wanted.orientation) == pytest.approx(0.5 - 0.015)
+
+
+def test_a_reference_that_moves_and_turns_as_fast_as_it_may_is_not_clamped():
+    wanted = Pose(np.array([0.012, 0.0, 0.0]), exp_map(np.array([0.0, 0.015, 0.0])))
+    assert safety.clamp_reference(Pose(np.zeros(3), IDENTITY), wanted, PERIOD) == (wanted, ())
+
+
+def test_a_joint_at_its_limits_or_its_speed_is_not_clamped():
+    for q, wanted in (((0.299, 0.99), (0.3, 1.0)), ((0.001, -0.99), (0.0, -1.0))):
+        result, names = LIMITS.clamp(np.array(q), np.array(wanted), PERIOD)
+        np.testing.assert_allclose(result, wanted, atol=1e-15)
+        assert names == ()
+
+
+def test_every_joint_beyond_its_limits_or_its_speed_is_named():
+    _, names = LIMITS.clamp(np.array([0.3, 1.0]), np.array([0.4, 1.001]), PERIOD)
+    assert names == ("position lift", "position elbow")
+    _, names = LIMITS.clamp(np.array([0.1, 0.0]), np.array([0.2, -1.0]), PERIOD)
+    assert names == ("speed lift", "speed elbow")
+
+
+@pytest.mark.parametrize(("force", "stops"), [(0.0, False), (300.0, False), (300.1, True), (600.0, True)])
+def test_a_touch_that_pushes_harder_than_any_motion_should_stops_the_arm(force, stops):
+    assert safety.too_forceful(force) is stops
+
+
 def test_a_robot_too_close_to_itself_may_only_move_away():
     assert safety.self_collision(distance=0.004, previous=0.006, limit=0.005)
     assert not safety.self_collision(distance=0.004, previous=0.003, limit=0.005)
     assert not safety.self_collision(distance=0.006, previous=0.007, limit=0.005)
+    assert not safety.self_collision(distance=0.005, previous=0.007, limit=0.005)
+    assert not safety.self_collision(distance=0.004, previous=0.004, limit=0.005)
 
 
 @pytest.mark.parametrize(
