@@ -32,6 +32,11 @@ class Phase(enum.Enum):
     HOLD = "hold"
     STOPPED = "stopped"
 
+    @property
+    def running(self) -> bool:
+        """An episode is under way: the robot moves, or holds and may go on."""
+        return self in (Phase.RAMP, Phase.EXECUTE, Phase.HOLD)
+
 
 class Mode(enum.Enum):
     """Who shapes the motion: the prediction alone, or the operator on top of it."""

@@ -25,6 +25,7 @@ from services.model.skill import binding_of, check_demonstration, check_duration
 from services.process.clock import Clock
 from services.process.config import Configuration
 from services.process.exceptions import ServiceError
+from services.process.schedule import Schedule
 from sim.exceptions import SimError
 from sim.tasks import AnyScene
 from sim.tasks import scene as find_scene
@@ -77,7 +78,7 @@ class ModelService:
         self._undo = bus.serve(queries.UNDO)
         self._describe = bus.serve(queries.DESCRIBE)
         self._stands_in = bus.subscribe(topics.SCENE_STATE)
-        self._announced_ns = 0
+        self._schedule = Schedule()
         self._newest: messages.Prediction | None = None
         log.info("%s: model version %d, %d demonstrations", self._binding, store.version, len(self._stored))
 
@@ -87,8 +88,7 @@ class ModelService:
         _answer(self._add, self._once(self._learnt))
         _answer(self._undo, self._once(self._undone))
         _answer(self._describe, self._described)
-        if now_ns - self._announced_ns >= 1e9 / topics.MODEL_STATE.rate_hz:
-            self._announced_ns = now_ns
+        if self._schedule.due(topics.MODEL_STATE, now_ns):
             self._bus.publish(topics.MODEL_STATE, self._state())
             if self._newest is not None:
                 self._bus.publish(topics.PREDICTION, self._newest)

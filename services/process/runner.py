@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import logging
 import os
 import platform
@@ -122,6 +123,9 @@ def run(service: Service, bus: Bus, clock: Clock, process: str, stop: threading.
         stop: ends the run.
     """
     sys.setswitchinterval(SWITCH_INTERVAL_S)
+    # What was made at the start stays: looking through all of it again for garbage would take several control periods.
+    gc.collect()
+    gc.freeze()
     ticks = TickStatistics(service.rate_hz)
     paced = service if isinstance(service, Paced) else None
     due = clock.now_ns()
@@ -143,6 +147,7 @@ def run(service: Service, bus: Bus, clock: Clock, process: str, stop: threading.
                 due += behind // ticks.period_ns * ticks.period_ns
             clock.sleep_until(due, stop)
     finally:
+        gc.unfreeze()
         service.close()
 
 

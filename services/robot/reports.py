@@ -1,33 +1,14 @@
 """What the robot tells everybody: each topic at the rate that the registry gives it."""
 
-from typing import Any
-
 from protocol import messages, topics
-from protocol.topics import Topic
 from services.bus.arrays import to_wire, vector3
 from services.bus.bus import Bus
+from services.process.schedule import Schedule
 from services.robot import wire
 from services.robot.arm import Tick
 from services.robot.control import Control, Finished
 from services.robot.safety import standing
 from sim.pose import Pose
-
-
-class Schedule:
-    """When each topic is due, in absolute periods, so that rates do not drift."""
-
-    def __init__(self) -> None:
-        self._next_ns: dict[str, int] = {}
-
-    def due(self, topic: Topic[Any], now_ns: int) -> bool:
-        """Whether to publish the topic now; then it is due again one period later."""
-        period = round(1e9 / topic.rate_hz)
-        due_ns = self._next_ns.setdefault(topic.name, now_ns)
-        if now_ns < due_ns:
-            return False
-        behind = (now_ns - due_ns) // period
-        self._next_ns[topic.name] = due_ns + (behind + 1) * period
-        return True
 
 
 class Reports:

@@ -5,11 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
-from protocol.messages import Figure, Mode, OperatorInput, Phase, RobotState, Vector3
+from protocol.messages import Figure, Mode, OperatorInput, RobotState, Vector3
 
 ZERO: Vector3 = (0.0, 0.0, 0.0)
-
-_MOVING = frozenset({Phase.RAMP, Phase.EXECUTE, Phase.HOLD})
 
 
 @dataclass(frozen=True)
@@ -34,7 +32,7 @@ class Moment:
     def refining(self) -> RobotState | None:
         """The robot's state, while it executes an episode that an operator may correct."""
         robot = self.robot
-        if robot is None or not self.commands or robot.mode is not Mode.REFINE or robot.phase not in _MOVING:
+        if robot is None or not self.commands or robot.mode is not Mode.REFINE or not robot.phase.running:
             return None
         return robot
 

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import math
 
-from protocol.messages import Light, Phase, Verdict
+from protocol.messages import Light, Verdict
 from services.station.page.view import Shown
 
 STALE_AFTER_S = 0.3
 """Age of the robot's state above which the page says so in red."""
-
-MOVING = frozenset({Phase.RAMP, Phase.EXECUTE, Phase.HOLD})
 
 LIGHT_WORDS = {Light.RED: "Watch", Light.AMBER: "Wait", Light.HOLD: "Hold", Light.GREEN: "Act"}
 
@@ -66,7 +64,7 @@ def outcome(shown: Shown) -> tuple[bool | None, str]:
 
 def _open_while_moving(shown: Shown) -> bool | None:
     robot = shown.view.robot
-    return None if robot is not None and robot.phase in MOVING else False
+    return None if robot is not None and robot.phase.running else False
 
 
 def _contact(verdict: Verdict) -> str:

@@ -38,7 +38,6 @@ ORIGIN: Vector3 = (0.0, 0.0, 0.0)
 IDLE_S = 3.0
 """A robot that is idle for so long while an episode should run has forgotten it: it was restarted."""
 
-_RUNNING = frozenset({RobotPhase.RAMP, RobotPhase.EXECUTE, RobotPhase.HOLD})
 _RESUMED = frozenset({Phase.DECIDING, Phase.EXECUTING})
 
 _WITHOUT_AUTHORITY = frozenset({Phase.WAITING, Phase.ACQUIRING, Phase.RELEASING, Phase.FINISHED})
@@ -133,7 +132,7 @@ def _acquiring(state: Workflow, view: View, settings: Settings) -> Step:
 
 
 def _resetting(state: Workflow, view: View, settings: Settings) -> Step:
-    if not state.asking and view.robot is not None and view.robot.phase in _RUNNING:
+    if not state.asking and view.robot is not None and view.robot.phase.running:
         # Of an episode that was lost; its result is nobody's.
         finish = view.now_s >= state.retry_s
         return Step(

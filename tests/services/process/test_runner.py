@@ -1,5 +1,6 @@
 """The runner's ticks are absolute: none is made up for in a burst, late ones are counted."""
 
+import gc
 import threading
 
 import pytest
@@ -21,8 +22,10 @@ class Slow:
         self.clock, self.stop, self.durations = clock, stop, list(durations_ms)
         self.started_ms = []
         self.closed = False
+        self.frozen = 0
 
     def step(self, now_ns):
+        self.frozen = gc.get_freeze_count()
         self.started_ms.append((now_ns - 1_000_000_000) / MS)
         self.clock.advance(self.durations.pop(0) / 1e3)
         if not self.durations:
@@ -52,6 +55,12 @@ def test_ticks_come_at_whole_periods_whatever_the_steps_take():
 def test_a_long_step_skips_ticks_and_keeps_the_phase():
     service, _ = ran([35, 1, 1])
     assert service.started_ms == [0, 35, 40]
+
+
+def test_what_was_made_at_the_start_is_not_looked_through_for_garbage_while_the_service_runs():
+    service, _ = ran([1, 1])
+    assert service.frozen > 1000
+    assert gc.get_freeze_count() == 0
 
 
 def test_late_ticks_are_counted():

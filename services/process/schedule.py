@@ -1,0 +1,24 @@
+"""When each topic is due, at the rate that the registry gives it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from protocol.topics import Topic
+
+
+class Schedule:
+    """Counts in absolute periods from the first time that it is asked, so that rates do not drift."""
+
+    def __init__(self) -> None:
+        self._next_ns: dict[str, int] = {}
+
+    def due(self, topic: Topic[Any], now_ns: int) -> bool:
+        """Whether to publish the topic now; then it is due again one period later, without making up for any."""
+        period = round(1e9 / topic.rate_hz)
+        due_ns = self._next_ns.setdefault(topic.name, now_ns)
+        if now_ns < due_ns:
+            return False
+        behind = (now_ns - due_ns) // period
+        self._next_ns[topic.name] = due_ns + (behind + 1) * period
+        return True
