@@ -88,13 +88,20 @@ class Recording(Message, frozen=True, kw_only=True):
     """Where the viewer shows and records.
 
     Attributes:
-        path: of the .rrd file on the viewer's machine.
-        viewer_url: of the page that shows the live view.
+        path: of the run's .rrd file on the viewer's machine; later parts lie beside it, numbered from -2 on.
+        parts: how many files there are.
+        size: of all of them together [byte].
+        fault: why nothing is recorded now, for people; empty where all is well.
+        viewer_url: of the page that shows the live view, with the address that it listens on; the browser knows best
+            by which name it reaches it.
         recording_id: changes when the view has to be loaded anew.
         logged_ns: stamp of the newest robot state in the view [ns].
     """
 
     path: Text
+    parts: Count = 1
+    size: Count = 0
+    fault: Text = ""
     viewer_url: Text
     recording_id: Name
     logged_ns: Count = 0

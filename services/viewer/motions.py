@@ -7,13 +7,14 @@ import rerun as rr
 
 from services.bus.arrays import Floats
 from services.viewer import entities, palette
+from services.viewer.recording import Recording
 
 _ELLIPSOIDS = 24
 _THINNEST = 0.001  # [m]
 _SIGMAS = 2.0
 
 
-def log_prediction(recording: rr.RecordingStream, positions: Floats, deviations: Floats | None) -> None:
+def log_prediction(recording: Recording, positions: Floats, deviations: Floats | None) -> None:
     """Draw a prediction and about it two standard deviations, 95 % on each axis.
 
     Args:
@@ -37,7 +38,7 @@ def log_prediction(recording: rr.RecordingStream, positions: Floats, deviations:
     )
 
 
-def log_refined(recording: rr.RecordingStream, positions: Floats) -> None:
+def log_refined(recording: Recording, positions: Floats) -> None:
     """Draw the part of the refined motion that lies behind, shape (k, 3) [m]."""
     strips = [positions] if len(positions) > 1 else []
     recording.log(entities.REFINED, rr.LineStrips3D(strips, radii=[0.0045], colors=[palette.REFINED]))

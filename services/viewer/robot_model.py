@@ -11,6 +11,7 @@ import rerun as rr
 from numpy.typing import NDArray
 
 from services.viewer import entities
+from services.viewer.recording import Recording
 
 Floats = NDArray[np.float64]
 
@@ -26,18 +27,18 @@ class RobotModel:
         recording: where it is drawn.
     """
 
-    def __init__(self, urdf: Path, recording: rr.RecordingStream) -> None:
+    def __init__(self, urdf: Path, recording: Recording) -> None:
         self._recording = recording
         self._tree = rr.urdf.UrdfTree.from_file_path(
             urdf, entity_path_prefix=entities.ROBOT.removeprefix("/"), static_transform_entity_path=_LINKS
         )
         self._joints = _Joints(self._tree, ())
-        self._tree.log_urdf_to_recording(recording)
+        recording.always("robot", self._tree.log_urdf_to_recording)
         for path in _primitives(urdf, self._tree):
-            recording.log(path, rr.Boxes3D.from_fields(fill_mode="solid"), static=True)
+            recording.log_always(path, rr.Boxes3D.from_fields(fill_mode="solid"))
         # What is drawn at paths, without a frame of its own, stands in the robot's base frame.
         base = rr.Transform3D(parent_frame=f"tf#{entities.WORLD}", child_frame=self._tree.root_link().name)
-        recording.log(f"{entities.ROBOT}/base", base, static=True)
+        recording.log_always(f"{entities.ROBOT}/base", base)
 
     def move(self, time_s: float, names: Sequence[str], q: Sequence[float]) -> None:
         """Put the joints where they are; those that the description does not have are left out.
@@ -57,7 +58,7 @@ class RobotModel:
         columns = rr.Transform3D.columns(translation=translations, quaternion=quaternions)
         times = rr.TimeColumn(entities.TIMELINE, duration=[time_s] * len(translations))
         # One call for all joints: a third of the time of one call each.
-        self._recording.send_columns(_MOVING, [times], [*columns, *self._joints.frames])
+        self._recording.send_columns(_MOVING, times, [*columns, *self._joints.frames])
 
 
 class _Joints:

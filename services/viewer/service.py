@@ -50,6 +50,8 @@ _REPEAT_S = 1.0
 # Numbers over time and the force's arrow: every second step, since nobody sees more and each costs as much as a joint.
 _SERIES_S = 0.06
 
+_TEXT_LENGTH = 4096
+
 
 def build(bus: Bus, clock: Clock, configuration: Configuration) -> Service:
     """The viewer process.
@@ -58,7 +60,7 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> Service:
         PortInUse: another program listens where the live view should be.
         ViewerError: the recording cannot be written, or the web viewer's files are not there.
     """
-    web = WebServer(configuration, web_files())
+    web = WebServer(configuration.viewer, web_files())
     # A scene that is not known here has an arm like ours, as far as anybody can tell.
     known = SCENES.get(configuration.robot.scene)
     try:
@@ -66,7 +68,8 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> Service:
     except BaseException:
         web.close()
         raise
-    return ViewerService(bus, run, web, point=known.radius if isinstance(known, ParticleScene) else None)
+    point = known.radius if isinstance(known, ParticleScene) else None
+    return ViewerService(bus, run, web, point)
 
 
 class ViewerService:
@@ -82,7 +85,6 @@ class ViewerService:
     def __init__(self, bus: Bus, run: Run, web: WebServer, point: float | None = None) -> None:
         self._bus = bus
         self._run = run
-        self._stream = run.stream
         self._web = web
         self._journal = Journal()
         self._robot = News(bus.subscribe(ROBOT_STATE))
@@ -100,10 +102,10 @@ class ViewerService:
         self._joint_names: tuple[str, ...] = ()
         self._unusable = 0
         run.at(0)
-        series.log_legends(self._stream)
-        self._model = _robot_model(self._stream) if point is None else None
+        series.log_legends(self._run)
+        self._model = _robot_model(run) if point is None else None
         if point is not None:
-            scene.log_point(self._stream, point)
+            scene.log_point(self._run, point)
 
     @property
     def rate_hz(self) -> float:
@@ -121,7 +123,7 @@ class ViewerService:
         for images in self._images:
             image = images.take(now_ns)
             if image is not None:
-                _log_image(self._stream, image)
+                _log_image(self._run, image)
         teaching = self._teaching.take(now_ns)
         if teaching is not None:
             self._write(*self._journal.teaching(teaching))
@@ -131,7 +133,7 @@ class ViewerService:
     def figures(self) -> tuple[Figure, ...]:
         """Size of the recording so far, and messages that could not be drawn."""
         return (
-            Figure("recording_size", float(self._run.path.stat().st_size), "B"),
+            Figure("recording_size", float(self._run.parts.size), "B"),
             Figure("unusable_messages", float(self._unusable), "1"),
         )
 
@@ -147,51 +149,51 @@ class ViewerService:
         self._trace.see(robot)
         if robot.joint_names != self._joint_names:
             self._joint_names = robot.joint_names
-            series.log_joint_legend(self._stream, robot.joint_names)
+            series.log_joint_legend(self._run, robot.joint_names)
         if self._changes.due("joints", tuple(round(value, 5) for value in robot.q), now_ns):
             if self._model is not None:
                 self._model.move(time_s, robot.joint_names, robot.q)
-            scene.log_grasp(self._stream, robot.measured)
+            scene.log_grasp(self._run, robot.measured)
         self._write(*self._journal.robot(robot))
         if self._pace.due("robot", None, now_ns):
-            series.log_joints(self._stream, robot.q)
-            series.log_correction(self._stream, robot.offset, robot.turn)
-            series.log_latency(self._stream, robot.applied_latency)
+            series.log_joints(self._run, robot.q)
+            series.log_correction(self._run, robot.offset, robot.turn)
+            series.log_latency(self._run, robot.applied_latency)
 
     def _log_master(self, now_ns: int) -> None:
         master = self._master.take(now_ns)
         if master is None or not self._pace.due("master", None, now_ns):
             return
-        series.log_force(self._stream, master.force)
+        series.log_force(self._run, master.force)
         robot = self._robot.known
         if robot is not None and self._changes.due("force", (master.force, robot.measured.position), now_ns):
-            scene.log_force(self._stream, robot.measured.position, master.force)
+            scene.log_force(self._run, robot.measured.position, master.force)
 
     def _log_scene(self, now_ns: int) -> None:
         arrangement = self._scene.take(now_ns)
         if arrangement is not None:
-            scene.log_environment(self._stream, arrangement)
+            scene.log_environment(self._run, arrangement)
         world, seen = self._world.take(now_ns), self._object.take(now_ns)
         if self._scene.known is None:
             return
         size = self._scene.known.object_size
         if world is not None and any(size) and self._changes.due("truth", _rounded(world.object_pose), now_ns):
-            scene.log_object_truth(self._stream, world.object_pose, size)
+            scene.log_object_truth(self._run, world.object_pose, size)
         if seen is not None:
-            scene.log_object_seen(self._stream, seen.pose, size)
-            series.log_pose_error(self._stream, seen.error)
+            scene.log_object_seen(self._run, seen.pose, size)
+            series.log_pose_error(self._run, seen.error)
 
     def _log_motions(self, now_ns: int) -> None:
         prediction = self._prediction.take(now_ns)
         try:
             if prediction is not None:
                 positions = from_wire(prediction.motion.positions)
-                motions.log_prediction(self._stream, positions, from_wire(prediction.deviations))
+                motions.log_prediction(self._run, positions, from_wire(prediction.deviations))
         except NotFinite:
             self._unusable += 1
         refined = self._trace.points
         if self._changes.due("refined", refined.tobytes(), now_ns):
-            motions.log_refined(self._stream, refined)
+            motions.log_refined(self._run, refined)
 
     def _log_verdict(self, now_ns: int) -> None:
         verdict = self._verdict.take(now_ns)
@@ -199,16 +201,16 @@ class ViewerService:
             return
         self._write(*self._journal.verdict(verdict))
         if self._changes.due("collision", verdict.collision_position, now_ns):
-            scene.log_collision(self._stream, verdict.collision_position, verdict.collision_force)
+            scene.log_collision(self._run, verdict.collision_position, verdict.collision_force)
         known, thing = self._scene.known, self._object_pose()
         if known is not None and self._changes.due("reached", verdict.reached, now_ns):
-            scene.log_reached(self._stream, known.ellipsoid_radii, reached=verdict.reached)
+            scene.log_reached(self._run, known.ellipsoid_radii, reached=verdict.reached)
         if known is None or thing is None:
             return
         centre = vector3(np.subtract(thing.position, verdict.object_displacement).round(3))
         if self._changes.due("kicked over", (verdict.kicked_over, centre), now_ns):
             limits = known.kicked_over_thresholds
-            scene.log_kick_limits(self._stream, centre, limits, kicked_over=verdict.kicked_over)
+            scene.log_kick_limits(self._run, centre, limits, kicked_over=verdict.kicked_over)
 
     def _object_pose(self) -> Pose | None:
         """Where the object is: the truth where there is one; None where there is no object."""
@@ -220,14 +222,17 @@ class ViewerService:
 
     def _write(self, *entries: Entry) -> None:
         for entry in entries:
-            self._stream.log(entities.JOURNAL, rr.TextLog(entry.text, level=entry.level))
+            self._run.log(entities.JOURNAL, rr.TextLog(entry.text, level=entry.level))
 
     def _announce(self) -> None:
-        robot = self._robot.known
+        robot, parts = self._robot.known, self._run.parts
         self._bus.publish(
             RECORDING,
             Recording(
-                path=str(self._run.path),
+                path=_sendable(str(parts.path)),
+                parts=parts.number,
+                size=parts.size,
+                fault=_sendable(parts.fault),
                 viewer_url=self._web.url,
                 recording_id=self._run.identity,
                 logged_ns=robot.stamp_ns if robot else 0,
@@ -235,7 +240,12 @@ class ViewerService:
         )
 
 
-def _log_image(stream: rr.RecordingStream, image: CameraImage) -> None:
+def _sendable(text: str) -> str:
+    """The text as a message can hold it: bytes of a path that are no text become question marks."""
+    return text.encode(errors="replace").decode()[:_TEXT_LENGTH]
+
+
+def _log_image(stream: Run, image: CameraImage) -> None:
     picture = rr.EncodedImage(contents=image.data, media_type="image/jpeg")
     stream.log(f"{entities.CAMERAS}/{'head' if image.camera == 'head' else 'wrist'}", picture)
 
@@ -245,7 +255,7 @@ def _rounded(pose: Pose) -> tuple[float, ...]:
     return tuple(round(value, 4) for value in (*pose.position, *pose.orientation))
 
 
-def _robot_model(stream: rr.RecordingStream) -> RobotModel | None:
+def _robot_model(stream: Run) -> RobotModel | None:
     """The robot's shape; a station without the description shows the rest all the same."""
     try:
         return RobotModel(prepare().urdf, stream)

@@ -267,7 +267,10 @@ def test_sound_messages_with_senseless_content_stop_nobody(network, unmoved):
         (topics.OPERATOR_INPUT, messages.OperatorInput(keys=("\0",) * 32, focused=True, axes=(1e9,) * 16)),
         (topics.AUTHORITY_RENEWAL, messages.AuthorityRenewal(holder="stranger", epoch=2**53)),
         (topics.EMERGENCY_STOP, messages.EmergencyStop(pressed=False, by="")),
-        (topics.RECORDING, messages.Recording(path="\0", viewer_url="javascript:alert(1)", recording_id="")),
+        (
+            topics.RECORDING,
+            messages.Recording(path="\0", viewer_url="javascript:alert(1)", recording_id=""),
+        ),
         (topics.HEARTBEAT, replace(unmoved["robot"], process="\x1b[31m", pid=0, host="[/]", rate_hz=-1e9)),
     ]
     for _ in range(3):

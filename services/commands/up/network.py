@@ -36,9 +36,13 @@ class Watch:
         self.recording = bus.subscribe(topics.RECORDING)
         self._heartbeats: Subscription[Heartbeat] = bus.subscribe(topics.HEARTBEAT)
         self.beats: dict[str, Heartbeat] = {}
+        self.recording_fault = ""
 
     def update(self) -> None:
         """Take what has come."""
+        recording = self.recording.latest()
+        if recording is not None and recording.message.fault:
+            self.recording_fault = recording.message.fault
         for received in self._heartbeats.take():
             self.beats[received.message.process] = received.message
 

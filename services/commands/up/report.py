@@ -42,7 +42,8 @@ class Report(msgspec.Struct, frozen=True):
         reason: why not; empty where it did.
         processes: name to process id, as they ran last.
         restarts: of each process.
-        recording: the .rrd file.
+        recording: the .rrd file; later parts lie beside it, numbered from -2 on.
+        recording_fault: why it broke off last; empty where it never did.
         attempts: every episode in order.
         first_motion_s: from the command to the robot's first motion; negative where it never moved.
     """
@@ -52,6 +53,7 @@ class Report(msgspec.Struct, frozen=True):
     processes: dict[str, int]
     restarts: dict[str, int]
     recording: str
+    recording_fault: str
     attempts: list[AttemptReport]
     first_motion_s: float
 

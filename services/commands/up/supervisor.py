@@ -144,6 +144,7 @@ class Supervisor:
             processes={c.job.name: c.pid for c in self._children if c.pid is not None and c.job.restart},
             restarts={c.job.name: c.restarts for c in self._children},
             recording=recording.message.path if recording is not None else "",
+            recording_fault=self._watch.recording_fault if self._watch is not None else "",
             attempts=attempt_reports(self._narrator.attempts.values()),
             first_motion_s=self._narrator.first_motion_s,
         )

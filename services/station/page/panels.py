@@ -49,6 +49,7 @@ def scene(shown: Shown) -> Values:
         "scene@data-address": "" if recording is None else recording.viewer_url,
         "scene@data-recording": "" if recording is None else recording.recording_id,
         "scene@data-stale": "yes" if stale else "no",
+        "recording-fault": "" if recording is None else recording.fault,
         "stale": f"Robot data {age}" if stale else "",
     }
 

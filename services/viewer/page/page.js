@@ -19,7 +19,8 @@ async function start() {
   const canvas = document.getElementById("view");
   await wasm_bindgen({ module_or_path: "re_viewer_bg.wasm" });
   const handle = new wasm_bindgen.WebHandle({
-    url: [canvas.dataset.stream],
+    // Under the name by which this browser reached the page.
+    url: [`rerun+http://${location.hostname}:${canvas.dataset.streamPort}/proxy`],
     render_backend: "webgl",
     hide_welcome_screen: true,
     persist: false,
