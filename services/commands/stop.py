@@ -6,80 +6,129 @@ import logging
 import os
 import time
 from argparse import ArgumentParser, Namespace
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
-from protocol import queries, topics
-from protocol.messages import EmergencyStop, SafetyState
+from protocol import topics
 from services.bus.zenoh import ZenohBus, open_session
-from services.commands.arguments import add_network
+from services.commands.arguments import add_network, within
+from services.commands.pressing import Press, Release, story
 from services.commands.settings import configuration as configured
 from services.process.clock import SystemClock
 from services.process.config import Configuration
-from services.process.exceptions import CommandFailed
+from services.process.ending import end_within
+from services.process.exceptions import NotConfirmed, RouterUnreachable
+from services.process.runner import stop_on_signals
 
 log = logging.getLogger(__name__)
 
-ANSWER_S = 3.0
 REPEAT_S = 1.0 / topics.EMERGENCY_STOP.rate_hz
+TELL_S = 1.0
+TIMEOUT_S = 30.0
+
+_ABOUT = """\
+Presses the robot's emergency stop until the robot says that it has latched and that
+it stands; through an outage of the network too. Ends with 3, and says so, where the
+robot did not: then use its own emergency stop.
+"""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """See `Action`."""
+    parser.description = _ABOUT
     add_network(parser)
     parser.add_argument("--release", action="store_true", help="release the stop instead")
+    parser.add_argument(
+        "--timeout",
+        type=within(0.0, 3600.0, "seconds", above=True),
+        metavar="S",
+        default=TIMEOUT_S,
+        help=f"give up after so many seconds (default: {TIMEOUT_S:g})",
+    )
 
 
 def run(arguments: Namespace) -> int:
     """See `Action`."""
-    (release if arguments.release else stop)(configured(arguments))
+    (release if arguments.release else stop)(configured(arguments), arguments.timeout)
     return 0
 
 
-def _bus(configuration: Configuration) -> ZenohBus:
-    session = open_session(configuration.connect, timeout_s=5.0)
-    return ZenohBus(session, configuration.name, f"cli-{os.getpid()}", SystemClock())
-
-
-def stop(configuration: Configuration) -> None:
-    """Press until the robot says that it has latched.
+def stop(configuration: Configuration, timeout_s: float = TIMEOUT_S) -> None:
+    """Press until the robot says that it has latched and stands.
 
     Raises:
-        BusError: there is no such network.
-        CommandFailed: the robot did not say so.
+        BadEndpoint: there can be no such network.
+        NotConfirmed: the robot did not say so in time.
+        KeyboardInterrupt: somebody ended it before.
     """
-    bus = _bus(configuration)
-    try:
-        safety = bus.subscribe(topics.SAFETY_STATE)
-        pressed = EmergencyStop(pressed=True, by="command line", reason="retouch stop")
-        deadline = time.monotonic() + ANSWER_S
-        while time.monotonic() < deadline:
-            bus.publish(topics.EMERGENCY_STOP, pressed)
-            time.sleep(REPEAT_S)
-            state: SafetyState | None = received.message if (received := safety.latest()) else None
-            if state is not None and state.emergency_stop:
-                log.info("robot %s has stopped", configuration.name)
-                return
-        raise CommandFailed(
-            f"robot {configuration.name!r} did not confirm the stop in {ANSWER_S:g} s: use its own emergency stop"
-        )
-    finally:
-        bus.close()
+    robot = configuration.name
+    attempt = _Attempt("stop", robot, timeout_s)
+    with attempt.bus(configuration) as bus:
+        attempt.until(Press(bus, configuration.operator).step)
+    log.info("robot %s has stopped and stands", robot)
 
 
-def release(configuration: Configuration) -> None:
+def release(configuration: Configuration, timeout_s: float = TIMEOUT_S) -> None:
     """Release the latched stop; whoever wants to move the robot has to ask for the authority again.
 
     Raises:
-        BusError: there is no such network.
-        CommandFailed: nobody answered, or the robot refused.
+        BadEndpoint: there can be no such network.
+        CommandFailed: the robot refused.
+        NotConfirmed: nobody answered in time.
+        KeyboardInterrupt: somebody ended it before.
     """
-    bus = _bus(configuration)
-    try:
-        pending = bus.ask(queries.RELEASE_STOP, queries.ReleaseStop("command line"), timeout_s=ANSWER_S)
-        deadline = time.monotonic() + ANSWER_S + 1.0
-        while (outcome := pending.poll()) is None and time.monotonic() < deadline:
-            time.sleep(0.01)
-        if not isinstance(outcome, queries.Accepted):
-            raise CommandFailed(f"the stop was not released: {outcome.reason if outcome else 'no answer'}")
-        log.info("robot %s is released", configuration.name)
-    finally:
-        bus.close()
+    attempt = _Attempt("release", configuration.name, timeout_s)
+    with attempt.bus(configuration) as bus:
+        released = Release(bus, configuration.operator)
+        attempt.until(released.step)
+    assert released.was is not None
+    log.info("robot %s is released by %s; %s", configuration.name, configuration.operator, story(released.was))
+
+
+class _Attempt:
+    """Something that goes on until the robot confirms it.
+
+    Args:
+        what: is to be confirmed.
+        robot: by which.
+        timeout_s: gives up after it [s].
+    """
+
+    def __init__(self, what: str, robot: str, timeout_s: float) -> None:
+        self._what = what
+        self._robot = robot
+        self._timeout_s = timeout_s
+        self._began = time.monotonic()
+        self._interrupted = stop_on_signals()
+        end_within()
+
+    @contextmanager
+    def bus(self, configuration: Configuration) -> Iterator[ZenohBus]:
+        """The way to the robot, once there is one; dialled until then."""
+        try:
+            session = open_session(configuration.connect, self._timeout_s, self._interrupted, self._tell)
+        except RouterUnreachable as error:
+            reason = f"no router at {error.endpoint}: {error.reason}"
+            raise NotConfirmed(self._what, self._robot, self._timeout_s, reason) from None
+        bus = ZenohBus(session, self._robot, f"cli-{os.getpid()}", SystemClock())
+        try:
+            yield bus
+        finally:
+            bus.close()
+
+    def until(self, step: Callable[[int], str]) -> None:
+        """Step until nothing is waited for any more."""
+        clock, told = SystemClock(), self._began
+        while waits_for := step(clock.now_ns()):
+            now = time.monotonic()
+            if now - self._began > self._timeout_s:
+                raise NotConfirmed(self._what, self._robot, self._timeout_s, waits_for)
+            if now - told > TELL_S:
+                told = now
+                self._tell(waits_for)
+            if self._interrupted.wait(REPEAT_S):
+                log.error("interrupted; %s of robot %s was NOT confirmed: %s", self._what, self._robot, waits_for)
+                raise KeyboardInterrupt
+
+    def _tell(self, waits_for: str) -> None:
+        log.warning("%s of robot %s NOT confirmed yet: %s", self._what, self._robot, waits_for)

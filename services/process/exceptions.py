@@ -11,6 +11,7 @@ ServiceError
 │   ├── RoomMissing          a role whose packages are not installed
 │   ├── FolderUnusable       a folder of the user's that cannot be made or written
 │   ├── CannotWrite          a file that cannot be written: a full disk, no rights
+│   ├── NotConfirmed         a robot did not confirm its stop, or the stop's release
 │   └── KeepsFailing         a process that ends again and again, for a reason that does not go away
 ├── BusError                 the network cannot be opened or used
 │   └── BadEndpoint          no endpoint, or one of a host that nobody knows
@@ -152,6 +153,18 @@ class CannotWrite(EnvironmentFault):
         self.path = path
         self.reason = reason
         super().__init__(f"cannot use {path}: {reason.lower()}; make room or rights there, or name another place")
+
+
+class NotConfirmed(EnvironmentFault):
+    """A robot did not confirm its stop, or the stop's release."""
+
+    def __init__(self, what: str, robot: str, within_s: float, reason: str) -> None:
+        self.what = what
+        self.robot = robot
+        self.reason = reason
+        super().__init__(
+            f"robot {robot!r} did not confirm the {what} in {within_s:g} s: {reason}; use its own emergency stop"
+        )
 
 
 class KeepsFailing(EnvironmentFault):

@@ -285,7 +285,7 @@ def test_top_shows_the_live_processes_with_rate_age_latency_and_drops(tmp_path, 
 def test_stop_latches_and_release_releases(tmp_path, router):
     with Command("robot", "--connect", router, folder=tmp_path), Witness(router) as witness:
         granted = witness.asked(queries.ACQUIRE, queries.AcquireAuthority("witness"), 30.0)
-        with Command("stop", "--connect", router, folder=tmp_path) as stop:
+        with Command("stop", "--operator", "bob", "--connect", router, folder=tmp_path) as stop:
             assert stop.ended(20.0) == 0, stop.tail()
         eventually(lambda: witness.safety and witness.safety.emergency_stop, WITHIN_S, "the stop has latched")
         eventually(lambda: witness.robot.phase is Phase.STOPPED, WITHIN_S, "the robot says so")
@@ -297,12 +297,18 @@ def test_stop_latches_and_release_releases(tmp_path, router):
         witness.next_beats({"robot"})
         assert witness.safety.emergency_stop
 
-        with Command("stop", "--release", "--connect", router, folder=tmp_path) as release:
+        arguments = ("--release", "--operator", "anna", "--connect", router)
+        with Command("stop", *arguments, folder=tmp_path) as release:
             assert release.ended(20.0) == 0, release.tail()
+        assert "released by anna; bob had pressed it at 20" in release.err
         eventually(lambda: witness.safety and not witness.safety.emergency_stop, WITHIN_S, "the stop is released")
         stale = witness.ask(queries.RESET, queries.Reset(granted.epoch))
         assert isinstance(stale, queries.Refused), "who held the authority before has to ask for it again"
         assert witness.asked(queries.ACQUIRE, queries.AcquireAuthority("witness")).epoch > granted.epoch
-    with Command("stop", "--connect", router, folder=tmp_path) as alone:
-        assert alone.ended(20.0) == 2
-        assert "did not confirm the stop" in alone.err
+
+
+def test_a_robot_that_does_not_confirm_the_stop_is_named(tmp_path, router):
+    with Command("stop", "--timeout", "2", "--robot", "left", "--connect", router, folder=tmp_path) as alone:
+        assert alone.ended(20.0) == 3
+        assert "stop of robot left NOT confirmed yet: it is not heard" in alone.err
+        assert "robot 'left' did not confirm the stop in 2 s" in alone.err

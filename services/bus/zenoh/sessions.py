@@ -7,6 +7,7 @@ import logging
 import re
 import threading
 import time
+from collections.abc import Callable
 from typing import Any
 
 import zenoh
@@ -29,8 +30,8 @@ FULL_LINK_US = 200_000
 CLOSE_S = 0.5
 """How long a session may take to leave; where its router hangs with a full link it would take ten seconds."""
 
-TELL_AFTER_S = 1.0
-"""A router that is being started is no news."""
+TELL_S = 1.0
+"""Between two lines that say what is waited for; a router that is being started is no news."""
 
 POLL_S = 0.02
 
@@ -83,13 +84,19 @@ def open_router(listen: str, connect: str | None = None) -> zenoh.Session:
         raise BusError(f"cannot open a router on {listen}: {reason(error)}") from None
 
 
-def open_session(connect: str, timeout_s: float, stop: threading.Event | None = None) -> zenoh.Session:
+def open_session(
+    connect: str,
+    timeout_s: float,
+    stop: threading.Event | None = None,
+    tell: Callable[[str], None] | None = None,
+) -> zenoh.Session:
     """A client's session; waits until the router is there, and says what it waits for.
 
     Args:
         connect: the router's endpoint.
         timeout_s: how long to wait at most [s].
         stop: ends the waiting too.
+        tell: called once a second with what is waited for; by default it is logged when it changes.
 
     Raises:
         BadEndpoint: the endpoint is none, or nobody knows its host; at once.
@@ -97,14 +104,20 @@ def open_session(connect: str, timeout_s: float, stop: threading.Event | None = 
         BusError: the transport cannot use the endpoint.
         KeyboardInterrupt: `stop` was set.
     """
+    tell = tell or _News()
     dialling = _Dialling(parse(connect))
     dialling.start()
-    deadline = time.monotonic() + timeout_s
-    while dialling.is_alive() and time.monotonic() < deadline:
+    now = time.monotonic()
+    deadline, due = now + timeout_s, now + TELL_S
+    while dialling.is_alive() and now < deadline:
         if stop is not None and stop.is_set():
             dialling.give_up()
             raise KeyboardInterrupt
+        if now >= due:
+            tell(f"waiting for a router at {connect}: {dialling.silence}")
+            due += TELL_S
         dialling.join(POLL_S)
+        now = time.monotonic()
     if dialling.error is not None:
         raise dialling.error
     session = dialling.session
@@ -112,6 +125,19 @@ def open_session(connect: str, timeout_s: float, stop: threading.Event | None = 
         dialling.give_up()
         raise RouterUnreachable(connect, timeout_s, dialling.silence)
     return session
+
+
+class _News:
+    """Logs a line where it is another one than before."""
+
+    def __init__(self) -> None:
+        self._told = ""
+
+    def __call__(self, line: str) -> None:
+        """Tell."""
+        if line != self._told:
+            self._told = line
+            log.info("%s", line)
 
 
 class _Dialling(threading.Thread):
@@ -155,13 +181,8 @@ class _Dialling(threading.Thread):
                 close_session(session)
 
     def _reach(self) -> float | None:
-        told = ""
-        began = time.monotonic()
         while isinstance(trip := probe(self._endpoint), Silence):
             self.silence = trip.reason
-            if trip.reason != told and time.monotonic() - began > TELL_AFTER_S:
-                told = trip.reason
-                log.info("waiting for a router at %s: %s", self._endpoint.text, told)
             if self._given_up.wait(REDIAL_MS / 1e3):
                 return None
         self.silence = "something listens there, but does not answer as a router"

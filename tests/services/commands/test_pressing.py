@@ -1,0 +1,100 @@
+"""A stop from afar is pressed until the robot's own state shows it; a release is one request, however often asked."""
+
+import pytest
+
+from protocol import queries, topics
+from protocol.messages import SafetyState
+from services.bus.bus import Failed
+from services.bus.memory import MemoryNetwork
+from services.commands.pressing import Press, Release, story
+from services.process.clock import ManualClock
+from services.process.exceptions import CommandFailed
+
+PRESSED = SafetyState(
+    emergency_stop=True, standing=True, by="bob", at="2026-11-26T10:00:00Z", reason="it hit the table"
+)
+
+
+class World:
+    """A robot that says what a test lets it say, and an operator's bus."""
+
+    def __init__(self):
+        self.clock = ManualClock()
+        network = MemoryNetwork(self.clock)
+        self.bus = network.bus("cli-1")
+        self._robot = network.bus("robot")
+        self.presses = self._robot.subscribe(topics.EMERGENCY_STOP)
+        self.releases = self._robot.serve(queries.RELEASE_STOP)
+
+    def says(self, **state):
+        self._robot.publish(topics.SAFETY_STATE, SafetyState(**state))
+
+    def step(self, one):
+        self.clock.advance(0.1)
+        return one.step(self.clock.now_ns())
+
+
+@pytest.fixture
+def world():
+    return World()
+
+
+def test_it_presses_until_the_stop_is_latched_and_the_arm_stands(world):
+    press = Press(world.bus, "anna")
+    assert world.step(press) == "it is not heard"
+    world.says(emergency_stop=False, standing=True)
+    assert world.step(press) == "it has not latched"
+    world.says(emergency_stop=True, standing=False)
+    assert world.step(press) == "it has latched, but it still moves"
+    assert [(r.message.pressed, r.message.by) for r in world.presses.take()] == [(True, "anna")] * 3
+    world.says(emergency_stop=True, standing=True)
+    assert world.step(press) == ""
+    assert world.presses.take() == []
+
+
+def test_a_state_of_before_the_outage_confirms_nothing(world):
+    press = Press(world.bus, "anna")
+    world.says(emergency_stop=True, standing=True)
+    world.clock.advance(10.0)
+    assert world.step(press) == "it is not heard"
+    assert len(world.presses.take()) == 1
+
+
+def test_a_release_whose_answer_was_lost_is_the_same_request_again(world):
+    release = Release(world.bus, "anna")
+    assert world.step(release) == "it is not heard"
+    world.says(**fields(PRESSED))
+    assert world.step(release) == "it has not answered"
+    (first,) = world.releases.take()
+    release._pending.settle(Failed("lost"))
+    assert world.step(release) == "lost"
+    world.step(release)
+    assert world.releases.take() == [], "known again by its number, and joined"
+    assert first.request.by == "anna"
+    assert first.request.request > 0
+    first.reply(queries.Accepted())
+    assert world.step(release) == ""
+    assert release.was.by == "bob"
+
+
+def test_two_releases_are_two_requests(world):
+    assert Release(world.bus, "anna")._request.request != Release(world.bus, "anna")._request.request
+
+
+def test_a_refused_release_says_why(world):
+    release = Release(world.bus, "anna")
+    world.says(**fields(PRESSED))
+    world.step(release)
+    (call,) = world.releases.take()
+    call.reply(queries.Refused("the button at the robot is pressed"))
+    with pytest.raises(CommandFailed, match="the button at the robot is pressed"):
+        world.step(release)
+
+
+def test_who_releases_reads_who_had_pressed_when_and_why():
+    assert story(PRESSED) == "bob had pressed it at 2026-11-26T10:00:00Z (it hit the table)"
+    assert story(SafetyState(emergency_stop=False)) == "no stop was latched"
+
+
+def fields(state):
+    return {name: getattr(state, name) for name in ("emergency_stop", "standing", "by", "at", "reason", "released_by")}
