@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 import msgspec
 
 from protocol.exceptions import MalformedMessage, OversizedMessage, WrongVersion
+from protocol.fitting import fit
 from protocol.messages import Message
 from protocol.queries import Query, Refused
 from protocol.topics import Topic
@@ -25,12 +26,13 @@ def _decoder(type_: Any) -> msgspec.msgpack.Decoder[Any]:
 
 
 def encode(topic: Topic[M], message: M) -> bytes:
-    """The message as a MessagePack map.
+    """The message as a MessagePack map, its texts cut to what readers let pass.
 
     Raises:
         OversizedMessage: it is larger than the topic allows.
+        MalformedMessage: it holds what no message can.
     """
-    return _bounded(topic.name, _ENCODER.encode(message), topic.max_bytes)
+    return _encode(topic.name, fit(message), topic.max_bytes)
 
 
 def decode(topic: Topic[M], payload: bytes, schema: str = "") -> M:
@@ -56,8 +58,9 @@ def encode_request(query: Query[Req, Rep], request: Req) -> bytes:
 
     Raises:
         OversizedMessage: it is larger than the query allows.
+        MalformedMessage: it holds what no message can.
     """
-    return _bounded(query.name, _ENCODER.encode(request), query.max_bytes)
+    return _encode(query.name, request, query.max_bytes)
 
 
 def decode_request(query: Query[Req, Rep], payload: bytes, schema: str = "") -> Req:
@@ -68,18 +71,27 @@ def decode_request(query: Query[Req, Rep], payload: bytes, schema: str = "") -> 
 
 
 def encode_reply(query: Query[Req, Rep], reply: Rep | Refused) -> bytes:
-    """The reply as a MessagePack map whose field `reply` says which one it is.
+    """The reply as a MessagePack map whose field `reply` says which one it is, its texts cut as a message's.
 
     Raises:
         OversizedMessage: it is larger than the query allows.
+        MalformedMessage: it holds what no message can.
     """
-    return _bounded(query.name, _ENCODER.encode(reply), query.max_bytes)
+    return _encode(query.name, fit(reply), query.max_bytes)
 
 
 def decode_reply(query: Query[Req, Rep], payload: bytes) -> Rep | Refused:
     """The reply in the payload; raises as `decode`."""
     reply: Rep | Refused = _decode(query.name, payload, query.max_bytes, query.reply | Refused)
     return reply
+
+
+def _encode(subject: str, struct: msgspec.Struct, bound: int) -> bytes:
+    try:
+        payload = _ENCODER.encode(struct)
+    except (TypeError, ValueError, OverflowError) as error:  # a lone surrogate, a number of more than 64 bits
+        raise MalformedMessage(subject, str(error)) from None
+    return _bounded(subject, payload, bound)
 
 
 def _bounded(subject: str, payload: bytes, bound: int) -> bytes:

@@ -238,19 +238,19 @@ class Query(Generic[Req, Rep]):
         return f"retouch/{VERSION}/{checked_name(robot)}/{self.name}/{self.server}"
 
 
-ACQUIRE = Query("authority/acquire", AcquireAuthority, AuthorityGranted, "robot", 4_096, "ask for the authority")
-RELEASE = Query("authority/release", ReleaseAuthority, Accepted, "robot", 4_096, "give the authority back")
-EXECUTE = Query("cmd/execute", Execute, EpisodeStarted, "robot", 4_096, "execute a prediction")
-FINISH = Query("cmd/finish", Finish, Accepted, "robot", 4_096, "end the episode here")
-RESUME = Query("cmd/resume", Resume, Accepted, "robot", 4_096, "go on after a hold")
-RESET = Query("cmd/reset", Reset, Accepted, "robot", 4_096, "back to the start")
-RELEASE_STOP = Query("safety/release_stop", ReleaseStop, Accepted, "robot", 4_096, "release the emergency stop")
+ACQUIRE = Query("authority/acquire", AcquireAuthority, AuthorityGranted, "robot", 20_480, "ask for the authority")
+RELEASE = Query("authority/release", ReleaseAuthority, Accepted, "robot", 20_480, "give the authority back")
+EXECUTE = Query("cmd/execute", Execute, EpisodeStarted, "robot", 20_480, "execute a prediction")
+FINISH = Query("cmd/finish", Finish, Accepted, "robot", 20_480, "end the episode here")
+RESUME = Query("cmd/resume", Resume, Accepted, "robot", 20_480, "go on after a hold")
+RESET = Query("cmd/reset", Reset, Accepted, "robot", 20_480, "back to the start")
+RELEASE_STOP = Query("safety/release_stop", ReleaseStop, Accepted, "robot", 20_480, "release the emergency stop")
 PREDICT = Query("model/predict", Predict, Predicted, "model", 1_048_576, "predict a motion")
 ADD_DEMONSTRATION = Query(
     "model/add_demonstration", AddDemonstration, Learnt, "model", 4_194_304, "learn; answered when it is on disk"
 )
-UNDO = Query("model/undo", Undo, Learnt, "model", 4_096, "take the newest update back, or a first demonstration")
-DESCRIBE = Query("model/describe", Describe, Learnt, "model", 4_096, "the model as it lies on disk")
+UNDO = Query("model/undo", Undo, Learnt, "model", 20_480, "take the newest update back, or a first demonstration")
+DESCRIBE = Query("model/describe", Describe, Learnt, "model", 20_480, "the model as it lies on disk")
 
 QUERIES: tuple[Query[Any, Any], ...] = (
     ACQUIRE,

@@ -104,32 +104,32 @@ OPERATOR_INPUT = Topic(  # kept: between two steps of the master another station
     50.0,
     QoS.REALTIME,
     "station",
-    4_096,
+    10_240,
     "who is at the page, and what is held there",
     kept=8,
 )
 MASTER_STATE = Topic(  # kept: between two steps of the robot a master without authority must not hide the holder's
-    "cmd/master_state", messages.MasterState, 100.0, QoS.REALTIME, "master", 1_024, "the operator's correction", kept=8
+    "cmd/master_state", messages.MasterState, 100.0, QoS.REALTIME, "master", 1_920, "the operator's correction", kept=8
 )
 AUTHORITY_RENEWAL = Topic(
-    "authority/renewal", messages.AuthorityRenewal, 50.0, QoS.STATE, "station", 512, "an operator is present", kept=8
+    "authority/renewal", messages.AuthorityRenewal, 50.0, QoS.STATE, "station", 1_536, "an operator is present", kept=8
 )
-AUTHORITY_STATE = Topic("authority/state", messages.AuthorityState, 10.0, QoS.STATE, "robot", 512, "who may command")
+AUTHORITY_STATE = Topic("authority/state", messages.AuthorityState, 10.0, QoS.STATE, "robot", 1_536, "who may command")
 EMERGENCY_STOP = Topic(
     "safety/emergency_stop",
     messages.EmergencyStop,
     10.0,
     QoS.SAFETY,
     "any",
-    8_192,
+    20_480,
     "stop, repeated while pressed",
     kept=16,
 )
 SAFETY_STATE = Topic(
-    "safety/state", messages.SafetyState, 10.0, QoS.STATE, "robot", 8_192, "what keeps the robot from moving"
+    "safety/state", messages.SafetyState, 10.0, QoS.STATE, "robot", 20_480, "what keeps the robot from moving"
 )
 ROBOT_STATE = Topic(
-    "state/robot", messages.RobotState, 100.0, QoS.STATE, "robot", 16_384, "joints and poses, measured and commanded"
+    "state/robot", messages.RobotState, 100.0, QoS.STATE, "robot", 49_152, "joints and poses, measured and commanded"
 )
 WORLD_STATE = Topic(
     "state/world", messages.WorldState, 50.0, QoS.STATE, "robot", 16_384, "the simulated world, to draw"
@@ -137,35 +137,35 @@ WORLD_STATE = Topic(
 SCENE_STATE = Topic(
     "state/scene", messages.SceneState, 1.0, QoS.STATE, "robot", 262_144, "the scene and its success criteria"
 )
-VERDICT = Topic("state/verdict", messages.Verdict, 30.0, QoS.STATE, "robot", 1_024, "reached, kicked over, collision")
-EXECUTION = Topic("state/execution", messages.ExecutionState, 10.0, QoS.STATE, "robot", 512, "the motion under way")
+VERDICT = Topic("state/verdict", messages.Verdict, 30.0, QoS.STATE, "robot", 2_048, "reached, kicked over, collision")
+EXECUTION = Topic("state/execution", messages.ExecutionState, 10.0, QoS.STATE, "robot", 1_024, "the motion under way")
 EPISODE_RESULT = Topic(
     "state/episode_result",
     messages.EpisodeResult,
     1.0,
     QoS.EVENT,
     "robot",
-    4_194_304,
+    2_097_152,
     "what became of an episode",
     kept=16,
 )
 HEAD_IMAGE = Topic("cam/head", messages.CameraImage, 15.0, QoS.PICTURE, "camera", 1_048_576, "the head camera")
 WRIST_IMAGE = Topic("cam/wrist", messages.CameraImage, 15.0, QoS.PICTURE, "camera", 1_048_576, "the wrist camera")
 OBJECT_POSE = Topic(
-    "state/object_pose", messages.ObjectPose, 15.0, QoS.STATE, "perception", 1_024, "the object as the camera sees it"
+    "state/object_pose", messages.ObjectPose, 15.0, QoS.STATE, "perception", 1_536, "the object as the camera sees it"
 )
 PREDICTION = Topic(
     "model/prediction", messages.Prediction, 1.0, QoS.EVENT, "model", 1_048_576, "the newest prediction", kept=16
 )
-MODEL_STATE = Topic("model/state", messages.ModelState, 1.0, QoS.STATE, "model", 1_024, "the model as it lies on disk")
+MODEL_STATE = Topic("model/state", messages.ModelState, 1.0, QoS.STATE, "model", 2_048, "the model as it lies on disk")
 TEACHING_STATE = Topic(
-    "state/teaching", messages.TeachingState, 10.0, QoS.STATE, "station", 524_288, "where the teaching workflow stands"
+    "state/teaching", messages.TeachingState, 10.0, QoS.STATE, "station", 262_144, "where the teaching workflow stands"
 )
 RECORDING = Topic(
-    "state/recording", messages.Recording, 1.0, QoS.STATE, "viewer", 16_384, "where to look and what records"
+    "state/recording", messages.Recording, 1.0, QoS.STATE, "viewer", 40_960, "where to look and what records"
 )
 HEARTBEAT = Topic(
-    "health/heartbeat", messages.Heartbeat, 2.0, QoS.STATE, "any", 65_536, "a process about itself", kept=256
+    "health/heartbeat", messages.Heartbeat, 2.0, QoS.STATE, "any", 81_920, "a process about itself", kept=256
 )
 
 TOPICS: tuple[Topic[Any], ...] = (

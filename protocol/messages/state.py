@@ -84,7 +84,7 @@ class RobotState(Message, frozen=True, kw_only=True):
     turn: Vector3 = (0.0, 0.0, 0.0)
     hold_reason: Text = ""
     waiting: bool = False
-    clamped: Annotated[tuple[Text, ...], msgspec.Meta(max_length=16)] = ()
+    clamped: Annotated[tuple[Name, ...], msgspec.Meta(max_length=16)] = ()
     applied_sequence: Count = 0
     applied_latency: Real = -1.0
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import threading
-from dataclasses import dataclass, field
-from typing import Any, Generic, Protocol, TypeVar
+from dataclasses import dataclass
+from typing import Generic, Protocol, TypeVar
 
 import msgspec
 
-from protocol.exceptions import Misplaced
 from protocol.messages import Message, TopicFigures
 from protocol.queries import Query, Refused
 from protocol.topics import Topic
@@ -52,7 +50,7 @@ class Bus(Protocol):
         ...
 
     def publish(self, topic: Topic[M], message: M) -> None:
-        """Send to whoever subscribes; identity, sequence and stamp are filled in."""
+        """Send to whoever subscribes, all that names the sender filled in; what cannot be sent is a fault, and told."""
         ...
 
     def subscribe(self, topic: Topic[M]) -> Subscription[M]:
@@ -72,48 +70,9 @@ class Bus(Protocol):
         ...
 
     def faults(self) -> list[str]:
-        """What was thrown away since the last call as malformed, oversized or of another version."""
+        """Why messages were thrown away, or not sent, since the last call; the newest reason for each key."""
         ...
 
     def close(self) -> None:
         """Leave the network."""
         ...
-
-
-@dataclass
-class Outbox:
-    """Fills in what every message carries.
-
-    Attributes:
-        identity: of this incarnation.
-        robot: whose topics it publishes on.
-        process: its name; empty for a test that speaks for whoever publishes a topic.
-    """
-
-    identity: int
-    robot: str
-    process: str
-    _sequences: dict[str, int] = field(default_factory=dict)
-    _lock: threading.Lock = field(default_factory=threading.Lock)
-
-    def stamp(self, topic: Topic[M], message: M, now_ns: int) -> M:
-        """The message with all that names its sender, and sequence and stamp.
-
-        Raises:
-            Misplaced: this process does not publish the topic.
-        """
-        process = self.process or (topic.publisher if topic.publisher != "any" else "anybody")
-        if not topic.published_by(process):
-            raise Misplaced(topic.name, f"comes from {process!r}: only the {topic.publisher} publishes it")
-        with self._lock:
-            sequence = self._sequences.get(topic.name, 0) + 1
-            self._sequences[topic.name] = sequence
-        changes: dict[str, Any] = {
-            "robot": self.robot,
-            "topic": topic.name,
-            "process": process,
-            "publisher": self.identity,
-            "sequence": sequence,
-            "stamp_ns": now_ns,
-        }
-        return msgspec.structs.replace(message, **changes)

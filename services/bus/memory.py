@@ -6,14 +6,16 @@ from typing import Any, TypeVar
 
 import msgspec
 
-from protocol.codec import decode_reply, encode, encode_request
+from protocol.codec import decode_reply, encode_request
+from protocol.exceptions import ProtocolError
 from protocol.messages import Message, TopicFigures
 from protocol.placement import announcement
 from protocol.queries import Query
 from protocol.topics import Topic
-from services.bus.bus import Failed, Outbox, Pending
+from services.bus.bus import Failed, Pending
 from services.bus.clocks import Clocks
 from services.bus.identity import new_publisher
+from services.bus.outbox import Outbox
 from services.bus.server import Server
 from services.bus.subscription import Subscription
 from services.process.clock import Clock
@@ -69,8 +71,9 @@ class MemoryBus:
 
     def publish(self, topic: Topic[M], message: M) -> None:
         """Deliver at once."""
-        stamped = self._outbox.stamp(topic, message, self._network.clock.now_ns())
-        self._network.deliver(topic, encode(topic, stamped), topic.schema)
+        payload = self._outbox.pack(topic, message, self._network.clock.now_ns())
+        if payload is not None:
+            self._network.deliver(topic, payload, topic.schema)
 
     def subscribe(self, topic: Topic[M]) -> Subscription[M]:
         """Receive what is published from now on."""
@@ -94,7 +97,11 @@ class MemoryBus:
         if server is None:
             pending.settle(Failed(f"nobody answers {query.name}"))
             return pending
-        payload = encode_request(query, request)
+        try:
+            payload = encode_request(query, request)
+        except ProtocolError as error:
+            pending.settle(Failed(str(error)))
+            return pending
         announced = announcement(query, self._network.robot, query.request)
         server.receive(payload, announced, lambda reply: pending.settle(decode_reply(query, reply)))
         return pending
@@ -102,11 +109,11 @@ class MemoryBus:
     def figures(self) -> tuple[TopicFigures, ...]:
         """What was received since the last call."""
         now = self._network.clock.now_ns()
-        return tuple(inlet.figures(now) for inlet in self._inlets)
+        return (*(inlet.figures(now) for inlet in self._inlets), *self._outbox.figures())
 
     def faults(self) -> list[str]:
         """What was thrown away since the last call."""
-        return [fault for fault in (inlet.take_fault() for inlet in self._inlets) if fault]
+        return [*(fault for inlet in self._inlets if (fault := inlet.take_fault())), *self._outbox.take_faults()]
 
     @property
     def _inlets(self) -> list[Subscription[Any] | Server[Any, Any]]:

@@ -12,8 +12,8 @@ from protocol import messages, queries, topics
 from protocol.codec import decode_reply, encode
 from protocol.messages import Array, Phase
 from protocol.topics import TOPICS
-from services.bus.bus import Outbox
 from services.bus.identity import new_publisher
+from services.bus.outbox import Outbox
 from services.process.clock import SystemClock
 from services.process.processes import PROCESS_NAMES
 from tests.system import garbage

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import threading
 import time
 from collections.abc import Callable
@@ -11,15 +12,16 @@ from typing import Any, TypeVar
 import msgspec
 import zenoh
 
-from protocol.codec import decode_reply, encode, encode_request
+from protocol.codec import decode_reply, encode_request
 from protocol.exceptions import ProtocolError
 from protocol.messages import Message, TopicFigures
 from protocol.placement import announcement, check_announced
 from protocol.queries import Query
 from protocol.topics import VERSION, QoS, Topic, checked_name
-from services.bus.bus import Failed, Outbox, Pending
+from services.bus.bus import Failed, Pending
 from services.bus.clocks import Clocks
 from services.bus.identity import new_publisher
+from services.bus.outbox import Outbox
 from services.bus.server import Server
 from services.bus.subscription import Subscription
 from services.bus.zenoh.encoding import announced, encoding
@@ -109,8 +111,9 @@ class ZenohBus:
 
     def publish(self, topic: Topic[M], message: M) -> None:
         """Send to whoever subscribes."""
-        publisher = self._publishers.get(topic.name) or self._declare(topic)
-        publisher.put(encode(topic, self._outbox.stamp(topic, message, self._clock.now_ns())))
+        payload = self._outbox.pack(topic, message, self._clock.now_ns())
+        if payload is not None:
+            (self._publishers.get(topic.name) or self._declare(topic)).put(payload)
 
     def subscribe(self, topic: Topic[M]) -> Subscription[M]:
         """Receive what any process publishes on the topic."""
@@ -155,11 +158,16 @@ class ZenohBus:
         def end() -> None:
             pending.settle(Failed(f"nobody answers {query.name}: is the {query.server} process of this robot running?"))
 
+        try:
+            payload = encode_request(query, request)
+        except ProtocolError as error:
+            pending.settle(Failed(str(error)))
+            return pending
         transport = _TRANSPORTS[QoS.EVENT]
         self._session.get(
             query.key(self._robot),
             zenoh.handlers.Callback(settle, end),
-            payload=encode_request(query, request),
+            payload=payload,
             encoding=encoding(announcement(query, self._robot, query.request)),
             timeout=timeout_s,
             congestion_control=transport.congestion_control,
@@ -171,11 +179,11 @@ class ZenohBus:
     def figures(self) -> tuple[TopicFigures, ...]:
         """What was received on each topic, and asked on each query, since the last call."""
         now = self._clock.now_ns()
-        return tuple(inlet.figures(now) for inlet in self._inlets)
+        return (*(inlet.figures(now) for inlet in self._inlets), *self._outbox.figures())
 
     def faults(self) -> list[str]:
-        """What was thrown away since the last call as malformed, oversized or of another version, a line each key."""
-        return [fault for fault in (inlet.take_fault() for inlet in self._inlets) if fault]
+        """Why messages were thrown away, or not sent, since the last call; the newest reason for each key."""
+        return [*(fault for inlet in self._inlets if (fault := inlet.take_fault())), *self._outbox.take_faults()]
 
     def close(self) -> None:
         """Leave the network."""
@@ -196,7 +204,8 @@ class ZenohBus:
 
 def _responder(call: zenoh.Query, key: str, says: str) -> Callable[[bytes], None]:
     def respond(payload: bytes) -> None:
-        call.reply(key, payload, encoding=encoding(says))
+        with contextlib.suppress(zenoh.ZError):  # whoever asked has gone
+            call.reply(key, payload, encoding=encoding(says))
         call.drop()  # type: ignore[no-untyped-call]  # Zenoh's stub leaves it bare
 
     return respond

@@ -1,11 +1,12 @@
 """The memory bus obeys the laws of the bus."""
 
+import numpy as np
 import pytest
 
 from protocol import queries, topics
 from protocol.codec import decode_reply, encode
-from protocol.exceptions import Misplaced
-from protocol.messages import EmergencyStop, MasterState, ModelState
+from protocol.messages import EmergencyStop, MasterState, ModelState, Motion, Pose, Prediction
+from services.bus.arrays import to_wire
 from services.bus.bus import Failed
 from services.bus.memory import MemoryNetwork
 from services.process.clock import ManualClock
@@ -112,8 +113,50 @@ def test_a_process_publishes_its_own_topics_and_nobody_else_s(network):
     network.bus("master-ann").publish(topics.MASTER_STATE, MasterState())
     message = subscription.latest().message
     assert (message.robot, message.topic, message.process) == ("robot1", "cmd/master_state", "master-ann")
-    with pytest.raises(Misplaced, match="only the master publishes"):
-        network.bus("station").publish(topics.MASTER_STATE, MasterState())
+    station = network.bus("station")
+    station.publish(topics.MASTER_STATE, MasterState(engaged=True))
+    assert not subscription.latest().message.engaged
+    assert "only the master publishes" in station.faults()[0]
+    assert station.figures()[0].misplaced == 1
+
+
+def huge():
+    """A prediction that no topic and no query lets pass."""
+    motion = Motion(to_wire(np.zeros((9_000, 3))), to_wire(np.zeros((9_000, 4))), 1.0)
+    return Prediction(
+        motion=motion, deviations=to_wire(np.zeros((99_000, 3))), model_version=1, object_position=(0.0, 0.0, 0.0)
+    )
+
+
+def test_what_cannot_be_sent_is_counted_and_named_and_nothing_else_happens(network):
+    bus = network.bus("model")
+    state = ModelState(kind="\ud800", version=1, demonstrations=1, updates=0, scene="table")
+    bus.publish(topics.MODEL_STATE, state)
+    bus.publish(topics.PREDICTION, huge())
+    first, second = bus.figures()
+    assert (first.topic, first.malformed) == ("model/state", 1)
+    assert (second.topic, second.oversized) == ("model/prediction", 1)
+    assert [fault[:40] for fault in bus.faults()] == [
+        "not sent: malformed message on model/sta",
+        "not sent: message on model/prediction ha",
+    ]
+    assert bus.faults() == []
+
+
+def test_a_request_that_cannot_be_sent_fails_and_nothing_else_happens(network):
+    server = network.bus().serve(queries.RELEASE_STOP)
+    failed = network.bus().ask(queries.RELEASE_STOP, queries.ReleaseStop("\ud800")).poll()
+    assert isinstance(failed, Failed)
+    assert server.take() == []
+
+
+def test_an_answer_that_does_not_fit_is_a_refusal_that_says_so(network):
+    server = network.bus().serve(queries.PREDICT)
+    here = Pose((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
+    pending = network.bus().ask(queries.PREDICT, queries.Predict((0.0, 0.0, 0.0), here))
+    for call in server.take():
+        call.reply(queries.Predicted(huge()))
+    assert "bytes, at most" in pending.poll().reason
 
 
 def test_a_stop_counts_whatever_its_stamp_and_however_often_it_comes(network, clock):

@@ -1,0 +1,90 @@
+"""Texts and lists cut to what a reader lets pass, before they are sent.
+
+What a process says may quote what somebody gave it: a name in a refusal, a reason of a stop, a list that grew in a
+day. A reader drops a message with one text too long as malformed, so the sender shortens it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from typing import Any, TypeVar
+
+import msgspec
+from msgspec import inspect
+
+S = TypeVar("S", bound=msgspec.Struct)
+
+Fit = Callable[[Any], Any]
+"""Gives the value back, or a shorter one."""
+
+CUT = "…"
+
+
+def fit(value: S) -> S:
+    """The message, its texts and lists no longer than their types allow; the same object where all of them are."""
+    fitted: S = _of_struct(type(value))(value)
+    return fitted
+
+
+@cache
+def _of_struct(type_: type[msgspec.Struct]) -> Fit:
+    info = inspect.type_info(type_)
+    assert isinstance(info, inspect.StructType)  # for the type checker: a struct has no other
+    fits = {field.name: fit_ for field in info.fields if (fit_ := _of(field.type)) is not None}
+
+    def fitted(value: Any) -> Any:
+        if value is None:
+            return None
+        changed = {}
+        for name, fit_ in fits.items():
+            before = getattr(value, name)
+            after = fit_(before)
+            if after is not before:
+                changed[name] = after
+        return msgspec.structs.replace(value, **changed) if changed else value
+
+    return fitted
+
+
+def _of(info: inspect.Type) -> Fit | None:
+    """What fits a value of this type; None where nothing can be too long."""
+    match info:
+        case inspect.StrType(max_length=int() as longest):
+            return _of_text(longest)
+        case inspect.StructType(cls=cls):
+            return _of_struct(cls)
+        case inspect.VarTupleType(item_type=item, max_length=longest):
+            return _of_tuple(_of(item), longest)
+        case inspect.TupleType(item_types=items) if any(_of(item) for item in items):
+            fits = [_of(item) or _whole for item in items]
+            return lambda values: _fitted(values, [fit_(one) for fit_, one in zip(fits, values, strict=True)])
+        case inspect.UnionType(types=types):
+            (chosen,) = [one for one in types if not isinstance(one, inspect.NoneType)]
+            inner = _of(chosen)
+            return None if inner is None else lambda value: value if value is None else inner(value)
+        case _:
+            return None
+
+
+def _of_tuple(item: Fit | None, longest: int | None) -> Fit | None:
+    if item is None and longest is None:
+        return None
+
+    def fitted(values: tuple[Any, ...]) -> tuple[Any, ...]:
+        kept = values if longest is None or len(values) <= longest else values[:longest]
+        return kept if item is None else _fitted(kept, [item(one) for one in kept])
+
+    return fitted
+
+
+def _fitted(values: tuple[Any, ...], fitted: list[Any]) -> tuple[Any, ...]:
+    return values if all(a is b for a, b in zip(values, fitted, strict=True)) else tuple(fitted)
+
+
+def _of_text(longest: int) -> Fit:
+    return lambda text: text if len(text) <= longest else text[: longest - len(CUT)] + CUT
+
+
+def _whole(value: Any) -> Any:
+    return value
