@@ -162,7 +162,7 @@ TEACHING_STATE = Topic(
     "state/teaching", messages.TeachingState, 10.0, QoS.STATE, "station", 262_144, "where the teaching workflow stands"
 )
 RECORDING = Topic(
-    "state/recording", messages.Recording, 1.0, QoS.STATE, "viewer", 40_960, "where to look and what records"
+    "state/recording", messages.Recording, 1.0, QoS.STATE, "viewer", 57_344, "where to look and what records"
 )
 HEARTBEAT = Topic(
     "health/heartbeat", messages.Heartbeat, 2.0, QoS.STATE, "any", 81_920, "a process about itself", kept=256
