@@ -39,8 +39,27 @@ STEERING = frozenset({*PUSH_KEYS, *TURN_KEYS})
 
 TAKE, GIVE, KEEP = "take_input", "give_input", "keep_input"
 
-_OWN_CLOCK = 1 << 47
-"""An identity on another machine than any tab's number, since a browser's clock is not comparable."""
+_OURS, _BROWSERS = 0, 1 << 47
+"""Identities on two machines: a browser's clock is not ours."""
+
+
+class _Tab:
+    """A tab that said who it is.
+
+    Each has clocks of its own, since no two browsers' compare: one by which states are late, one by which presses are.
+    """
+
+    def __init__(self, hello: Hello) -> None:
+        self.hello = hello
+        self._states = Freshness(DEAD_MAN_NS, _OURS)
+        self._presses = Freshness(LATE_PRESS_NS, _OURS)
+
+    def has_sent_in_time(self, message: Held | Pressed, now_ns: int) -> bool:
+        """Whether the message is new and no older than its kind may be."""
+        sample = (_BROWSERS, message.sequence, round(message.stamp_ms * 1e6), now_ns)
+        of_press = self._presses.judge(*sample)
+        judgement = of_press if isinstance(message, Pressed) else self._states.judge(*sample)
+        return judgement is Judgement.FRESH
 
 
 @dataclass(frozen=True)
@@ -77,10 +96,8 @@ class Desk:
         self.dropped = 0
         self.late = 0
         self._lock = threading.Lock()
-        self._hellos: dict[int, Hello] = {}
+        self._tabs: dict[int, _Tab] = {}
         self._seat = Seat()
-        self._states = Freshness(DEAD_MAN_NS, _OWN_CLOCK)
-        self._ages = Freshness(LATE_PRESS_NS, _OWN_CLOCK)
         self._held: Held | None = None
         self._heard_ns = 0
         self._sat_ns = 0
@@ -92,7 +109,7 @@ class Desk:
     def leave(self, tab: int, now_ns: int) -> None:
         """A tab has gone; nobody inherits its seat."""
         with self._lock:
-            self._hellos.pop(tab, None)
+            self._tabs.pop(tab, None)
             if self._seat.leave(tab, now_ns):
                 self._empty()
 
@@ -142,8 +159,8 @@ class Desk:
             armed = tab == self._seat.tab
             question = self._seat.question
             left_s = (ASKED_NS - self._seat.asked_for_ns(now_ns)) / 1e9
-            hello = self._hellos.get(tab)
-            settled = self._presses.settled(hello.load) if hello is not None else {True: (), False: ()}
+            known = self._tabs.get(tab)
+            settled = self._presses.settled(known.hello.load if known is not None else "")
             return Standing(
                 armed=armed,
                 let_go=self._let_go,
@@ -157,7 +174,7 @@ class Desk:
             )
 
     def _enter(self, tab: int, message: Hello, now_ns: int) -> None:
-        self._hellos[tab] = message
+        self._tabs[tab] = _Tab(message)
         if self._seat.enter(tab, message.seat, now_ns):
             self._sit(now_ns)
 
@@ -184,12 +201,11 @@ class Desk:
         return settled and len(self._beats) == BEATS and now_ns - self._beats[0] <= HEARD_NS
 
     def _hold(self, tab: int, message: Held, now_ns: int) -> None:
-        stamp_ns = round(message.stamp_ms * 1e6)
-        self._ages.judge(tab, message.sequence, stamp_ns, now_ns)
-        judgement = self._states.judge(tab, message.sequence, stamp_ns, now_ns)
+        known = self._tabs.get(tab)
+        in_time = known is not None and known.has_sent_in_time(message, now_ns)
         if tab != self._seat.tab:
             return
-        if judgement is not Judgement.FRESH:
+        if not in_time:
             self.late += 1
             return
         self._held = message
@@ -204,42 +220,37 @@ class Desk:
             self._let_go = False
 
     def _press(self, tab: int, message: Pressed, now_ns: int) -> None:
-        hello = self._hellos.get(tab)
-        if hello is None:
-            # Before it said who it is there is nothing by which to tell a press from its repetition.
-            self._pass_on(tab, message, now_ns)
-        elif self._presses.is_new(hello.load, message.number):
-            self._presses.settle(hello.load, message.number, self._pass_on(tab, message, now_ns))
+        known = self._tabs.get(tab)
+        if known is not None and not self._presses.is_new(known.hello.load, message.number):
+            return
+        accepted = self._pass_on(tab, known, message, now_ns)
+        if known is not None:
+            self._presses.settle(known.hello.load, message.number, accepted)
 
-    def _pass_on(self, tab: int, message: Pressed, now_ns: int) -> bool:
-        """Whether the press counts. Any tab may stop the robot, at any time, and ask for the seat."""
+    def _pass_on(self, tab: int, known: _Tab | None, message: Pressed, now_ns: int) -> bool:
+        """Whether the press counts: a stop does at any time, from any tab, before it has said who it is as well."""
         if message.action == STOP:
             self._stop_pressed = True
             return self._presses.add(STOP)
-        stamp_ns = round(message.stamp_ms * 1e6)
-        if self._ages.judge(tab, message.sequence, stamp_ns, now_ns) is not Judgement.FRESH:
+        if known is None or not known.has_sent_in_time(message, now_ns):
             self.late += 1
             return False
         if message.action == TAKE:
-            return self._take(tab, now_ns)
+            if self._seat.ask(tab, known.hello.seat, now_ns):
+                self._sit(now_ns)
+            return True
+        return self._command(tab, message.action, now_ns)
+
+    def _command(self, tab: int, action: str, now_ns: int) -> bool:
+        """What only the tab may that has the seat."""
         if tab != self._seat.tab:
             self.dropped += 1
             return False
-        if message.action in (GIVE, KEEP):
-            self._answer(message.action, now_ns)
-            return True
-        return self._presses.add(message.action)
-
-    def _take(self, tab: int, now_ns: int) -> bool:
-        hello = self._hellos.get(tab)
-        if hello is None:
-            return False
-        if self._seat.ask(tab, hello.seat, now_ns):
-            self._sit(now_ns)
-        return True
-
-    def _answer(self, action: str, now_ns: int) -> None:
         if action == KEEP:
             self._seat.keep()
-        elif self._seat.give(now_ns):
-            self._sit(now_ns)
+        elif action == GIVE:
+            if self._seat.give(now_ns):
+                self._sit(now_ns)
+        else:
+            return self._presses.add(action)
+        return True

@@ -1,12 +1,13 @@
 "use strict";
 
-// Keys belong to the operator's page, which holds this one in a frame: the viewer must not act on them.
+// Keys belong to the operator's page, which holds this one in a frame: the viewer must not act on them. The browser's
+// own shortcuts stay its own; what a key means, and that Escape stops, is the operator's page's to say.
 function handOver(event) {
+  const { code, key, keyCode, repeat, ctrlKey, altKey, metaKey, shiftKey } = event;
+  const down = event.type === "keydown";
+  window.parent.postMessage({ kind: "key", down, code, key, keyCode, repeat, ctrlKey, altKey, metaKey, shiftKey }, "*");
   event.stopImmediatePropagation();
-  event.preventDefault();
-  if (!event.repeat) {
-    window.parent.postMessage({ kind: "key", code: event.code, down: event.type === "keydown" }, "*");
-  }
+  if (!ctrlKey && !altKey && !metaKey && !/^(F\d+|Tab)$/.test(code)) event.preventDefault();
 }
 
 function say(text) {

@@ -166,6 +166,16 @@ def test_a_page_that_comes_back_resumes_nothing(browser):
     assert again.input().present
 
 
+def test_after_its_computer_has_slept_a_tab_counts_again_within_two_seconds(browser):
+    browser.keep_on(2.0)
+    behind_ms = 60_000
+    browser.now_ms += behind_ms
+    for _ in range(90):
+        browser.hold(stamp_ms=browser.now_ms + 20 - behind_ms)
+    browser.hold("KeyE", stamp_ms=browser.now_ms + 20 - behind_ms)
+    assert browser.input().keys == ("KeyE",)
+
+
 @pytest.mark.parametrize(
     "payload",
     [

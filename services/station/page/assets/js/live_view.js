@@ -1,6 +1,6 @@
 // The viewer's page in a frame. Its address is made here: only the browser knows by which name it reaches this machine.
 
-const LOOPBACK = /^(localhost|127\.\d+\.\d+\.\d+|\[::1\])$/;
+const LOOPBACK = new Set(["localhost", "127.0.0.1", "[::1]"]);
 const EVERYWHERE = new Set(["0.0.0.0", "[::]"]);
 const ELSEWHERE = "It can be seen on its own computer only; [viewer] host in the configuration opens it to others.";
 
@@ -47,9 +47,12 @@ function frameOf(address, recording) {
 function addressHere(text) {
   if (!/^https?:\/\/[^/]/.test(text)) return null;
   const url = new URL(text);
-  const local = LOOPBACK.test(location.hostname);
-  if (LOOPBACK.test(url.hostname) && !local) return "";
+  if (LOOPBACK.has(url.hostname) && !isHere(location.hostname)) return "";
   if (EVERYWHERE.has(url.hostname)) url.hostname = location.hostname;
-  if (LOOPBACK.test(url.hostname) && local) url.hostname = location.hostname === "localhost" ? "127.0.0.1" : "localhost";
+  if (LOOPBACK.has(url.hostname)) url.hostname = location.hostname === "localhost" ? "127.0.0.1" : "localhost";
   return url.href;
+}
+
+function isHere(name) {
+  return LOOPBACK.has(name) || name.startsWith("127.");
 }

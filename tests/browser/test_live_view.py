@@ -1,0 +1,151 @@
+"""The live view's frame on the operator's page: where it is, what its keys do, and that nothing starts it anew."""
+
+from dataclasses import replace
+from urllib.parse import urlsplit
+
+import msgspec
+import pytest
+from frame import Frame
+
+from protocol.messages import Recording
+from services.process.clock import SystemClock
+
+pytestmark = pytest.mark.browser
+
+SECOND_NAME = "127.0.0.2"
+
+
+@pytest.fixture
+def frame():
+    served = Frame()
+    yield served
+    served.close()
+
+
+@pytest.fixture
+def recording(frame):
+    return Recording(path="a.rrd", viewer_url=frame.url, recording_id="first")
+
+
+@pytest.fixture
+def view(tab, station, recording):
+    """The frame's content, loaded."""
+    _, feed = station
+    feed.view = replace(feed.view, recording=recording)
+    content = tab.page.wait_for_selector("iframe.viewer").content_frame()
+    content.wait_for_selector("#view")
+    return content
+
+
+def say_key(view, kind, **fields):
+    view.evaluate(
+        "([kind, fields]) => document.body.dispatchEvent(new KeyboardEvent(kind, {bubbles: true, ...fields}))",
+        [kind, fields],
+    )
+
+
+def test_it_has_another_name_than_the_page_on_the_same_machine(view):
+    assert urlsplit(view.url).hostname == "localhost"
+
+
+def test_its_keys_steer_and_those_of_strangers_do_not(tab, view):
+    tab.page.evaluate("window.postMessage({kind: 'key', code: 'KeyW', key: 'w', down: true}, '*')")
+    say_key(view, "keydown", code="KeyD", key="d")
+    tab.wait("[data-key=KeyD][data-held]")
+    assert tab.page.locator("[data-key=KeyW][data-held]").count() == 0
+    say_key(view, "keyup", code="KeyD", key="d")
+    tab.wait(".station:not(:has([data-held]))")
+
+
+@pytest.mark.parametrize(
+    "event",
+    [
+        {"code": "Escape", "key": "Escape"},
+        {"code": "Escape", "key": "Escape", "ctrlKey": True, "altKey": True, "shiftKey": True, "metaKey": True},
+        {"code": "", "key": "Escape"},
+        {"code": "", "key": "Unidentified", "keyCode": 27},
+        {"code": "Escape", "key": "Escape", "repeat": True},
+    ],
+)
+def test_escape_in_it_stops(view, pressed, event):
+    say_key(view, "keydown", **event)
+    assert pressed() == ["stop"]
+
+
+def test_escape_stops_where_it_has_the_focus(view, pressed):
+    view.focus("#view")
+    view.page.keyboard.press("Control+Escape")
+    assert pressed() == ["stop"]
+
+
+def test_another_recording_loads_it_anew(tab, view, station, recording):
+    _, feed = station
+    feed.view = replace(feed.view, recording=msgspec.structs.replace(recording, recording_id="second"))
+    tab.wait("iframe[data-recording=second]")
+    assert tab.page.locator("iframe").count() == 1
+    feed.view = replace(feed.view, recording=None)
+    tab.wait(".scene-empty:visible")
+
+
+def test_what_is_no_address_is_not_loaded(tab, station, recording):
+    _, feed = station
+    feed.view = replace(
+        feed.view, recording=msgspec.structs.replace(recording, viewer_url="javascript:alert(1)"), notice="it came"
+    )
+    tab.wait(".notice:text-is('it came')")
+    assert tab.page.locator("iframe").count() == 0
+
+
+def test_a_lost_link_neither_loads_the_page_anew_nor_the_view(open_seated, station, frame, recording, cable):
+    _, feed = station
+    tab = open_seated(cable.url)
+    feed.view = replace(feed.view, recording=recording)
+    tab.page.wait_for_selector("iframe.viewer").content_frame().wait_for_selector("#view")
+    tab.page.evaluate("window.loadedOnce = true")
+    for lost in (True, False):
+        cable.cut()
+        tab.wait("body[data-link=offline]")
+        cable.mend(lost=lost)
+        tab.wait("body[data-link=armed]")
+    feed.view = replace(feed.view, notice="the link is back")
+    tab.wait(".notice:text-is('the link is back')")
+    assert tab.page.evaluate("window.loadedOnce")
+    assert frame.loads == 1
+
+
+@pytest.fixture
+def open_station(station):
+    """A station that listens on every address, and its feed."""
+    from harness import Feed, working_view
+
+    from services.process.config import StationSection
+    from services.station.page.page import Page
+
+    started = []
+
+    def start(port):
+        page = Page(StationSection(host="0.0.0.0", port=port), "robot1", SystemClock())
+        page.start()
+        feed = Feed(page, working_view())
+        feed.start()
+        started.extend((feed, page))
+        return feed
+
+    yield start
+    for part in started:
+        part.close()
+
+
+@pytest.mark.parametrize("host", ["0.0.0.0", SECOND_NAME])
+def test_it_is_seen_from_another_machine_by_the_name_that_the_browser_uses(
+    open_station, open_tab, free_port, recording, host
+):
+    served = Frame(host)
+    feed = open_station(port := free_port())
+    feed.view = replace(feed.view, recording=msgspec.structs.replace(recording, viewer_url=served.url))
+    tab = open_tab(f"http://{SECOND_NAME}:{port}/")
+    content = tab.page.wait_for_selector("iframe.viewer").content_frame()
+    content.wait_for_selector("#view")
+    assert urlsplit(content.url).hostname in (SECOND_NAME, "localhost")
+    assert tab.faults == []
+    served.close()

@@ -1,0 +1,76 @@
+"""Who commands, with several tabs open in a real browser."""
+
+import pytest
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.fixture
+def second(tab, open_tab):
+    """A tab that looks on."""
+    opened = open_tab()
+    opened.wait("body[data-link=view-only]")
+    return opened
+
+
+def test_a_second_tab_looks_on_and_the_first_keeps_the_input(tab, second):
+    second.wait(".light[data-light=red]")
+    assert tab.link == "armed"
+
+
+def test_whoever_sits_is_asked_and_may_keep_the_input(tab, second):
+    second.page.click("[data-action=take_input]")
+    tab.wait(".banner-asked:visible:has-text('asks for the input')")
+    second.wait(".banner-view-only:has-text('without an answer')")
+    tab.page.click("[data-action=keep_input]")
+    second.wait(".banner-view-only:has-text('keeps it')")
+    assert tab.page.locator(".banner-asked").is_hidden()
+    assert (tab.link, second.link) == ("armed", "view-only")
+
+
+def test_given_input_moves_and_counts_and_can_be_given_back(tab, second, station, eventually):
+    page, _ = station
+    second.page.click("[data-action=take_input]")
+    tab.page.click("[data-action=give_input]")
+    second.wait("body[data-link=armed]")
+    tab.wait("body[data-link=view-only]")
+    second.page.keyboard.press("KeyA")
+    eventually(lambda: page.take_input().focused)
+    tab.page.click("[data-action=take_input]")
+    second.page.click("[data-action=give_input]")
+    tab.wait("body[data-link=armed]")
+
+
+def test_silence_gives_the_input(tab, second):
+    second.page.click("[data-action=take_input]")
+    second.wait("body[data-link=armed]")
+    tab.wait("body[data-link=view-only]")
+    tab.page.click("[data-action=take_input]")
+    second.page.click("[data-action=give_input]")
+    tab.wait("body[data-link=armed]")
+
+
+def test_a_tab_finds_its_seat_again_after_a_reload_and_resumes_nothing(tab, second, station, eventually):
+    page, _ = station
+    eventually(lambda: page.take_input().present)
+    tab.page.reload()
+    second.page.reload()
+    assert not page.take_input().present
+    tab.wait("body[data-link=armed]")
+    second.wait("body[data-link=view-only]")
+    assert page.take_actions() == []
+
+
+def test_a_stranger_s_page_cannot_open_the_link(browser, station):
+    page, _ = station
+    stranger = browser.new_page()
+    opened = stranger.evaluate(
+        """(url) => new Promise((done) => {
+            const socket = new WebSocket(url);
+            socket.onopen = () => done(true);
+            socket.onerror = () => done(false);
+        })""",
+        page.url.replace("http", "ws") + "/link",
+    )
+    stranger.close()
+    assert not opened
