@@ -1,26 +1,14 @@
-"""What the teaching workflow knows: its state, what it sees, what it may ask."""
+"""What the teaching workflow knows: its settings and its state."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Any
-
-import msgspec
 
 from protocol import messages
-from protocol.messages import (
-    Attempt,
-    Condition,
-    EpisodeResult,
-    Mode,
-    ModelState,
-    Motion,
-    ObjectPose,
-    Outcome,
-    Vector3,
-)
-from protocol.queries import Adapt, Query, Reset
+from protocol.messages import Attempt, Condition, Mode, Motion, Outcome, Vector3
+from protocol.queries import Adapt, Reset
+from services.station.workflow.closure import Closure
 
 
 class Action(Enum):
@@ -29,10 +17,13 @@ class Action(Enum):
     EXECUTE = "execute"
     REFINE = "refine"
     FINISH = "finish"
+    GO_ON = "go_on"
+    TEACH = "teach"
     NEXT = "next"
     UNDO = "undo"
     END = "end"
     RELEASE_STOP = "release_stop"
+    ASK = "ask"
     TAKE_OVER = "take_over"
 
 
@@ -41,6 +32,7 @@ class Phase(Enum):
 
     WAITING = "waiting"
     ACQUIRING = "acquiring"
+    WATCHING = "watching"
     RESETTING = "resetting"
     LOOKING = "looking"
     PREDICTING = "predicting"
@@ -49,6 +41,7 @@ class Phase(Enum):
     LEARNING = "learning"
     UNDOING = "undoing"
     DECIDING = "deciding"
+    STOPPED = "stopped"
     RELEASING = "releasing"
     FINISHED = "finished"
 
@@ -80,7 +73,7 @@ class Settings:
         adapt: which way-point a correction moves.
         alpha: how far the model believes a refinement (eq. 18).
         variant: arrangement of the scene that the run is about; empty for the one that was changed.
-        scripted: the recommended action is taken at once.
+        scripted: the recommended action is taken at once; a stop is never released.
         once: the recommended action after the loop has closed is to end.
         arrangement: what every reset asks for, its epoch aside; drawn at random where there is none.
     """
@@ -98,48 +91,34 @@ class Settings:
     once: bool = False
     arrangement: Reset | None = None
 
-
-@dataclass(frozen=True)
-class Ask:
-    """A query to send; its outcome comes with a later view."""
-
-    query: Query[Any, Any]
-    request: msgspec.Struct
+    def duration_s(self, mode: Mode) -> float:
+        """Of an execution [s]."""
+        return self.refine_s if mode is Mode.REFINE else self.autonomous_s
 
 
 @dataclass(frozen=True)
-class View:
-    """What the station sees in one step; None where nothing fresh is there.
+class Episode:
+    """The episode that the robot was told to run, until its result has come.
 
     Attributes:
-        now_s: the station's monotonic clock [s].
-        robot: the robot's state.
-        authority: who may command.
-        safety: whether it may move at all.
-        scene: in which it stands.
-        scene_s: when that came [s].
-        model: the model's state.
-        seen: the object, as perceived.
-        seen_s: when that came [s].
-        result: of the newest episode.
-        outcome: of the query asked last, in the step in which it came.
-        actions: what the operator pressed since the last step.
-        drawn: where the target may stand next, for when a place is needed.
+        request: number of the request for it, which stands in its result.
+        robot: the robot process' incarnation that was told.
+        number: the robot's own for it; 0 until the robot has said so.
+        finishing: the operator asked to end it.
     """
 
-    now_s: float
-    robot: messages.RobotState | None = None
-    authority: messages.AuthorityState | None = None
-    safety: messages.SafetyState | None = None
-    scene: messages.SceneState | None = None
-    scene_s: float = 0.0
-    model: ModelState | None = None
-    seen: ObjectPose | None = None
-    seen_s: float = 0.0
-    result: EpisodeResult | None = None
-    outcome: Any = None
-    actions: frozenset[Action] = frozenset()
-    drawn: Place | None = None
+    request: int
+    robot: int
+    number: int = 0
+    finishing: bool = False
+
+
+@dataclass(frozen=True)
+class Owed:
+    """A request of the model's that was left unanswered: it is asked again with the same number, so done once."""
+
+    phase: Phase
+    intent: int
 
 
 @dataclass(frozen=True)
@@ -149,34 +128,54 @@ class Workflow:
     Attributes:
         phase: where it stands.
         since_s: when it came there [s].
-        asking: a query of this phase is under way.
+        question: number of the query under way, which stands in its answer; 0 for none.
+        intent: number of the request that this phase asks for, the same until it is answered; 0 before it is asked.
         retry_s: not to ask again before [s].
-        resume: where to go on once the authority is there.
-        epoch: of the authority.
-        request: number of the newest episode asked for.
+        refusals: since the operator asked for the episode.
+        wants: what the operator asked for in this phase, until it is answered.
+        pressed: the operator asked for the next episode; without it nothing moves.
+        watches: another station took the authority over: it is asked for only upon a press.
+        epoch: of the authority that was granted last.
+        holding: that authority was not lost since.
+        confirmed: the robot's own state has shown it.
+        granted_s: when it was granted [s].
+        heard_s: when the robot's state was heard last [s].
+        episode: that the robot was told to run and whose result has not come; None where there is none.
+        owed: to the model.
         mode: of the next episode.
         placed: where the target was put.
         looked: where the object was seen [m]; the base frame's origin where there is none.
         condition: that the robot stood in then; empty where it is the object's.
         prediction: the newest.
-        taught: what the newest successful refinement commanded.
+        taught: what the newest successful refinement commanded, while it can be learnt.
         last: verdict of the newest episode at this place.
         refinements: attempts since the last update.
         updates: at this place.
-        attempts: every episode of the run.
-        loop_closed: see `loop_has_closed`.
+        attempts: the newest episodes of the run.
+        closure: whether the loop has closed.
+        let_go: keys were held on the way to the start, and have not all been let go since.
         reason: why the run ended without.
-        notice: what the operator should know besides the phase.
+        event: what has happened to the run, for the operator; until the next press.
+        notice: what does not work in this phase.
         offered: what the operator may do now.
     """
 
     phase: Phase = Phase.WAITING
     since_s: float = 0.0
-    asking: bool = False
+    question: int = 0
+    intent: int = 0
     retry_s: float = 0.0
-    resume: Phase = Phase.RESETTING
+    refusals: int = 0
+    wants: Action | None = None
+    pressed: bool = False
+    watches: bool = False
     epoch: int = 0
-    request: int = 0
+    holding: bool = False
+    confirmed: bool = False
+    granted_s: float = 0.0
+    heard_s: float = 0.0
+    episode: Episode | None = None
+    owed: Owed | None = None
     mode: Mode = Mode.AUTONOMOUS
     placed: Place | None = None
     looked: Vector3 | None = None
@@ -187,15 +186,14 @@ class Workflow:
     refinements: int = 0
     updates: int = 0
     attempts: tuple[Attempt, ...] = ()
-    loop_closed: bool = False
+    closure: Closure = field(default_factory=Closure)
+    let_go: bool = False
     reason: str = ""
+    event: str = ""
     notice: str = ""
     offered: frozenset[Action] = field(default_factory=frozenset)
 
-
-@dataclass(frozen=True)
-class Step:
-    """The next state, and what to ask."""
-
-    state: Workflow
-    ask: Ask | None = None
+    @property
+    def held_epoch(self) -> int:
+        """Of the authority that this station holds as far as it knows; 0 for none."""
+        return self.epoch if self.holding and self.phase is not Phase.FINISHED else 0

@@ -2,65 +2,129 @@
 
 from __future__ import annotations
 
-from protocol.messages import Light, Mode, Outcome, RobotState, TeachingState
-from services.station.workflow.state import Phase, Settings, View, Workflow
+from protocol.messages import Light, Mode, Outcome, RobotState, SafetyState, TeachingState
+from protocol.messages import Phase as RobotPhase
+from services.station.workflow.seat import another, missing
+from services.station.workflow.state import Phase, Settings, Workflow
+from services.station.workflow.view import View
 
 _TEXTS = {
-    Phase.WAITING: "Starting.",
-    Phase.ACQUIRING: "Asking for the authority to command the robot.",
+    Phase.ACQUIRING: "Asking the robot for the authority to command it.",
     Phase.RESETTING: "The robot returns to its start.",
     Phase.LOOKING: "Looking for the target.",
     Phase.PREDICTING: "The model predicts a motion.",
     Phase.STARTING: "The robot is told the motion.",
     Phase.LEARNING: "The model learns from the correction.",
     Phase.UNDOING: "The model takes its newest update back.",
+    Phase.STOPPED: "The emergency stop is not latched any more.",
     Phase.RELEASING: "Releasing the emergency stop.",
 }
 
 
 def teaching_state(state: Workflow, view: View, settings: Settings) -> TeachingState:
     """What the page shows of the workflow."""
-    stopped = view.safety is not None and view.safety.emergency_stop
-    text = (
-        f"Emergency stop by {view.safety.by}: release it to go on." if stopped and view.safety else _text(state, view)
-    )
+    stop = _stop(view)
+    light, text = (Light.RED, stop) if stop else (_light(state, view), _text(state, view, settings))
     return TeachingState(
         phase=state.phase.value,
-        text=f"{text} {state.notice}".strip(),
-        light=Light.RED if stopped else _light(state),
+        text=" ".join(part for part in (text, state.event, state.notice) if part),
+        light=light,
         refinements=state.refinements,
         refinements_allowed=settings.refinements_allowed,
         updates=state.updates,
         updates_allowed=settings.updates_allowed,
         attempts=state.attempts,
         finished=state.phase is Phase.FINISHED,
-        loop_closed=state.loop_closed,
+        loop_closed=state.closure.closed,
         reason=state.reason,
         actions=tuple(sorted(action.value for action in state.offered)),
     )
 
 
-def _light(state: Workflow) -> Light:
-    if state.phase is Phase.DECIDING or (state.phase is Phase.EXECUTING and state.mode is Mode.REFINE):
-        return Light.GREEN
-    return Light.RED if state.phase is Phase.EXECUTING else Light.AMBER
+def _stop(view: View) -> str:
+    """What is known of a stop; empty where there is none."""
+    safety = view.safety
+    if safety is not None and safety.emergency_stop:
+        stopped = f"Emergency stop by {_who(safety)}: release it to go on."
+        return f"{stopped} The robot is not known to stand still yet." if view.stopping else stopped
+    return "STOP sent, not confirmed yet." if view.stopping else ""
 
 
-def _text(state: Workflow, view: View) -> str:
-    if state.phase is Phase.EXECUTING:
-        return _executing(state.mode, view.robot)
+def _who(safety: SafetyState) -> str:
+    by = f"{safety.by or 'somebody'} ({safety.reason})" if safety.reason else safety.by or "somebody"
+    return f"{by} at {safety.at}" if safety.at else by
+
+
+def _light(state: Workflow, view: View) -> Light:
     if state.phase is Phase.DECIDING:
-        return f"{outcome_text(state.last)} What next?" if state.last else "Ready."
-    if state.phase is Phase.FINISHED:
-        return "Finished: the model has learnt from the correction." if state.loop_closed else f"Ended: {state.reason}."
-    return _TEXTS[state.phase]
+        return Light.GREEN
+    if state.phase is not Phase.EXECUTING:
+        return Light.AMBER
+    if view.robot is not None and view.robot.phase is RobotPhase.HOLD:
+        return Light.HOLD
+    if state.mode is Mode.AUTONOMOUS:
+        return Light.RED
+    return Light.GREEN if _may_correct(state, view) else Light.AMBER
 
 
-def _executing(mode: Mode, robot: RobotState | None) -> str:
-    hold = f" Holding: {robot.hold_reason}." if robot is not None and robot.hold_reason else ""
-    if mode is Mode.REFINE:
-        return f"Correct the motion now.{hold}"
-    return f"The robot executes the prediction. Watch.{hold}"
+def _may_correct(state: Workflow, view: View) -> bool:
+    under_way = view.robot is not None and view.robot.phase is RobotPhase.EXECUTE
+    return under_way and not state.let_go and not _collided(view)
+
+
+def _text(state: Workflow, view: View, settings: Settings) -> str:
+    match state.phase:
+        case Phase.WAITING:
+            return missing(view) or (f"{another(view, settings)} commands the robot." * bool(another(view, settings)))
+        case Phase.WATCHING:
+            taker = another(view, settings)
+            return f"{taker} commands the robot. Ask, or take over." if taker else "Nobody commands the robot. Ask to."
+        case Phase.EXECUTING:
+            return _executing(state, view)
+        case Phase.DECIDING:
+            return _deciding(state)
+        case Phase.FINISHED:
+            closed = "Finished: the model has learnt from the correction."
+            return closed if state.closure.closed else f"Ended: {state.reason}."
+        case phase:
+            return _TEXTS[phase]
+
+
+def _deciding(state: Workflow) -> str:
+    if state.taught is not None:
+        return f"{outcome_text(state.last)} Teach this, or discard it by going on." if state.last else "Teach this?"
+    return f"{outcome_text(state.last)} What next?" if state.last else "Ready. Press Execute."
+
+
+def _executing(state: Workflow, view: View) -> str:
+    robot = view.robot
+    if robot is None:
+        return "The robot is not heard."
+    if robot.phase is RobotPhase.HOLD:
+        return _holding(robot)
+    if robot.phase is not RobotPhase.EXECUTE:
+        ramps = robot.phase is RobotPhase.RAMP
+        return "Wait: the robot goes to where the motion goes on." if ramps else "The motion has ended."
+    if state.mode is Mode.AUTONOMOUS:
+        return "The robot executes the prediction. Watch."
+    if _collided(view):
+        return "The robot has touched something: this attempt has failed. Finish it, or let it end."
+    return "Let go of the keys: they count from then on." if state.let_go else "Correct the motion now."
+
+
+def _holding(robot: RobotState) -> str:
+    """Whether it goes on by itself, and what keeps it, without the names of processes."""
+    reason = robot.hold_reason
+    if "master" in reason:
+        reason = "no hand is felt at your keys or device"
+    elif robot.waiting and reason.startswith("waits"):
+        reason = ""
+    holds = "The robot waits: press Go on, or Finish." if robot.waiting else "The robot holds."
+    return f"{holds} ({reason})" if reason else holds
+
+
+def _collided(view: View) -> bool:
+    return view.verdict is not None and view.verdict.collision
 
 
 def outcome_text(outcome: Outcome) -> str:

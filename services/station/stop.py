@@ -1,0 +1,56 @@
+"""The emergency stop of the page: said until the robot itself shows that it is latched and stands."""
+
+from __future__ import annotations
+
+from protocol import topics
+from protocol.messages import EmergencyStop, SafetyState
+from services.bus.bus import Bus
+from services.bus.subscription import Subscription
+
+PERIOD_NS = round(1e9 / topics.EMERGENCY_STOP.rate_hz)
+
+
+class StopButton:
+    """A pressed stop is repeated, through an outage too, until it is confirmed by what the robot says after the press.
+
+    Args:
+        bus: to say it on.
+        safety: what the robot says of it.
+        operator: who presses here.
+        holder: the station's name.
+    """
+
+    def __init__(self, bus: Bus, safety: Subscription[SafetyState], operator: str, holder: str) -> None:
+        self._bus = bus
+        self._safety = safety
+        self._message = EmergencyStop(pressed=True, by=operator, reason=f"pressed at {holder}")
+        self._pressed_ns: int | None = None
+        self._due_ns = 0
+
+    @property
+    def unconfirmed(self) -> bool:
+        """It was pressed, and the robot has not shown yet that it stands."""
+        return self._pressed_ns is not None
+
+    def press(self, now_ns: int) -> None:
+        """Say it in this step and on."""
+        self._pressed_ns = self._due_ns = now_ns
+
+    def let_go(self) -> None:
+        """Whoever asks for the release presses no longer."""
+        self._pressed_ns = None
+
+    def step(self, now_ns: int) -> None:
+        """Say it where it is due, unless the robot stands."""
+        heard = self._safety.latest()
+        if self._pressed_ns is None:
+            return
+        if heard is not None and heard.received_ns > self._pressed_ns and _stands(heard.message):
+            self._pressed_ns = None
+        elif now_ns >= self._due_ns:
+            self._due_ns = now_ns + PERIOD_NS
+            self._bus.publish(topics.EMERGENCY_STOP, self._message)
+
+
+def _stands(safety: SafetyState) -> bool:
+    return safety.emergency_stop and safety.standing

@@ -1,0 +1,67 @@
+"""The robot stands, and the operator says what is next; a script takes what is recommended."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from protocol.messages import Mode
+from services.station.workflow.asking import to
+from services.station.workflow.episode import press
+from services.station.workflow.state import Action, Phase, Settings, Workflow
+from services.station.workflow.view import Step, View
+
+
+def deciding(state: Workflow, view: View, settings: Settings) -> Step:
+    """Wait for a press; what the model was told and has not answered comes first."""
+    if state.owed is not None:
+        return Step(to(state, state.owed.phase, view, intent=state.owed.intent, owed=None))
+    offered = {Action.EXECUTE, Action.REFINE, Action.NEXT, Action.END}
+    if state.updates:
+        offered.add(Action.UNDO)
+    if state.taught is not None:
+        offered.add(Action.TEACH)
+    pressed = [action for action in Action if action in view.actions & offered]
+    chosen = recommended(state, settings) if settings.scripted else next(iter(pressed), None)
+    if chosen is None:
+        return Step(replace(state, offered=frozenset(offered)))
+    return _take(state, view, settings, chosen)
+
+
+def _take(state: Workflow, view: View, settings: Settings, chosen: Action) -> Step:
+    match chosen:
+        case Action.EXECUTE:
+            return Step(press(state, view, Mode.AUTONOMOUS))
+        case Action.REFINE:
+            return _refine(state, view, settings)
+        case Action.TEACH:
+            return Step(to(state, Phase.LEARNING, view))
+        case Action.NEXT:
+            fresh = replace(state, placed=None, last=None, refinements=0, updates=0)
+            return Step(press(fresh, view, Mode.AUTONOMOUS))
+        case Action.UNDO:
+            return Step(to(state, Phase.UNDOING, view, taught=None))
+        case _:
+            return _end(state, view, "ended before the loop had closed")
+
+
+def recommended(state: Workflow, settings: Settings) -> Action:
+    """What brings the run on, by the verdict of the newest episode at this place."""
+    if state.taught is not None:
+        return Action.TEACH
+    if state.last is None:
+        return Action.EXECUTE
+    if not state.last.success:
+        return Action.REFINE
+    return Action.END if settings.once else Action.NEXT
+
+
+def _refine(state: Workflow, view: View, settings: Settings) -> Step:
+    if state.refinements >= settings.refinements_allowed:
+        return _end(state, view, f"{state.refinements} refinements did not succeed")
+    if state.updates >= settings.updates_allowed:
+        return _end(state, view, f"{state.updates} updates did not teach the model")
+    return Step(press(state, view, Mode.REFINE))
+
+
+def _end(state: Workflow, view: View, reason: str) -> Step:
+    return Step(to(state, Phase.FINISHED, view, reason="" if state.closure.closed else reason))

@@ -1,0 +1,208 @@
+"""One episode, from the press that asked for it to its verdict: reset, look, predict, start, execute."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import msgspec
+
+from protocol import queries
+from protocol.messages import Mode, Vector3
+from protocol.messages import Phase as RobotPhase
+from protocol.queries import Query
+from services.station.workflow.asking import RETRY_S, ask, not_done, to
+from services.station.workflow.seat import runs
+from services.station.workflow.state import Action, Episode, Phase, Place, Settings, Workflow
+from services.station.workflow.view import Ask, Step, View
+
+LOOK_S = 0.8
+"""A sighting counts once all its pictures were taken after the reset: nine at 15 Hz, and their way here."""
+
+UNSEEN_S = 3.0
+"""Without a press the operator is asked all the same where nothing was seen within this time: the arm may hide it."""
+
+UNSEEN_AFTER_RESET_S = 15.0
+"""After a press so much patience is had with slow pictures."""
+
+PICTURES_NEEDED = 5
+EPISODE_GRACE_S = 45.0
+"""How much longer than its motion a scripted episode may take (ramp, holds) before it counts as lost."""
+
+REFUSALS_SUFFERED = 5
+"""So often is asked again on one press, in case the reason passes."""
+
+ORIGIN: Vector3 = (0.0, 0.0, 0.0)
+"""What motions are relative to where there is no object."""
+
+
+def press(state: Workflow, view: View, mode: Mode) -> Workflow:
+    """The operator asked for an episode: it begins with a reset and a look, since what was seen may no longer be so."""
+    return to(state, Phase.RESETTING, view, mode=mode, pressed=True, refusals=0, taught=None, event="")
+
+
+def resetting(state: Workflow, view: View, settings: Settings) -> Step:
+    """Put the robot back to its start and the target to its place."""
+    if not state.question and view.robot is not None and view.robot.phase.running:
+        # Of an episode that was lost; its result is nobody's.
+        if view.now_s < state.retry_s:
+            return Step(state)
+        finish = queries.Finish(state.epoch, request=view.number)
+        return Step(replace(state, retry_s=view.now_s + RETRY_S), Ask(queries.FINISH, finish, view.number))
+    state = replace(state, placed=state.placed or view.drawn)
+    reply = ask(state, view, queries.RESET, lambda intent: _reset(state, view, settings, intent))
+    if isinstance(reply, queries.Refused):
+        return _refused(state, view, settings, queries.RESET, reply)
+    return reply if isinstance(reply, Step) else Step(to(state, Phase.LOOKING, view))
+
+
+def _reset(state: Workflow, view: View, settings: Settings, intent: int) -> queries.Reset:
+    if settings.arrangement is not None:
+        return msgspec.structs.replace(settings.arrangement, epoch=state.epoch, request=intent)
+    place = state.placed or Place()
+    changed = view.scene.variants[-1] if view.scene is not None and view.scene.variants else None
+    return queries.Reset(
+        state.epoch, settings.variant or changed, place.object_position, place.condition, request=intent
+    )
+
+
+def looking(state: Workflow, view: View, settings: Settings) -> Step:
+    """See where the target stands; without a press the operator is asked then, and nothing has moved."""
+    del settings
+    onward = Phase.PREDICTING if state.pressed else Phase.DECIDING
+    if view.scene is not None and view.scene.condition:
+        # Nothing to look for: the robot says where it stands, once it has been reset.
+        if state.pressed and view.scene_s <= state.since_s:
+            return Step(state)
+        return Step(to(state, onward, view, looked=ORIGIN, condition=view.scene.condition))
+    sighting = view.seen
+    if sighting is None or sighting.pictures < PICTURES_NEEDED or view.seen_s - state.since_s < LOOK_S:
+        patience_s = UNSEEN_AFTER_RESET_S if state.pressed else UNSEEN_S
+        if view.now_s - state.since_s < patience_s:
+            return Step(state)
+        event = f"{state.event} The target is not seen.".strip()
+        return Step(to(state, Phase.DECIDING, view, pressed=False, event=event))
+    return Step(to(state, onward, view, looked=sighting.pose.position, condition=()))
+
+
+def predicting(state: Workflow, view: View, settings: Settings) -> Step:
+    """Have the model predict a motion to where the target was seen."""
+    looked, robot = state.looked, view.robot
+    if looked is None or robot is None:
+        return Step(to(state, Phase.LOOKING, view))
+    reply = ask(state, view, queries.PREDICT, lambda intent: queries.Predict(looked, robot.measured, state.condition))
+    if isinstance(reply, queries.Refused):
+        return _refused(state, view, settings, queries.PREDICT, reply)
+    if isinstance(reply, Step):
+        return reply
+    return Step(to(state, Phase.STARTING, view, prediction=reply.prediction))
+
+
+def starting(state: Workflow, view: View, settings: Settings) -> Step:
+    """Tell the robot the prediction."""
+    prediction, robot = state.prediction, view.robot
+    if prediction is None:
+        return Step(to(state, Phase.LOOKING, view))
+    if robot is None:
+        return Step(state)
+    duration = settings.duration_s(state.mode)
+    reply = ask(
+        state,
+        view,
+        queries.EXECUTE,
+        lambda intent: queries.Execute(
+            state.epoch, state.mode, prediction.id, duration, settings.adapt, request=intent
+        ),
+    )
+    if isinstance(reply, queries.Refused):
+        # The robot has moved since, or has not heard this prediction: another one is as quickly made.
+        return _refused(state, view, settings, queries.EXECUTE, reply, again=Phase.PREDICTING)
+    if isinstance(reply, Step):
+        told = Episode(reply.state.intent, robot.publisher) if reply.ask is not None else state.episode
+        return Step(replace(reply.state, episode=told), reply.ask)
+    started = replace(state.episode, number=reply.episode) if state.episode is not None else None
+    return Step(to(state, Phase.EXECUTING, view, episode=started, pressed=False, let_go=False))
+
+
+def _refused(
+    state: Workflow,
+    view: View,
+    settings: Settings,
+    query: Query[Any, Any],
+    refused: queries.Refused,
+    *,
+    again: Phase | None = None,
+) -> Step:
+    """Once more, as another request; where the reason does not pass, the operator is told and asked."""
+    notice, refusals = not_done(query, refused.reason), state.refusals + 1
+    if refusals < REFUSALS_SUFFERED:
+        retry_s = view.now_s + RETRY_S
+        return Step(to(state, again or state.phase, view, refusals=refusals, retry_s=retry_s, notice=notice))
+    if settings.scripted:
+        return Step(to(state, Phase.FINISHED, view, reason=notice))
+    return Step(to(state, Phase.DECIDING, view, pressed=False, event=notice))
+
+
+def executing(state: Workflow, view: View, settings: Settings) -> Step:
+    """Watch, until the result has come; the operator ends the episode, or lets a held one go on."""
+    ended = _without_result(state, view, settings)
+    if ended:
+        return Step(to(state, Phase.DECIDING, view, episode=None, event=ended))
+    wanted = _wanted(state, view, settings)
+    if wanted is not state.wants:
+        state = replace(state, wants=wanted, question=0, intent=0, retry_s=0.0)
+    state = replace(state, let_go=_let_go(state, view))
+    waits = view.robot is not None and view.robot.waiting
+    offered = frozenset({Action.FINISH, Action.GO_ON} if waits else {Action.FINISH})
+    match state.wants:
+        case Action.FINISH:
+            finishing = replace(state.episode, finishing=True) if state.episode is not None else None
+            step = _order(replace(state, episode=finishing), view, queries.FINISH)
+        case Action.GO_ON:
+            step = _order(state, view, queries.RESUME)
+        case _:
+            step = Step(state)
+    return Step(replace(step.state, offered=offered), step.ask)
+
+
+def _wanted(state: Workflow, view: View, settings: Settings) -> Action | None:
+    """What the operator wants of the robot: what is not answered yet, but to end goes before to go on."""
+    if Action.FINISH in view.actions or state.wants is not None:
+        return Action.FINISH if Action.FINISH in view.actions else state.wants
+    pressed = view.now_s >= state.retry_s if settings.scripted else Action.GO_ON in view.actions
+    return Action.GO_ON if pressed and view.robot is not None and view.robot.waiting else None
+
+
+def _order(state: Workflow, view: View, query: Query[Any, Any]) -> Step:
+    """Finish or go on, as the operator wants, until the robot has answered."""
+    request = queries.Finish if query is queries.FINISH else queries.Resume
+    reply = ask(state, view, query, lambda intent: request(state.epoch, request=intent))
+    if isinstance(reply, Step):
+        return reply
+    answered = replace(state, wants=None, question=0, intent=0, retry_s=view.now_s + RETRY_S)
+    if not isinstance(reply, queries.Refused):
+        return Step(replace(answered, notice=""))
+    if query is queries.FINISH and view.robot is not None and view.robot.phase is RobotPhase.IDLE:
+        notice = "The robot has ended the motion, and its result was not heard."
+        return Step(to(answered, Phase.DECIDING, view, event=notice))
+    return Step(replace(answered, notice=not_done(query, reply.reason)))
+
+
+def _let_go(state: Workflow, view: View) -> bool:
+    """Keys that were held before the robot executes do not count until all have been let go."""
+    under_way = view.robot is not None and view.robot.phase is RobotPhase.EXECUTE
+    return view.steering and (state.let_go or not under_way)
+
+
+def _without_result(state: Workflow, view: View, settings: Settings) -> str:
+    """Why the episode's result is not waited for any more; empty where it is.
+
+    A robot that is idle proves nothing: its result may be on its way, and is repeated until it comes.
+    """
+    if not runs(state, view):
+        restarted = view.robot is not None and state.episode is not None and view.robot.publisher != state.episode.robot
+        return "The robot was restarted: its episode is lost." if restarted else "The robot has begun another episode."
+    # A person may let the robot hold for as long as they like; a script that does is broken.
+    if settings.scripted and view.now_s - state.since_s > settings.duration_s(state.mode) + EPISODE_GRACE_S:
+        return "The episode was lost."
+    return ""

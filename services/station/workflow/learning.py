@@ -1,0 +1,72 @@
+"""What the model is told: to learn a refinement, to take an update back. Nothing moves meanwhile or after."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import msgspec
+
+from protocol import queries
+from protocol.messages import Motion
+from services.station.workflow.asking import ask, not_done, to
+from services.station.workflow.state import Phase, Settings, Workflow
+from services.station.workflow.view import Step, View
+
+
+def learning(state: Workflow, view: View, settings: Settings) -> Step:
+    """Have the model learn the refinement; then the operator is asked to see what it does by itself."""
+    taught, looked = state.taught, state.looked
+    if taught is None or looked is None:
+        return Step(to(state, Phase.DECIDING, view, owed=None))
+    reply = ask(
+        state,
+        view,
+        queries.ADD_DEMONSTRATION,
+        lambda intent: _lesson(state, view, settings, learnable(taught, settings.autonomous_s), intent),
+    )
+    match reply:
+        case Step():
+            return reply
+        case queries.Refused(reason):
+            notice = not_done(queries.ADD_DEMONSTRATION, reason)
+            if settings.scripted:
+                return Step(to(state, Phase.FINISHED, view, owed=None, reason=notice))
+            return Step(to(state, Phase.DECIDING, view, owed=None, event=notice))
+        case _:
+            learnt = replace(state, taught=None, last=None, refinements=0, updates=state.updates + 1)
+            event = "The model has learnt the correction."
+            return Step(to(learnt, Phase.DECIDING, view, owed=None, event=event))
+
+
+def _lesson(state: Workflow, view: View, settings: Settings, motion: Motion, intent: int) -> queries.AddDemonstration:
+    # The model needs the refined prediction only where it is to believe the refinement in part.
+    believed_in_part = state.prediction if settings.alpha < 1.0 else None
+    return queries.AddDemonstration(
+        queries.Kind.UPDATE,
+        motion,
+        state.looked or (0.0, 0.0, 0.0),
+        view.scene.name if view.scene is not None else "",
+        state.condition,
+        prediction=None if believed_in_part is None else learnable(believed_in_part.motion, settings.autonomous_s),
+        alpha=settings.alpha,
+        request=intent,
+    )
+
+
+def learnable(motion: Motion, duration: float) -> Motion:
+    """A motion in the tempo of an autonomous execution: a refinement ran slower than what it corrects."""
+    return msgspec.structs.replace(motion, duration=duration)
+
+
+def undoing(state: Workflow, view: View, settings: Settings) -> Step:
+    """Have the model take its newest update back."""
+    del settings
+    reply = ask(state, view, queries.UNDO, lambda intent: queries.Undo(request=intent))
+    match reply:
+        case Step():
+            return reply
+        case queries.Refused(reason):
+            return Step(to(state, Phase.DECIDING, view, owed=None, event=not_done(queries.UNDO, reason)))
+        case _:
+            undone = replace(state, last=None, updates=max(0, state.updates - 1))
+            return Step(to(undone, Phase.DECIDING, view, owed=None, event="The newest update was taken back."))

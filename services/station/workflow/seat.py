@@ -1,0 +1,148 @@
+"""The authority to command: asking for it, watching another station that has it, losing it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from protocol import queries
+from services.station.workflow.asking import RETRY_S, ask, not_done, to
+from services.station.workflow.state import Action, Phase, Settings, Workflow
+from services.station.workflow.view import Step, View
+
+LINGERS_S = 2.0
+"""The lease of a station that is no more runs out within this time; one that lasts longer is somebody's."""
+
+CONFIRM_S = 2.0
+"""Within this time after the authority was granted the robot's own state shows it."""
+
+UNHEARD_S = 1.0
+"""A robot that was silent for longer waits for another press: what was asked before it may be wrong by now."""
+
+_WITHOUT = frozenset({Phase.WAITING, Phase.ACQUIRING, Phase.WATCHING, Phase.STOPPED, Phase.RELEASING, Phase.FINISHED})
+
+
+def missing(view: View) -> str:
+    """What there has to be before the authority is asked for; empty where all is there."""
+    robot = view.robot and view.scene and view.authority
+    absent = [name for name, there in (("robot", robot), ("model", view.model)) if not there]
+    if absent:
+        return f"Waiting for the {' and the '.join(absent)}."
+    if view.model is not None and not view.model.demonstrations + view.model.updates:
+        return "Waiting for the first demonstrations."
+    return "" if view.present else "Waiting for the operator: open this page and keep it in view."
+
+
+def waiting(state: Workflow, view: View, settings: Settings) -> Step:
+    """For robot, model and operator; the authority is asked for once all are there and nobody has it."""
+    if missing(view):
+        return Step(state)
+    taker = another(view, settings)
+    lingers_until_s = state.retry_s or view.now_s + LINGERS_S
+    if state.watches or (taker and (state.epoch or view.now_s >= lingers_until_s)):
+        return Step(to(state, Phase.WATCHING, view, watches=True))
+    if taker:
+        return Step(replace(state, retry_s=lingers_until_s))
+    return Step(to(state, Phase.ACQUIRING, view) if view.now_s >= state.retry_s else state)
+
+
+def watching(state: Workflow, view: View, settings: Settings) -> Step:
+    """Another station commands: this one asks or takes over when its operator says so, and never by itself."""
+    offered = frozenset({Action.ASK, Action.TAKE_OVER})
+    if settings.scripted:
+        free = view.authority is not None and not view.authority.holder and view.now_s >= state.retry_s
+        chosen = Action.ASK if free else None
+    else:
+        chosen = next((action for action in Action if action in view.actions & offered), None)
+    if chosen is None or not view.present:
+        return Step(replace(state, offered=offered))
+    return Step(to(state, Phase.ACQUIRING, view, wants=chosen))
+
+
+def acquiring(state: Workflow, view: View, settings: Settings) -> Step:
+    """Ask; where the robot waits in an episode of this station's, the operator is asked what becomes of it."""
+    offered = frozenset({Action.TAKE_OVER})
+    if Action.TAKE_OVER in view.actions and state.wants is not Action.TAKE_OVER:
+        state = to(state, Phase.ACQUIRING, view, wants=Action.TAKE_OVER)
+    take_over = state.wants is Action.TAKE_OVER
+    reply = ask(
+        state,
+        view,
+        queries.ACQUIRE,
+        lambda intent: queries.AcquireAuthority(settings.holder, settings.operator, take_over, request=intent),
+    )
+    match reply:
+        case Step(waits, asks):
+            return Step(replace(waits, offered=offered), asks)
+        case queries.Refused(reason):
+            notice = not_done(queries.ACQUIRE, reason)
+            if state.wants is not None:
+                return Step(to(state, Phase.WATCHING, view, watches=True, notice=notice, retry_s=view.now_s + RETRY_S))
+            return Step(to(state, Phase.WAITING, view, notice=notice, retry_s=view.now_s + RETRY_S))
+        case _:
+            return Step(_granted(state, view, reply.epoch))
+
+
+def _granted(state: Workflow, view: View, epoch: int) -> Workflow:
+    granted = replace(state, epoch=epoch, holding=True, confirmed=False, granted_s=view.now_s, watches=False)
+    goes_on = state.episode is not None and runs(state, view)
+    if not goes_on or state.episode is None:
+        return to(granted, Phase.LOOKING, view)
+    number = state.episode.number or (view.robot.episode if view.robot is not None else 0)
+    return to(granted, Phase.EXECUTING, view, episode=replace(state.episode, number=number))
+
+
+def runs(state: Workflow, view: View) -> bool:
+    """The robot may still be at the episode that it was told to run, or its result is still to come."""
+    episode, robot = state.episode, view.robot
+    if episode is None or robot is None:
+        return episode is not None
+    if robot.publisher != episode.robot:
+        return False
+    return robot.episode <= episode.number if episode.number else robot.phase.running
+
+
+def heard(state: Workflow, view: View, settings: Settings) -> Workflow:
+    """With what the robot says of itself and of the authority."""
+    authority = view.authority
+    mine = authority is not None and (authority.holder, authority.epoch) == (settings.holder, state.epoch)
+    return replace(
+        state,
+        heard_s=view.now_s if view.robot is not None else state.heard_s,
+        confirmed=state.confirmed or (state.holding and mine),
+    )
+
+
+def lost(state: Workflow, view: View, settings: Settings) -> Workflow | None:
+    """Where to wait for the authority that was lost; None where it was not."""
+    if state.phase in _WITHOUT:
+        return None
+    reason = _loss(state, view, settings)
+    if reason:
+        watches = bool(another(view, settings))
+        dropped = replace(state, holding=False, confirmed=False, pressed=False, watches=watches)
+        return to(dropped, Phase.WATCHING if watches else Phase.WAITING, view, event=reason)
+    if state.pressed and view.now_s - state.heard_s > UNHEARD_S:
+        return to(state, Phase.DECIDING, view, pressed=False, event="The robot was not heard for a moment.")
+    return None
+
+
+def _loss(state: Workflow, view: View, settings: Settings) -> str:
+    """What the robot said before it granted the lease, of an earlier epoch, does not count; after it, it does."""
+    authority = view.authority
+    if authority is None:
+        return ""
+    if authority.epoch < state.epoch:
+        forgotten = state.confirmed or view.now_s - state.granted_s > CONFIRM_S
+        return f"The robot has forgotten the authority: it speaks of {authority.epoch}, not {state.epoch}." * forgotten
+    taker = another(view, settings)
+    if taker:
+        return f"{taker} has taken the authority over."
+    return "The authority was lost." if authority.epoch > state.epoch or not authority.holder else ""
+
+
+def another(view: View, settings: Settings) -> str:
+    """Who else holds the authority; empty where nobody does."""
+    authority = view.authority
+    if authority is None or authority.holder in ("", settings.holder):
+        return ""
+    return authority.operator if authority.operator not in ("", settings.operator) else "Another station"

@@ -1,0 +1,88 @@
+"""What the station sees in one step, what it may ask, and what a step comes to."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import msgspec
+
+from protocol import messages
+from protocol.messages import EpisodeResult, ModelState, ObjectPose
+from protocol.queries import Query
+from services.station.workflow.state import Action, Place, Workflow
+
+
+@dataclass(frozen=True)
+class Ask:
+    """A query to send; its answer comes with the number in later views, until another question is asked."""
+
+    query: Query[Any, Any]
+    request: msgspec.Struct
+    number: int
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What came of a question: a reply, a refusal, or no answer in time."""
+
+    number: int
+    outcome: Any
+
+
+@dataclass(frozen=True)
+class View:
+    """What the station sees in one step; None where nothing fresh is there.
+
+    Attributes:
+        now_s: the station's monotonic clock [s].
+        number: a random one, not 0 and another one in every step, for what is asked in it.
+        present: an operator is there.
+        steering: a key that steers is held.
+        stopping: a stop was pressed at this station, and the robot has not confirmed yet that it stands.
+        robot: the robot's state.
+        authority: who may command.
+        safety: whether it may move at all.
+        verdict: the success criteria as they are now.
+        scene: in which it stands.
+        scene_s: when that came [s].
+        model: the model's state.
+        seen: the object, as perceived.
+        seen_s: when that came [s].
+        result: of the newest episode.
+        answer: to the question asked last.
+        actions: what the operator pressed since the last step.
+        drawn: where the target may stand next, for when a place is needed.
+    """
+
+    now_s: float
+    number: int = 1
+    present: bool = True
+    steering: bool = False
+    stopping: bool = False
+    robot: messages.RobotState | None = None
+    authority: messages.AuthorityState | None = None
+    safety: messages.SafetyState | None = None
+    verdict: messages.Verdict | None = None
+    scene: messages.SceneState | None = None
+    scene_s: float = 0.0
+    model: ModelState | None = None
+    seen: ObjectPose | None = None
+    seen_s: float = 0.0
+    result: EpisodeResult | None = None
+    answer: Answer | None = None
+    actions: frozenset[Action] = frozenset()
+    drawn: Place | None = None
+
+    @property
+    def latched(self) -> bool:
+        """The robot says that the emergency stop is latched."""
+        return self.safety is not None and self.safety.emergency_stop
+
+
+@dataclass(frozen=True)
+class Step:
+    """The next state, and what to ask."""
+
+    state: Workflow
+    ask: Ask | None = None

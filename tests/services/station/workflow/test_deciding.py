@@ -1,0 +1,170 @@
+"""Nothing moves unasked: what the operator is asked, and what a press leads to."""
+
+import pytest
+
+from protocol import queries
+from protocol.messages import Mode
+from services.station.workflow.state import Action, Phase
+from tests.services.station.workflow.site import (
+    BY_HAND,
+    COLLIDED,
+    HOLD,
+    MISSED,
+    REACHED,
+    SCRIPTED,
+    Site,
+)
+
+MOVING = {"cmd/reset", "cmd/execute", "cmd/resume"}
+
+
+def test_after_connecting_it_asks_for_the_authority_looks_and_stands():
+    site = Site(BY_HAND)
+    site.run_to(Phase.DECIDING)
+    assert site.stay(60) == []
+    assert site.state.phase is Phase.DECIDING
+    assert site.names() == ["authority/acquire"]
+    assert site.state.looked == (0.85, 0.05, 0.5)
+    assert site.state.offered == {Action.EXECUTE, Action.REFINE, Action.NEXT, Action.END}
+
+
+def test_a_press_before_it_asks_moves_nothing():
+    site = Site(BY_HAND)
+    while site.state.phase is not Phase.DECIDING:
+        site.step(Action.EXECUTE, Action.REFINE, Action.NEXT, Action.GO_ON)
+    assert site.stay() == []
+    assert not MOVING & set(site.names())
+
+
+def test_a_target_that_is_not_seen_is_said_and_the_operator_asked_all_the_same():
+    site = Site(BY_HAND)
+    site.run_to(Phase.DECIDING, seen=None)
+    assert "not seen" in site.state.event
+    assert not MOVING & set(site.names())
+
+
+def test_the_press_that_asks_for_an_episode_begins_with_the_reset():
+    site = Site(BY_HAND)
+    site.press(Action.EXECUTE, Phase.EXECUTING)
+    assert site.names() == ["authority/acquire", "cmd/reset", "model/predict", "cmd/execute"]
+    assert site.state.mode is Mode.AUTONOMOUS
+
+
+def test_a_person_decides_after_each_episode():
+    site = Site(BY_HAND, [COLLIDED, MISSED])
+    site.press(Action.EXECUTE, Phase.EXECUTING)
+    site.run_to(Phase.DECIDING)
+    assert site.stay() == []
+    site.press(Action.REFINE, Phase.EXECUTING)
+    assert site.state.mode is Mode.REFINE
+
+
+def test_after_a_lesson_the_model_is_tried_only_upon_a_press():
+    site = Site(BY_HAND, [COLLIDED, REACHED])
+    site.press(Action.EXECUTE, Phase.EXECUTING)
+    site.press(Action.REFINE, Phase.LEARNING)
+    site.run_to(Phase.DECIDING)
+    assert site.stay() == []
+    assert "learnt" in site.state.event
+
+
+def test_what_is_not_offered_is_not_done():
+    site = Site(BY_HAND, [COLLIDED])
+    site.press(Action.EXECUTE, Phase.EXECUTING)
+    site.run_to(Phase.DECIDING)
+    site.step(Action.UNDO, Action.TEACH, Action.TAKE_OVER, Action.GO_ON, Action.FINISH, Action.RELEASE_STOP)
+    assert site.state.phase is Phase.DECIDING
+
+
+def test_undo_takes_the_update_back_and_asks():
+    site = Site(BY_HAND, [COLLIDED, REACHED])
+    site.press(Action.EXECUTE, Phase.EXECUTING)
+    site.press(Action.REFINE, Phase.LEARNING)
+    site.run_to(Phase.DECIDING)
+    site.step()
+    assert site.state.updates == 1
+    assert Action.UNDO in site.state.offered
+    site.step(Action.UNDO)
+    site.run_to(Phase.DECIDING)
+    assert site.stay() == []
+    assert site.names()[-1] == "model/undo"
+    assert site.state.updates == 0
+    assert Action.UNDO not in site.state.offered
+
+
+def test_an_undo_that_is_refused_is_said_and_the_operator_asked():
+    site = Site(BY_HAND, [COLLIDED, REACHED])
+    site.press(Action.EXECUTE, Phase.EXECUTING)
+    site.press(Action.REFINE, Phase.LEARNING)
+    site.run_to(Phase.DECIDING)
+    site.fail(queries.UNDO, queries.Refused("there is nothing"))
+    site.step(Action.UNDO)
+    site.run_to(Phase.DECIDING)
+    assert "there is nothing" in site.state.event
+    assert site.state.updates == 1
+
+
+def test_the_next_object_is_drawn_anew_and_its_counts_begin_anew():
+    site = Site(BY_HAND, [COLLIDED, MISSED])
+    site.press(Action.EXECUTE, Phase.EXECUTING)
+    site.press(Action.REFINE, Phase.EXECUTING)
+    site.run_to(Phase.DECIDING)
+    assert site.state.refinements == 1
+    site.step(Action.NEXT)
+    assert (site.state.placed, site.state.refinements, site.state.last) == (None, 0, None)
+    site.run_to(Phase.EXECUTING)
+    assert site.state.mode is Mode.AUTONOMOUS
+
+
+def test_the_operator_ends_the_run():
+    site = Site(BY_HAND)
+    site.run_to(Phase.DECIDING)
+    site.step(Action.END)
+    assert (site.state.phase, site.state.reason) == (Phase.FINISHED, "ended before the loop had closed")
+    assert site.stay(3, robot=None) == []
+    assert site.state.phase is Phase.FINISHED
+
+
+@pytest.mark.parametrize("query", [queries.RESET, queries.PREDICT, queries.EXECUTE])
+def test_a_refusal_that_does_not_pass_is_told_and_the_operator_asked(query):
+    site = Site(BY_HAND)
+    site.run_to(Phase.DECIDING)
+    site.step(Action.EXECUTE)
+    for _ in range(100):
+        if site.state.phase is Phase.DECIDING:
+            break
+        site.fail(query, queries.Refused("it is too far"))
+        site.step()
+    assert site.state.phase is Phase.DECIDING
+    assert "it is too far" in site.state.event
+    assert site.names().count(query.name) == 5
+    site.instead.clear()
+    assert site.stay() == []
+
+
+@pytest.mark.parametrize("query", [queries.RESET, queries.PREDICT, queries.EXECUTE])
+def test_a_script_ends_by_a_refusal_that_does_not_pass(query):
+    site = Site(SCRIPTED)
+    for _ in range(100):
+        if site.state.phase is Phase.FINISHED:
+            break
+        site.fail(query, queries.Refused("it is too far"))
+        site.step()
+    assert "it is too far" in site.state.reason
+
+
+@pytest.mark.parametrize("query", [queries.RESET, queries.PREDICT, queries.EXECUTE])
+def test_a_refusal_that_passes_is_only_a_delay(query):
+    site = Site(BY_HAND)
+    site.run_to(Phase.DECIDING)
+    site.fail(query, queries.Refused("not yet"))
+    site.press(Action.EXECUTE, Phase.EXECUTING)
+    assert site.names().count(query.name) == 2
+
+
+def test_an_episode_that_still_runs_is_ended_before_the_reset():
+    site = Site(BY_HAND)
+    site.run_to(Phase.DECIDING)
+    site.robot(phase=HOLD)
+    site.press(Action.EXECUTE, Phase.EXECUTING)
+    assert site.names()[1:3] == ["cmd/finish", "cmd/reset"]
