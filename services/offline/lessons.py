@@ -14,8 +14,7 @@ from sim.person.steering import steer
 from sim.pose import Pose
 from sim.robots.description import prepare
 from sim.tasks import AnyScene
-from sim.tasks.particle import ParticleScene
-from sim.tasks.scene import Corridor, Freedom, ReachingScene
+from sim.tasks.scene import Corridor, Freedom
 
 Array = NDArray[np.float64]
 
@@ -89,8 +88,6 @@ def steered(corridor: Corridor, rng: np.random.Generator | None, freedom: Freedo
 
 
 def _demonstration(scene: AnyScene, place: Array, motion: Trajectory) -> Demonstration:
-    match scene:
-        case ReachingScene():
-            return Demonstration.reaching(motion, place)
-        case ParticleScene():
-            return Demonstration(motion, origin=np.zeros(3), condition=place)
+    if scene.has_object:
+        return Demonstration.reaching(motion, place)
+    return Demonstration(motion, origin=np.zeros(3), condition=place)

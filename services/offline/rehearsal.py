@@ -8,8 +8,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from lfd.motion.demonstration import Demonstration
 from protocol import queries
 from protocol.messages import EpisodeResult, TeachingState
@@ -24,8 +22,6 @@ from services.process.config import Configuration, MasterSection, ModelSection, 
 from services.process.exceptions import CommandFailed
 from sim.tasks import AnyScene
 from sim.tasks import scene as find_scene
-from sim.tasks.particle import ParticleScene
-from sim.tasks.scene import ReachingScene
 
 
 @dataclass(frozen=True, eq=False)
@@ -208,10 +204,5 @@ def missed_by(scene: AnyScene, arrangement: Arrangement, result: EpisodeResult) 
     """
     # The verdict's value is the square of how many times too far it was.
     times = max(1.0, math.sqrt(result.verdict.ellipsoid_value))
-    match scene:
-        case ReachingScene():
-            lies = arrangement.place + result.verdict.object_displacement
-            end = from_wire(result.measured.positions)[-1]
-            return float(np.linalg.norm(lies - end)) * (1.0 - 1.0 / times)
-        case ParticleScene():
-            return scene.tolerance * (times - 1.0)
+    lies = arrangement.place + result.verdict.object_displacement if scene.has_object else arrangement.place
+    return scene.missed_by(from_wire(result.measured.positions)[-1], lies, times)

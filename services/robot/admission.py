@@ -9,9 +9,7 @@ from lfd.motion.trajectory import Trajectory
 from protocol.queries import Reset
 from services.robot.refusal import Refusal
 from sim.pose import Pose
-from sim.tasks import AnyScene
-from sim.tasks.particle import ParticleScene
-from sim.tasks.scene import ReachingScene, Scene
+from sim.tasks.scene import Scene
 
 Array = NDArray[np.float64]
 
@@ -73,7 +71,7 @@ def _check_speeds(prediction: Trajectory) -> None:
         )
 
 
-def admit_target(scene: AnyScene, request: Reset) -> Array | None:
+def admit_target(scene: Scene, request: Reset) -> Array | None:
     """The place of the target that a reset asks for; None where it asks for none.
 
     Args:
@@ -83,15 +81,11 @@ def admit_target(scene: AnyScene, request: Reset) -> Array | None:
     Raises:
         Refusal: it asks for what this scene does not have.
     """
-    match scene:
-        case ReachingScene():
-            if request.condition is not None:
-                raise Refusal(f"scene {scene.name} has no condition of its own: give an object position")
-            asked: tuple[float, ...] | None = request.object_position
-        case ParticleScene():
-            if request.object_position is not None:
-                raise Refusal(f"scene {scene.name} has no object: give a condition")
-            asked = request.condition
+    if scene.has_object and request.condition is not None:
+        raise Refusal(f"scene {scene.name} has no condition of its own: give an object position")
+    if not scene.has_object and request.object_position is not None:
+        raise Refusal(f"scene {scene.name} has no object: give a condition")
+    asked = request.object_position if scene.has_object else request.condition
     return None if asked is None else np.array(asked)
 
 

@@ -1,6 +1,5 @@
 """The robot's own values as messages."""
 
-import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -10,9 +9,9 @@ from services.bus.arrays import motion_to_wire, quaternion, vector3
 from services.robot.control import Finished
 from services.robot.verdict import Verdict
 from sim.pose import Pose
+from sim.region import Region
 from sim.tasks import AnyScene
-from sim.tasks.particle import ParticleScene
-from sim.tasks.scene import OBJECT_SIZE, Box, ReachingScene
+from sim.tasks.scene import Box
 
 Array = NDArray[np.float64]
 
@@ -73,35 +72,24 @@ def scene_state(scene: AnyScene, variant: str, start: Pose, condition: Array) ->
         start: of the next motion.
         condition: the external state that motions depend on in it, shape (c,); empty where it is the object's.
     """
-    bare = messages.SceneState(
+    region = scene.region
+    return messages.SceneState(
         name=scene.name,
         variant=variant,
-        boxes=_boxes(scene.boxes(variant)),
-        object_size=_NONE,
-        ellipsoid_radii=_NONE,
-        kicked_over_thresholds=_NONE,
+        boxes=_boxes((*scene.boxes(variant), *scene.targets(condition))),
+        object_size=scene.object_size,
+        ellipsoid_radii=scene.tolerances,
+        kicked_over_thresholds=scene.kick_limits,
         start=pose(start),
-        object_region=(_NONE, _NONE),
+        object_region=_corners(region) if scene.has_object else (_NONE, _NONE),
         variants=scene.variants,
         condition=tuple(condition.tolist()),
+        condition_region=((), ()) if scene.has_object else (region.lower, region.upper),
     )
-    match scene:
-        case ReachingScene():
-            return msgspec.structs.replace(
-                bare,
-                object_size=OBJECT_SIZE,
-                ellipsoid_radii=vector3(scene.reached_radii),
-                kicked_over_thresholds=vector3(scene.kicked_thresholds),
-                object_region=(vector3(scene.region.lower), vector3(scene.region.upper)),
-            )
-        case ParticleScene():
-            first, second = scene.rings(condition)
-            return msgspec.structs.replace(
-                bare,
-                boxes=(*bare.boxes, *_boxes((*first, *second))),
-                ellipsoid_radii=(scene.tolerance,) * 3,
-                condition_region=(scene.region.lower, scene.region.upper),
-            )
+
+
+def _corners(region: Region) -> tuple[messages.Vector3, messages.Vector3]:
+    return vector3(np.array(region.lower)), vector3(np.array(region.upper))
 
 
 def _boxes(boxes: tuple[Box, ...]) -> tuple[messages.Box, ...]:

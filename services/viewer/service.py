@@ -37,7 +37,6 @@ from services.viewer.web_files import web_files
 from sim.exceptions import SimError
 from sim.robots.description import prepare
 from sim.tasks import SCENES
-from sim.tasks.particle import ParticleScene
 from sim.tasks.scene import Eye
 
 log = logging.getLogger(__name__)
@@ -68,7 +67,7 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> Service:
     except BaseException:
         web.close()
         raise
-    point = known.radius if isinstance(known, ParticleScene) else None
+    point = known.point if known else None
     return ViewerService(bus, run, web, point)
 
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.person.correction import Correction
+from sim.person.intention import Intention
 from sim.person.limb import DELAY, Ability, Limb
 from sim.person.stylus import StylusState, Vector
 from sim.pose import Pose
@@ -70,7 +70,7 @@ class Hand:
     def __init__(self, seed: int) -> None:
         self._arm = Limb(ARM, np.random.default_rng(seed))
         self._wrist = Limb(WRIST, np.random.default_rng((seed, 1)))
-        self._correction: Correction | None = None
+        self._correction: Intention | None = None
         self._memory: deque[tuple[float, Seen]] = deque()
         self._target: Vector | None = None
         self._rotation: Vector | None = None
@@ -86,7 +86,7 @@ class Hand:
         """How the wrist turns the stylus, rotation vector in base axes; None while the hand is off [rad]."""
         return self._rotation
 
-    def grip(self, correction: Correction, stylus: StylusState) -> None:
+    def grip(self, correction: Intention, stylus: StylusState) -> None:
         """Take the stylus where it is, with a correction in mind."""
         self._correction = correction
         self._memory.clear()
@@ -138,7 +138,7 @@ class Hand:
         _, seen = self._memory[0]
         return _Aim(seen.offset, seen.offset - seen.stylus.position), _Aim(seen.turn, seen.turn - seen.stylus.rotation)
 
-    def _follow(self, correction: Correction) -> tuple[_Aim, _Aim]:
+    def _follow(self, correction: Intention) -> tuple[_Aim, _Aim]:
         """Act ahead of what is known, the way; react to what is not, where the robot really went."""
         (then, seen), (now, newest) = self._memory[0], self._memory[-1]
         pace = (newest.progress - seen.progress) / (now - then) if now > then else 0.0

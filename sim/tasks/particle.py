@@ -22,7 +22,7 @@ from sim.person.steering import minimum_jerk
 from sim.pose import Pose
 from sim.region import Region
 from sim.robots import robot
-from sim.tasks.scene import NO_ROTATION, Array, Box, Corridor, Eye, Freedom, Group, Scene
+from sim.tasks.scene import NO_ROTATION, Array, Box, Corridor, Eye, Freedom, Group, Scene, Vector
 
 X_UNIT, Y_UNIT = 0.1, 0.01  # [m] of the thesis' axes
 
@@ -52,9 +52,31 @@ class ParticleScene(Scene):
         radius: Of the particle [m].
     """
 
+    has_object = False
+
     via_x: tuple[float, float]
     tolerance: float
     radius: float
+
+    @property
+    def point(self) -> float:
+        """See `Scene.point`."""
+        return self.radius
+
+    @property
+    def tolerances(self) -> Vector:
+        """See `Scene.tolerances`."""
+        return (self.tolerance,) * 3
+
+    def targets(self, place: Array) -> tuple[Box, ...]:
+        """See `Scene.targets`: the rings."""
+        first, second = self.rings(place)
+        return (*first, *second)
+
+    def missed_by(self, end: Array, target: Array, times: float) -> float:
+        """See `Scene.missed_by`; at the worse via-point."""
+        del end, target
+        return self.tolerance * (times - 1.0)
 
     def rings(self, place: Array) -> tuple[tuple[Box, ...], tuple[Box, ...]]:
         """Return the via-points, each as a ring of boxes that the particle passes through within the tolerance.

@@ -4,10 +4,11 @@ All positions are in the robot's base frame: x forward, y left, z up.
 """
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -98,7 +99,7 @@ class Eye(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Scene:
+class Scene(ABC):
     """A place where a motion is learnt, with one change that breaks it: what all kinds of scenes have.
 
     A place says where the target is that a motion depends on; each kind of scene says of what.
@@ -116,7 +117,10 @@ class Scene:
         route: Way-points of a variant and a place; call `corridor` instead.
         freedom: Of a person who moves the robot.
         eye: From where one sees all of it.
+        has_object: A place is where an object stands, and motions are relative to it; else it is a condition by itself.
     """
+
+    has_object: ClassVar[bool]
 
     name: str
     robot: Robot
@@ -164,6 +168,45 @@ class Scene:
         route = self.route(variant, place)
         return route if start is None else _joined(route, start)
 
+    @property
+    def object_size(self) -> Vector:
+        """Full edge lengths of the object [m]; nought where there is none."""
+        return OBJECT_SIZE if self.has_object else (0.0, 0.0, 0.0)
+
+    @property
+    @abstractmethod
+    def tolerances(self) -> Vector:
+        """Half axes of the ellipsoid in which a target counts as reached [m]."""
+
+    @property
+    def point(self) -> float | None:
+        """Radius of a robot that is a point to whoever draws it [m]; None for one of links."""
+        return None
+
+    @property
+    def kick_limits(self) -> Vector:
+        """Displacement along each axis beyond which the object counts as kicked over [m]; nought without one."""
+        return (0.0, 0.0, 0.0)
+
+    def targets(self, place: Array) -> tuple[Box, ...]:
+        """Return what shows where the targets are; nothing where an object does.
+
+        Args:
+            place: Shape (d,) [m].
+        """
+        del place
+        return ()
+
+    @abstractmethod
+    def missed_by(self, end: Array, target: Array, times: float) -> float:
+        """Return how much nearer a motion should have come [m].
+
+        Args:
+            end: Of the motion, shape (3,) [m].
+            target: Where it should have led, shape (3,) [m].
+            times: How many times too far from its targets it passed, at least 1.
+        """
+
     def check_place(self, place: Array, margin: float) -> None:
         """Let pass where a target of the scene can be.
 
@@ -197,9 +240,30 @@ class ReachingScene(Scene):
             counts as kicked over (thesis, Appendix E), shape (3,) [m].
     """
 
+    has_object = True
+
     head: Array
     reached_radii: Array
     kicked_thresholds: Array
+
+    @property
+    def tolerances(self) -> Vector:
+        """See `Scene.tolerances`."""
+        return _vector(self.reached_radii)
+
+    @property
+    def kick_limits(self) -> Vector:
+        """See `Scene.kick_limits`."""
+        return _vector(self.kicked_thresholds)
+
+    def missed_by(self, end: Array, target: Array, times: float) -> float:
+        """See `Scene.missed_by`; along the line to the object."""
+        return float(np.linalg.norm(target - end)) * (1.0 - 1.0 / times)
+
+
+def _vector(values: Array) -> Vector:
+    x, y, z = values.tolist()
+    return x, y, z
 
 
 def _joined(route: Corridor, start: Pose) -> Corridor:

@@ -8,7 +8,7 @@ from protocol.messages import Mode, Phase
 from services.bus.arrays import motion_from_wire
 from services.bus.predictions import Predictions
 from services.process.config import load
-from sim.person.correction import plan
+from sim.person.intention import plan
 from sim.tasks import DISHWASHER
 from tests.system.harness import START_S, Command, Witness, configured, eventually, free_endpoint
 

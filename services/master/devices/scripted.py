@@ -21,8 +21,8 @@ from services.process.config import Scripted
 from services.process.exceptions import ServiceError
 from sim import tasks as scenes
 from sim.exceptions import SimError
-from sim.person.correction import Correction, plan, plan_at_equal_progress
 from sim.person.hand import Hand, Seen
+from sim.person.intention import Intention, plan, plan_at_equal_progress
 from sim.person.stylus import Stylus
 from sim.pose import Pose
 
@@ -114,7 +114,7 @@ class ScriptedMaster:
             return
         self._hand.grip(correction, self._loop.newest.stylus)
 
-    def _plan(self, execution: ExecutionState) -> Correction | None:
+    def _plan(self, execution: ExecutionState) -> Intention | None:
         """The correction of an episode; None while the scene or the prediction has not been seen."""
         scene_state, predicted = self._scene.latest(), self._predictions.motion(execution.prediction)
         if scene_state is None or predicted is None:

@@ -22,11 +22,10 @@ from services.reproduction.style import CONDITIONED, DEMONSTRATION, TRUE_LINE, L
 from services.robot.arm import Arm
 from services.robot.assembly import simulated_arm
 from services.robot.backends.backend import CONTROL_PERIOD
-from services.robot.correction import UNCORRECTED
-from services.robot.correction import Correction as Applied
+from services.robot.correction import UNCORRECTED, Correction
 from services.robot.execution import look_ahead
-from sim.person.correction import Correction, plan
 from sim.person.hand import REACTION
+from sim.person.intention import Intention, plan
 from sim.robots.description import prepare
 from sim.tasks.dishwasher import DISHWASHER
 from sim.tasks.scene import ReachingScene
@@ -103,7 +102,7 @@ class _Task:
         """Execute it once, with the look-ahead [s], the displacement wanted at each progress, and the operator."""
         progress, wants, offsets = [], [], []
 
-        def attended(view: RolloutView) -> Applied:
+        def attended(view: RolloutView) -> Correction:
             progress.append(view.progress)
             wants.append(wanted(view.progress))
             offsets.append(view.tick.measured.position - view.nominal.position)
@@ -205,7 +204,7 @@ def _rows(which: str, step: StepResponse, loop: StepResponse, known: Course) -> 
     ]
 
 
-def _correction(prediction: Trajectory) -> Correction:
+def _correction(prediction: Trajectory) -> Intention:
     ways = [DISHWASHER.corridor(variant, _OBJECT) for variant in DISHWASHER.variants]
     return plan(prediction.positions, prediction.orientations, ways[1], ways)
 
@@ -229,7 +228,7 @@ def _by_sight() -> Displacement:
     return move
 
 
-def _practised(correction: Correction, lead: float) -> Displacement:
+def _practised(correction: Intention, lead: float) -> Displacement:
     operator = Operator(_PRACTISED, CONTROL_PERIOD)
 
     def move(view: RolloutView) -> Array:

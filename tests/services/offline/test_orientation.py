@@ -16,7 +16,7 @@ from services.model.service import ModelService
 from services.process.clock import ManualClock
 from services.process.config import Configuration, MasterSection, RobotSection, Scripted
 from services.robot import service as robot
-from sim.person.correction import plan
+from sim.person.intention import plan
 from sim.person.steering import steer
 from sim.tasks import scene
 

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
 
-from sim.person.correction import plan
 from sim.person.hand import ARM, DAMPING, REACTION, STIFFNESS, WRIST, Hand, Seen
+from sim.person.intention import plan
 from sim.person.stylus import Stylus, StylusState
 from sim.pose import Pose
 from sim.rotations import rotated, rotation_to

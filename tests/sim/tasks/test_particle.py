@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from sim.interpolation import through
-from sim.person.correction import plan_at_equal_progress
+from sim.person.intention import plan_at_equal_progress
 from sim.person.steering import steer
 from sim.robots.description import RobotDescription
 from sim.tasks import PARTICLE

@@ -81,3 +81,18 @@ def test_unknown_names_are_refused_with_those_that_are_known() -> None:
 def test_a_place_of_another_dimension_is_refused(place: Scene) -> None:
     with pytest.raises(WrongPlace, match="not 5"):
         place.corridor(place.variants[0], np.zeros(5))
+
+
+@pytest.mark.parametrize("known", SCENES.values(), ids=SCENES)
+def test_a_scene_says_of_its_targets_what_others_need_to_know(known):
+    place = known.training_positions[0]
+    assert known.has_object == any(known.object_size) == any(known.kick_limits) == (known.targets(place) == ())
+    assert min(known.tolerances) > 0.0
+
+
+def test_an_object_is_missed_along_the_line_to_it_and_a_via_point_beside_it():
+    end, target = np.zeros(3), np.array([0.3, 0.0, 0.4])
+    assert scene("dishwasher").missed_by(end, target, 1.0) == 0.0
+    assert scene("dishwasher").missed_by(end, target, 2.0) == pytest.approx(0.25)
+    assert scene("particle").missed_by(end, target, 1.0) == 0.0
+    assert scene("particle").missed_by(end, target, 3.0) == pytest.approx(2.0 * scene("particle").tolerance)

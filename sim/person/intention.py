@@ -17,7 +17,7 @@ _FINENESS = 20  # points between two way-points by which lengths are measured
 
 
 @dataclass(frozen=True, eq=False)
-class Correction:
+class Intention:
     """A displacement and a rotation for every progress of a prediction.
 
     Attributes:
@@ -49,7 +49,7 @@ class Correction:
 
 def plan(
     positions: Array, orientations: Array, safe: Corridor, known: Sequence[Corridor], exaggeration: float = 1.0
-) -> Correction:
+) -> Intention:
     """Plan the correction that leads a prediction along a safe way.
 
     The operator recognises which of the ways that they know the robot means to take, and thereby which way-point it
@@ -72,7 +72,7 @@ def plan(
     numbers = _numbers(min(known, key=departure).positions, covered)
     turned = through(safe.orientations, numbers)
     turned /= np.linalg.norm(turned, axis=1, keepdims=True)
-    return Correction(
+    return Intention(
         positions,
         orientations,
         exaggeration * (through(safe.positions, numbers) - positions),
@@ -82,7 +82,7 @@ def plan(
 
 def plan_at_equal_progress(
     positions: Array, orientations: Array, safe: Corridor, exaggeration: float = 1.0
-) -> Correction:
+) -> Intention:
     """Plan the correction of a motion whose tempo is not a person's to change: each moment has its place on the way.
 
     Args:
@@ -92,7 +92,7 @@ def plan_at_equal_progress(
         exaggeration: Of the displacement; 1 is natural.
     """
     wanted = through(safe.positions, np.linspace(0.0, len(safe.positions) - 1.0, len(positions)))
-    return Correction(positions, orientations, exaggeration * (wanted - positions), np.zeros_like(positions))
+    return Intention(positions, orientations, exaggeration * (wanted - positions), np.zeros_like(positions))
 
 
 def _numbers(way: Array, covered: Array) -> Array:
