@@ -23,6 +23,8 @@ def start() -> NoReturn:
         code = main()
     except BrokenPipeError:  # whoever read has enough
         code = 0
+    except SystemExit as left:
+        code = left.code if isinstance(left.code, int) else 0
     finally:
         streams.leave()
     leave(code)

@@ -16,7 +16,7 @@ from services.commands.table import COMMANDS
 from services.process.exceptions import CannotWrite, EnvironmentFault, ServiceError
 from services.process.exit_codes import Exit
 from services.process.lifeline import die_with_parent
-from sim.exceptions import DescriptionMissing, DrawingLibraryMissing, SimError
+from sim.exceptions import CacheUnusable, DescriptionMissing, DrawingLibraryMissing, SimError
 
 log = logging.getLogger(__name__)
 
@@ -42,7 +42,7 @@ exit codes: 0 done, 1 crashed or aim not reached, 2 wrong input, 3 machine or ne
 _QUIET = ("httpx", "httpcore", "asyncio", "uvicorn", "websockets", "matplotlib", "OpenGL")
 """Libraries that log what nobody asked for."""
 
-_OF_THE_MACHINE = frozenset(
+_ERRNOS_OF_THE_MACHINE = frozenset(
     (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACCES, errno.EPERM, errno.ENOTDIR, errno.EMFILE, errno.ENFILE)
 )
 """Errors of files that tell of a disk, of rights or of limits, and of no fault in the code."""
@@ -89,15 +89,17 @@ def _log_to_stderr(level: int) -> None:
 def _ending(error: Exception) -> tuple[str, Exit]:
     """What a person reads of an error, and the exit code."""
     match error:
-        case EnvironmentFault() | StorageUnavailable() | DescriptionMissing() | DrawingLibraryMissing():
+        case (
+            EnvironmentFault() | StorageUnavailable() | CacheUnusable() | DescriptionMissing() | DrawingLibraryMissing()
+        ):
             return str(error), Exit.ENVIRONMENT
         case ServiceError() | ProtocolError() | SimError() | LfdError():
             return str(error), Exit.BAD_INPUT
-        case OSError(errno=number, filename=file) if number in _OF_THE_MACHINE:
+        case OSError(errno=number, filename=file) if number in _ERRNOS_OF_THE_MACHINE:
             return str(CannotWrite(file or "a file", error.strerror or str(error))), Exit.ENVIRONMENT
         case _:
             return f"failed by {type(error).__name__}: {error}; --debug shows where", Exit.CRASHED
 
 
 def _passes(error: Exception) -> bool:
-    return isinstance(error, EnvironmentFault | StorageUnavailable) and error.passes
+    return isinstance(error, EnvironmentFault) and error.passes

@@ -5,6 +5,7 @@ SimError
 ├── UnknownVariant          the scene has no variant of that name
 ├── WrongPlace              a place has not as many numbers as the scene's targets have
 ├── OutOfReach              a position that the robot cannot take, or a place where no target can be
+├── CacheUnusable           nothing can be kept: neither in the user's cache folder nor in a temporary one
 ├── DescriptionMissing      the robot's meshes are not installed
 ├── DescriptionInvalid      a mesh or link of the robot cannot be used
 └── DrawingLibraryMissing   neither EGL nor OSMesa is there
@@ -58,6 +59,15 @@ class OutOfReach(SimError):
         super().__init__(
             f"{what} {_point(position)} m is beyond {where}: give one from {_point(lower)} to {_point(upper)} m"
         )
+
+
+class CacheUnusable(SimError):
+    """There is no place for what is made once and kept."""
+
+    def __init__(self, reason: str, variable: str) -> None:
+        self.reason = reason
+        self.variable = variable
+        super().__init__(f"cannot keep anything ({reason}): set {variable} to a folder that can be written")
 
 
 class DescriptionMissing(SimError):

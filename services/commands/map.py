@@ -18,6 +18,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, Task, TextCol
 from lfd.models.model import MovementModel
 from lfd.store.database import DemonstrationStore, Kind, StoredDemonstration
 from services.commands.arguments import add_debug, whole, within
+from services.commands.terminal import Terminal
 from services.model.learning import learn_all
 from services.model.skill import binding_of
 from services.offline.first_demonstrations import first_demonstrations
@@ -147,7 +148,7 @@ def draw_map(request: Request) -> SuccessMap:
     scene = _with_an_object(find_scene(request.scene or (stored[-1].binding.scene if stored else _SCENE)))
     variant = request.variant or scene.variants[-1]
     scene.check(variant)
-    console = Console(stderr=True, highlight=False)
+    console = Terminal(stderr=True, highlight=False)
     if not stored:
         stored = _first(request, scene, variant, console)
     corrections, models = _stages(request, stored)
@@ -160,7 +161,7 @@ def draw_map(request: Request) -> SuccessMap:
     if request.json:
         _write(request.json, msgspec.json.format(msgspec.json.encode(found)), "--json")
     console.print(found.summary(), soft_wrap=True)
-    Console(highlight=False, soft_wrap=True).print(str(request.out.resolve()), markup=False)
+    Terminal(highlight=False, soft_wrap=True).print(str(request.out.resolve()), markup=False)
     return found
 
 

@@ -12,6 +12,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
 
 from services.commands.arguments import add_debug, whole
+from services.commands.terminal import Terminal
 from services.process.exit_codes import Exit
 from services.reproduction.analyses import ANALYSES
 from services.reproduction.analysis import Analysis, Holds
@@ -95,7 +96,7 @@ def reproduce(request: Request, analyses: Sequence[Analysis] = ANALYSES) -> int:
     kept = {a.name: outcome for a in analyses if (outcome := store.read(a.name)) is not None}
     todo = [a for a in chosen if request.fresh or not isinstance(kept.get(a.name), Done)]
     outcomes = {name: outcome for name, outcome in kept.items() if name not in {a.name for a in todo}}
-    console = Console(stderr=True, highlight=False)
+    console = Terminal(stderr=True, highlight=False)
     report = write_report(request.out, analyses, outcomes, request.seed)
     try:
         with _Bars(console, len(todo)) as bars:
@@ -110,7 +111,7 @@ def reproduce(request: Request, analyses: Sequence[Analysis] = ANALYSES) -> int:
     found = [outcomes[a.name] for a in chosen]
     failed = sum(isinstance(outcome, Failed) for outcome in found)
     console.print(f"{len(found)} analyses: {len(found) - len(todo)} kept from before, {failed} failed")
-    Console(highlight=False, soft_wrap=True).print(str(report.resolve()), markup=False)
+    Terminal(highlight=False, soft_wrap=True).print(str(report.resolve()), markup=False)
     return Exit.CRASHED if failed else Exit.DONE
 
 
@@ -134,7 +135,7 @@ def show_list(analyses: Sequence[Analysis] = ANALYSES) -> None:
     )
     for analysis in analyses:
         line = f"{analysis.name:<{names}}  {analysis.reference:<{references}}  {analysis.about}"
-        Console(highlight=False, soft_wrap=True).print(line, markup=False)
+        Terminal(highlight=False, soft_wrap=True).print(line, markup=False)
 
 
 class _Bars:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from argparse import ArgumentParser, Namespace
 
-from rich.console import Console
 from rich.live import Live
 from rich.table import Table
 
@@ -16,6 +15,7 @@ from protocol.topics import HEARTBEAT, VERSION
 from services.bus.zenoh import Passing, close_session, open_session, watch
 from services.commands.arguments import add_network
 from services.commands.settings import configuration
+from services.commands.terminal import Terminal
 from services.process.clock import SystemClock
 from services.process.ending import end_within
 from services.process.runner import stop_on_signals
@@ -103,7 +103,7 @@ def top(connect: str, *, once: bool) -> None:
     end_within()
     session = open_session(connect, 5.0, stop)
     beats = Beats()
-    console = Console(width=None if Console().is_terminal else 160)
+    console = Terminal(width=None if Terminal().is_terminal else 160)
     try:
         watch(session, f"retouch/{VERSION}/*/{HEARTBEAT.name}/*", beats.receive)
         if once:

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import hashlib
 import logging
-import tempfile
+from functools import partial
 from pathlib import Path
 
 import sim
 from lfd.motion.demonstration import Demonstration
 from lfd.store.database import Binding, DemonstrationStore, Kind
 from services import offline, robot
-from sim.robots.description import default_cache
+from sim.cache import kept
 from sim.tasks import AnyScene
 
 log = logging.getLogger(__name__)
@@ -26,34 +26,27 @@ def first_demonstrations(scene: AnyScene, cache: Path | None = None) -> list[Dem
 
     Args:
         scene: what to teach.
-        cache: folder to keep them in; the user's cache folder by default.
+        cache: folder to keep them in; see `sim.cache`.
 
     Raises:
         CommandFailed: no motion to some place succeeded.
-        StorageError: the cache cannot be written.
+        CacheUnusable: there is no place to keep them.
+        StorageError: what is kept cannot be read.
     """
-    folder = cache or default_cache()
-    kept = folder / f"lessons-{scene.name}-{_key()}.sqlite"
-    if kept.exists():
-        return _read(kept)
+    path = kept(f"first-{scene.name}-{_key()}.sqlite", partial(_teach, scene), cache)
+    with DemonstrationStore(path) as store:
+        return [stored.demonstration for stored in store.active()]
+
+
+def _teach(scene: AnyScene, part: Path, target: Path) -> None:
+    del target
     log.info("teaching the first demonstrations of %s in the simulator (once)", scene.name)
     # Imported here: who finds them kept needs no simulator.
     from services.offline.lessons import lesson  # noqa: PLC0415
 
-    taught = lesson(scene)
-    folder.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=folder) as scratch:
-        part = Path(scratch) / kept.name
-        with DemonstrationStore(part) as store:
-            for demonstration in taught:
-                store.add(demonstration, Kind.INITIAL, Binding(scene.name, scene.robot.kind))
-        part.replace(kept)
-    return taught
-
-
-def _read(path: Path) -> list[Demonstration]:
-    with DemonstrationStore(path) as store:
-        return [stored.demonstration for stored in store.active()]
+    with DemonstrationStore(part) as store:
+        for demonstration in lesson(scene):
+            store.add(demonstration, Kind.INITIAL, Binding(scene.name, scene.robot.kind))
 
 
 def _key() -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import tempfile
 from pathlib import Path
@@ -12,9 +13,14 @@ from services.process.exceptions import FolderUnusable
 def write_whole(path: Path, content: bytes) -> None:
     """Write a file whole or not at all; when this returns it outlives a power cut.
 
+    A link stays one: what it points to is written. What is no file, such as a device, is never replaced by one.
+
     Raises:
         OSError: it cannot be written; what was there before is untouched.
     """
+    path = path.resolve()
+    if path.exists() and not path.is_file():
+        raise OSError(errno.EINVAL, "Not a file", str(path))
     handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}-", suffix=".part")
     part = Path(name)
     try:
@@ -53,7 +59,12 @@ def state_folder() -> Path:
 
 def _folder(variable: str, under_home: str) -> Path:
     configured = os.environ.get(variable)
-    folder = (Path(configured) if configured else Path.home() / under_home) / "retouch"
+    if configured and not Path(configured).is_absolute():
+        raise FolderUnusable(Path(configured), variable, "It is no absolute path")
+    try:
+        folder = (Path(configured) if configured else Path.home() / under_home) / "retouch"
+    except RuntimeError:
+        raise FolderUnusable(Path("~") / under_home, variable, "There is no home folder") from None
     try:
         folder.mkdir(parents=True, exist_ok=True)
         usable = os.access(folder, os.W_OK | os.X_OK)

@@ -12,6 +12,7 @@ import sys
 import threading
 import time
 from collections import deque
+from collections.abc import Callable
 from types import FrameType
 from typing import Protocol, runtime_checkable
 
@@ -95,6 +96,16 @@ def _quantile(samples_ns: deque[int], q: float) -> float:
     return ordered[min(len(ordered) - 1, int(q * len(ordered)))] / 1e9
 
 
+def leave_on_signals() -> None:
+    """Let SIGTERM, SIGINT and SIGHUP end the program where it stands: nothing runs yet that has to be stopped."""
+
+    def leave(number: int, frame: FrameType | None) -> None:
+        del number, frame
+        raise SystemExit(0)
+
+    _on_signals(leave)
+
+
 def stop_on_signals() -> threading.Event:
     """An event that SIGTERM and SIGINT set, and SIGHUP: the terminal is gone (unless started to outlive it)."""
     stop = threading.Event()
@@ -103,11 +114,15 @@ def stop_on_signals() -> threading.Event:
         del number, frame
         stop.set()
 
-    signal.signal(signal.SIGTERM, set_stop)
-    signal.signal(signal.SIGINT, set_stop)
-    if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
-        signal.signal(signal.SIGHUP, set_stop)
+    _on_signals(set_stop)
     return stop
+
+
+def _on_signals(handler: Callable[[int, FrameType | None], None]) -> None:
+    signal.signal(signal.SIGTERM, handler)
+    signal.signal(signal.SIGINT, handler)
+    if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:  # else it was started to outlive the terminal
+        signal.signal(signal.SIGHUP, handler)
 
 
 def run(service: Service, bus: Bus, clock: Clock, process: str, stop: threading.Event) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import logging
 import os
+from collections.abc import Callable
 from typing import cast
 
 from services.bus.bus import Bus
@@ -14,7 +15,9 @@ from services.process.config import Configuration
 from services.process.ending import end_within
 from services.process.exceptions import RoomMissing
 from services.process.processes import Process
-from services.process.runner import Service, run, stop_on_signals
+from services.process.runner import Service, leave_on_signals, run, stop_on_signals
+
+Builder = Callable[[Bus, Clock, Configuration], Service]
 
 log = logging.getLogger(__name__)
 
@@ -30,21 +33,23 @@ def run_process(process: Process, configuration: Configuration) -> None:
         ServiceError: it cannot start; the message is for the person who started it.
     """
     os.nice(process.nice)
-    stop = stop_on_signals()
+    leave_on_signals()
     end_within()
+    # Loaded before the network is joined: most of a start is this, and the router starts meanwhile.
+    build = _builder(process)
     clock = SystemClock()
-    bus = connect(configuration.connect, configuration.name, process.name, clock, stop=stop)
+    bus = connect(configuration.connect, configuration.name, process.name, clock)
     try:
-        service = _build(process, bus, clock, configuration)
+        service = build(bus, clock, configuration)
+        stop = stop_on_signals()
         log.info("started on %s", configuration.connect)
         run(service, bus, clock, process.name, stop)
     finally:
         bus.close()
 
 
-def _build(process: Process, bus: Bus, clock: Clock, configuration: Configuration) -> Service:
+def _builder(process: Process) -> Builder:
     try:
-        module = importlib.import_module(process.module)
+        return cast(Builder, importlib.import_module(process.module).build)
     except ModuleNotFoundError as error:
         raise RoomMissing(process.name, error.name or "?") from None
-    return cast(Service, module.build(bus, clock, configuration))

@@ -10,15 +10,14 @@ import http.client
 import importlib.util
 import logging
 import os
-import shutil
 import socket
 import subprocess
-import tempfile
 import time
 from importlib.metadata import version
 from pathlib import Path
 
 from services.viewer.exceptions import WebFilesMissing
+from sim.cache import kept
 
 log = logging.getLogger(__name__)
 
@@ -33,28 +32,21 @@ def web_files(cache: Path | None = None) -> Path:
     """The folder with each of `FILES`, gzipped, ".gz" appended; made at first use.
 
     Args:
-        cache: where to keep it; `$XDG_CACHE_HOME/retouch` or `~/.cache/retouch` by default.
+        cache: where to keep it; see `sim.cache`.
 
     Raises:
         WebFilesMissing: the SDK's program is not there or does not give them.
+        CacheUnusable: there is no place for them.
     """
-    root = cache or Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "retouch"
-    target = root / f"rerun-web-{version('rerun-sdk')}"
-    if target.is_dir():
-        return target
+    return kept(f"rerun-web-{version('rerun-sdk')}", _make, cache)
+
+
+def _make(scratch: Path, target: Path) -> None:
+    del target
     log.info("preparing the live view, once: some seconds")
-    root.mkdir(parents=True, exist_ok=True)
-    scratch = Path(tempfile.mkdtemp(prefix=".rerun-web-", dir=root))
-    try:
-        for name, content in _take().items():
-            (scratch / f"{name}.gz").write_bytes(gzip.compress(content, _LEVEL))
-        if not target.is_dir():
-            scratch.replace(target)
-    except OSError as error:
-        raise WebFilesMissing(error.strerror or str(error)) from None
-    finally:
-        shutil.rmtree(scratch, ignore_errors=True)
-    return target
+    scratch.mkdir()
+    for name, content in _take().items():
+        (scratch / f"{name}.gz").write_bytes(gzip.compress(content, _LEVEL))
 
 
 def sdk_program() -> Path:

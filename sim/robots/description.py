@@ -6,17 +6,16 @@ have. The repaired copy, with a gripper put on, is made once into a cache folder
 """
 
 import hashlib
-import os
-import shutil
-import tempfile
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
+from functools import partial
 from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from sim.cache import kept
 from sim.exceptions import DescriptionMissing
 from sim.robots import gripper, meshes
 
@@ -58,11 +57,8 @@ class RobotDescription:
 def prepare(cache: Path | None = None) -> RobotDescription:
     """Return the robot's description, making it at first use.
 
-    It is safe to call from two processes at once: each builds in a folder of its own, and the first
-    to finish moves it into place.
-
     Args:
-        cache: Where to keep it; `$XDG_CACHE_HOME/retouch` or `~/.cache/retouch` by default.
+        cache: Where to keep it; see `sim.cache`.
 
     Returns:
         The description.
@@ -70,20 +66,10 @@ def prepare(cache: Path | None = None) -> RobotDescription:
     Raises:
         DescriptionMissing: The package with the robot's meshes is not installed.
         DescriptionInvalid: A mesh of it is damaged.
+        CacheUnusable: There is no place for it.
     """
     source = _source()
-    root = (cache or default_cache()).absolute()
-    target = root / f"tiago-{_key(source)}"
-    urdf = target / _URDF_NAME
-    if not urdf.exists():
-        root.mkdir(parents=True, exist_ok=True)
-        scratch = Path(tempfile.mkdtemp(prefix=".tiago-", dir=root))
-        try:
-            _build(source, scratch, target)
-            _move_into_place(scratch, target)
-        finally:
-            shutil.rmtree(scratch, ignore_errors=True)
-    return RobotDescription(urdf)
+    return RobotDescription(kept(f"tiago-{_key(source)}", partial(_build, source), cache) / _URDF_NAME)
 
 
 def _source() -> Path:
@@ -96,26 +82,14 @@ def _source() -> Path:
     return source
 
 
-def default_cache() -> Path:
-    """Where what takes long to make is kept: `$XDG_CACHE_HOME/retouch` or `~/.cache/retouch`."""
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "retouch"
-
-
 def _key(source: Path) -> str:
     # Our own text belongs to the key: whoever edits the build gets a new description without a thought.
     texts = [source, *(Path(str(module)) for module in (__file__, meshes.__file__, gripper.__file__))]
     return hashlib.sha256(b"".join(text.read_bytes() for text in texts)).hexdigest()[:16]
 
 
-def _move_into_place(scratch: Path, target: Path) -> None:
-    try:
-        scratch.replace(target)
-    except OSError:
-        if not (target / _URDF_NAME).exists():
-            raise  # it was not another process that came first
-
-
 def _build(source: Path, scratch: Path, target: Path) -> None:
+    scratch.mkdir()
     robot = ET.parse(source).getroot()
     for tag in ("gazebo", "transmission"):
         for element in robot.findall(tag):

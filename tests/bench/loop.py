@@ -22,6 +22,7 @@ from protocol.exceptions import ProtocolError
 from protocol.messages import Mode, Phase
 from services.bus.zenoh import Passing, close_session, open_session, watch
 from services.process.clock import SystemClock
+from services.process.isolation import retouch_command
 from sim.tasks import SCENES
 from tests.bench.support.results import Result, write_json
 
@@ -105,7 +106,7 @@ def run(scene):
     endpoint = free_endpoint()
     with tempfile.TemporaryDirectory() as folder:
         report = Path(folder) / "report.json"
-        command = [sys.executable, "-m", "services", "up", "--fresh", "--headless", "--once", "--json", str(report)]
+        command = retouch_command(("up", "--fresh", "--headless", "--once", "--json", str(report)))
         command += ["--scene", scene, "--listen", endpoint]
         with (Path(folder) / "log.txt").open("w") as log:
             began_ns = ear.clock.now_ns()

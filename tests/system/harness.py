@@ -11,6 +11,7 @@ import subprocess
 import sys
 import time
 from collections import deque
+from pathlib import Path
 
 import psutil
 import zenoh
@@ -96,13 +97,13 @@ class Command:
         environment = {
             **os.environ,
             "XDG_DATA_HOME": str(folder / "data"),
-            "PYTHONUNBUFFERED": "1",
+            "XDG_STATE_HOME": str(folder / "state"),
             MARK: self.mark,
             **(environment or {}),
         }
         with self._out.open("wb") as out, self._err.open("wb") as err:
             self.process = subprocess.Popen(
-                [sys.executable, "-m", "services", *map(str, arguments)],
+                [Path(sys.executable).with_name("retouch"), *map(str, arguments)],
                 cwd=folder,
                 env=environment,
                 stdin=subprocess.DEVNULL,

@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Self
 
 import msgspec
-from rich.console import Console
 
+from services.commands.terminal import Terminal
 from services.commands.up.child import Child, Job
 from services.commands.up.network import Page
 from services.commands.up.supervisor import ROUTER, Supervisor
@@ -70,6 +70,8 @@ class Launch:
             raise CommandFailed(f"--json: the folder {arguments.json.parent} does not exist")
         if arguments.json is not None and arguments.json.is_dir():
             raise CommandFailed(f"--json: {arguments.json} is a folder; name a file in it")
+        if arguments.json is not None and arguments.json.exists() and not arguments.json.is_file():
+            raise CommandFailed(f"--json: {arguments.json} is a device or pipe; name a file")
         page = not arguments.headless and "station" in names
         return cls(
             processes=names,
@@ -95,7 +97,7 @@ def launch(configuration: Configuration, options: Launch) -> int:
     configuration = _for_run(configuration, folder, options)
     resolved = folder / "configuration.json"
     # A stream of its own: a terminal that takes no more keeps nobody else from writing.
-    console = Console(file=os.fdopen(os.dup(sys.stdout.fileno()), "w", 1, sys.stdout.encoding, "replace"))
+    console = Terminal(file=os.fdopen(os.dup(sys.stdout.fileno()), "w", 1, sys.stdout.encoding, "replace"))
     try:
         save(configuration, resolved)
         voice = Voice(console, folder / "log.txt", live=console.is_terminal and not options.headless)

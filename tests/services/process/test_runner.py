@@ -1,6 +1,7 @@
 """The runner's ticks are absolute: none is made up for in a burst, late ones are counted."""
 
 import gc
+import signal
 import threading
 
 import pytest
@@ -8,7 +9,7 @@ import pytest
 from protocol import topics
 from services.bus.memory import MemoryNetwork
 from services.process.clock import ManualClock
-from services.process.runner import TickStatistics, run
+from services.process.runner import TickStatistics, leave_on_signals, run, stop_on_signals
 
 MS = 1_000_000
 
@@ -89,3 +90,35 @@ def test_the_service_is_closed_where_a_step_fails():
     with pytest.raises(IndexError):
         run(service, MemoryNetwork(clock).bus(), clock, "broken", stop)
     assert service.closed
+
+
+@pytest.fixture
+def handlers():
+    """The signals' handlers are put back after the test."""
+    numbers = (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
+    before = [signal.getsignal(number) for number in numbers]
+    yield
+    for number, handler in zip(numbers, before, strict=True):
+        signal.signal(number, handler)
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
+def test_a_lost_terminal_stops_as_sigterm_and_ctrl_c_do(handlers, number):
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
+    stop = stop_on_signals()
+    signal.raise_signal(number)
+    assert stop.is_set()
+
+
+def test_what_was_started_to_outlive_its_terminal_does(handlers):
+    signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    stop = stop_on_signals()
+    signal.raise_signal(signal.SIGHUP)
+    assert not stop.is_set()
+
+
+def test_a_start_is_left_where_it_stands(handlers):
+    leave_on_signals()
+    with pytest.raises(SystemExit) as left:
+        signal.raise_signal(signal.SIGTERM)
+    assert left.value.code == 0
