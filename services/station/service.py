@@ -17,6 +17,7 @@ from services.bus.arrays import vector3
 from services.bus.bus import Bus, Pending
 from services.process.clock import Clock
 from services.process.config import Configuration, StationSection
+from services.process.schedule import Schedule
 from services.station.ears import Ears, came_s, message, picture
 from services.station.page.view import PageView
 from services.station.stop import StopButton
@@ -100,7 +101,7 @@ class StationService:
         self._workflow = Workflow()
         self._asked: tuple[int, Pending[Any]] | None = None
         self._drawn: Place | None = None
-        self._ticks = 0
+        self._schedule = Schedule()
 
     def step(self, now_ns: int) -> None:
         """A stop before all; then look, advance the workflow, ask, tell."""
@@ -117,10 +118,9 @@ class StationService:
             log.debug("%s -> %s", before.value, step.state.phase.value)
             if step.state.phase is Phase.RESETTING and step.state.placed is None:
                 self._drawn = None
-        self._publish(view, held)
+        self._publish(now_ns, view, held)
         if self._page is not None:
             self._page.show(self._page_view(now_ns, view))
-        self._ticks += 1
 
     def figures(self) -> tuple[Figure, ...]:
         """Of the page."""
@@ -181,7 +181,7 @@ class StationService:
             self._drawn = Place(condition=drawn) if scene.condition else Place(object_position=vector3(drawn))
         return self._drawn
 
-    def _publish(self, view: View, held: OperatorInput) -> None:
+    def _publish(self, now_ns: int, view: View, held: OperatorInput) -> None:
         """Who is here and what is held; that s/he is present, where this station holds the authority; the run."""
         operator, holder, epoch = self._settings.operator, self._settings.holder, self._workflow.held_epoch
         said = msgspec.structs.replace(held, operator=operator, holder=holder, epoch=epoch)
@@ -189,7 +189,7 @@ class StationService:
         if epoch and held.present:
             renewal = messages.AuthorityRenewal(operator=operator, holder=holder, epoch=epoch)
             self._bus.publish(topics.AUTHORITY_RENEWAL, renewal)
-        if self._ticks % round(self.rate_hz / topics.TEACHING_STATE.rate_hz) == 0:
+        if self._schedule.due(topics.TEACHING_STATE, now_ns):
             self._bus.publish(topics.TEACHING_STATE, teaching_state(self._workflow, view, self._settings))
 
     def _page_view(self, now_ns: int, view: View) -> PageView:

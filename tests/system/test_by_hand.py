@@ -93,11 +93,15 @@ def test_one_correction_by_keyboard_is_learnt(tmp_path, page):
         up.until(lambda: witness.teaching, START_S, "the station is there")
         page.goto(f"http://{station.host}:{station.port}/")
 
+        eventually(lambda: decides(page, witness, 0), EPISODE_S, up.tail)
+        page.locator("[data-action=execute]").click()
         eventually(lambda: decides(page, witness, 1), EPISODE_S, up.tail)
         assert witness.teaching.attempts[0].verdict.collision
         page.locator("[data-action=refine]").click()
         person = Person(page, witness)
-        eventually(lambda: person.correct() or decides(page, witness, 3), 2 * EPISODE_S, up.tail)
+        eventually(lambda: person.correct() or decides(page, witness, 2), EPISODE_S, up.tail)
+        page.locator("[data-action=execute]").click()
+        eventually(lambda: decides(page, witness, 3), EPISODE_S, up.tail)
 
         _, refined, last = witness.teaching.attempts
         assert refined.operator_input

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
 from protocol.keys import PUSH_KEYS, TURN_KEYS, Way
-from protocol.messages import Figure, Phase, RobotState, Vector3
+from protocol.messages import Figure, OperatorInput, Phase, RobotState, Vector3
 from services.master.devices.device import ZERO, Moment, Sample
 from services.process.config import Keyboard
 
@@ -107,8 +107,8 @@ class KeyboardMaster:
         if robot is None or operator is None or not operator.focused:
             return self._let_go(moment.dt)
         if not self._engaged or robot.phase is not Phase.EXECUTE:
-            return self._follow(robot)
-        self._neutral = self._neutral or not any(key in PUSH_KEYS or key in TURN_KEYS for key in operator.keys)
+            return self._follow(robot, operator)
+        self._neutral = self._neutral or _is_neutral(operator)
         keys = operator.keys if self._neutral else ()
         before = self._push.value
         self._push.hold(keys, moment.dt)
@@ -122,12 +122,12 @@ class KeyboardMaster:
     def close(self) -> None:
         """There is no hardware to let go of."""
 
-    def _follow(self, robot: RobotState) -> Sample:
+    def _follow(self, robot: RobotState, operator: OperatorInput) -> Sample:
         """Stand where the correction is that the robot applies, whatever is held."""
         x, y, z = robot.offset
         self._push.take_over((x / robot.master_gain, y / robot.master_gain, z / robot.master_gain))
         self._turn.take_over(robot.turn)
-        self._engaged, self._neutral = True, False
+        self._engaged, self._neutral = True, _is_neutral(operator)
         return self._sample(self._push.value, 0.0)
 
     def _let_go(self, dt: float) -> Sample:
@@ -140,6 +140,10 @@ class KeyboardMaster:
     def _sample(self, before: Vector3, dt: float) -> Sample:
         velocity = _velocity(before, self._push.value, dt)
         return Sample(self._push.value, velocity, self._turn.value, engaged=self._engaged)
+
+
+def _is_neutral(operator: OperatorInput) -> bool:
+    return not any(key in PUSH_KEYS or key in TURN_KEYS for key in operator.keys)
 
 
 def _velocity(before: Vector3, after: Vector3, dt: float) -> Vector3:

@@ -34,9 +34,11 @@ BUTTONS = (
     Button("refine", "Refine", "you correct it", "pen"),
     Button("go_on", "Go on", "with this motion", "next"),
     Button("finish", "Finish", "Space", "flag"),
+    Button("teach", "Teach this", "what you finished", "check"),
     Button("next", "Next object", "a new place", "place"),
     Button("undo", "Undo", "the last update", "undo"),
     Button("end", "End", "this run", "end"),
+    Button("ask", "Ask", "for the authority", "hand"),
     Button("take_over", "Take over", "the authority", "hand"),
 )
 

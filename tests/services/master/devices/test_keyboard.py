@@ -180,6 +180,14 @@ def test_a_key_that_is_held_on_the_way_to_the_start_counts_only_once_all_were_le
     assert (moved.displacement, moved.rotation) != ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
+@pytest.mark.parametrize("phase", [Phase.RAMP, Phase.HOLD])
+def test_a_key_that_is_pressed_just_when_the_robot_executes_counts(phase):
+    master = seated()
+    hold(master, 0.5, "KeyQ", robot=in_phase(phase))
+    hold(master, 0.01, robot=in_phase(phase))
+    assert hold(master, 0.5, "KeyQ").displacement == pytest.approx((0.06, 0.0, 0.0))
+
+
 def test_after_an_absence_a_held_key_counts_once_all_were_let_go():
     master = seated()
     hold(master, 0.5, "KeyQ", focused=False)
