@@ -212,9 +212,7 @@ class Control:
         return Phase.STOPPED if self.latch.latched else tick.phase
 
     def _hold_reason(self, now_ns: int, sample: Received[MasterState] | None) -> str:
-        """Why a running episode may not go on in this period; empty where it may."""
-        if self.arm.episode is None:
-            return ""
+        """Why a motion may not go on in this period; empty where it may."""
         cause = self._watchdog.presence(self.lease.holder, self.lease.silence_s(now_ns))
         if self.refining and not cause:
             age_s = sample.age_s(now_ns) if sample is not None else None

@@ -21,6 +21,7 @@ REFERENCE_TURN_SPEED = 1.5  # [rad/s] that it turns at most: at twice as much th
 DISPLACEMENT_REACH = 0.3  # [m] of the operator's correction
 ROTATION_REACH = 1.0  # [rad] of the operator's correction
 STANDING_SPEED = 0.01  # [rad/s, torso m/s] of the fastest joint, below which the robot stands
+ROUNDING = 1e-9  # by which a limit may be exceeded: less than any joint or gripper shows
 FORCE_STOP = 300.0  # [N] of a touch, above which the arm stops; running into a wall gives half of it
 
 
@@ -97,10 +98,10 @@ class JointLimits:
             Positions at the end of the period, and what was clamped where.
         """
         bounded = np.clip(wanted, self.lower, self.upper)
-        beyond = np.abs(bounded - wanted) > 1e-9
+        beyond = np.abs(bounded - wanted) > ROUNDING
         step = bounded - q
         use = np.abs(step) / (self.speed * period)
-        too_fast = use > 1.0 + 1e-9
+        too_fast = use > 1.0 + ROUNDING
         clamped = [f"position {name}" for name in np.array(self.names)[beyond]]
         clamped += [f"speed {name}" for name in np.array(self.names)[too_fast]]
         return q + step / max(1.0, float(np.max(use))), tuple(clamped)
@@ -109,7 +110,7 @@ class JointLimits:
 def clamp_length(vector: Array, longest: float) -> tuple[Array, bool]:
     """The vector, shape (3,), shortened to at most `longest`, and whether that was necessary."""
     length = float(np.linalg.norm(vector))
-    if length <= longest * (1.0 + 1e-9):
+    if length <= longest * (1.0 + ROUNDING):
         return vector, False
     return vector * (longest / length), True
 
@@ -118,8 +119,6 @@ def clamp_correction(wanted: Correction) -> tuple[Correction, tuple[str, ...]]:
     """The operator's correction within its reach, and what was clamped."""
     offset, displaced = clamp_length(wanted.offset, DISPLACEMENT_REACH)
     turn, rotated = clamp_length(wanted.turn, ROTATION_REACH)
-    if not (displaced or rotated):
-        return wanted, ()
     return Correction(offset, turn), _named(("displacement", displaced), ("rotation", rotated))
 
 
@@ -142,7 +141,7 @@ def clamp_reference(previous: Pose, wanted: Pose, period: float) -> tuple[Pose, 
 def _clamp_turn(previous: Array, wanted: Array, widest: float) -> tuple[Array, bool]:
     """The wanted orientation, turned from the previous one by at most `widest` [rad], and whether that was less."""
     cosine = abs(float(previous @ wanted))  # of half the angle, whichever signs the two quaternions have
-    if cosine >= math.cos(0.5 * widest * (1.0 + 1e-9)):
+    if cosine >= math.cos(0.5 * widest * (1.0 + ROUNDING)):
         return wanted, False
     return slerp(previous, wanted, np.asarray(widest / (2.0 * math.acos(cosine)))), True
 

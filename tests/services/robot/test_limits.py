@@ -19,6 +19,7 @@ from services.robot import admission, clutch, episode, execution, hold, latch, s
                 "ROTATION_REACH": 1.0,
                 "STANDING_SPEED": 0.01,
                 "FORCE_STOP": 300.0,
+                "ROUNDING": 1e-9,
             },
         ),
         (

@@ -152,6 +152,13 @@ def test_a_touch_that_pushes_harder_than_any_motion_should_stops_the_arm(force, 
     assert safety.too_forceful(force) is stops
 
 
+@pytest.mark.parametrize("times", [0.5, 1.0, 1.0 + 1e-6, 1.5, 2.0, 1e9])
+def test_a_vector_is_shortened_to_its_longest_and_no_further(times):
+    vector, clamped = safety.clamp_length(np.array([0.0, -0.3 * times, 0.0]), 0.3)
+    np.testing.assert_allclose(vector, [0.0, -0.3 * min(times, 1.0), 0.0])
+    assert clamped is (times > 1.0)
+
+
 def test_a_robot_too_close_to_itself_may_only_move_away():
     assert safety.self_collision(distance=0.004, previous=0.006, limit=0.005)
     assert not safety.self_collision(distance=0.004, previous=0.003, limit=0.005)
