@@ -143,6 +143,11 @@ class SceneState(Message, frozen=True, kw_only=True):
     condition: Condition = ()
     condition_region: tuple[Condition, Condition] = ((), ())
 
+    def __post_init__(self) -> None:
+        for low, high in (self.object_region, self.condition_region):
+            if len(low) != len(high) or any(a > b for a, b in zip(low, high, strict=True)):
+                raise ValueError(f"a region cannot reach from {low} to {high}")
+
 
 class Verdict(Message, frozen=True, kw_only=True):
     """The success criteria (thesis, Appendix E), judged now; a collision stays until the next episode.

@@ -103,6 +103,13 @@ def test_an_orientation_must_be_a_unit_quaternion():
         messages.Pose((0.0, 0.0, 0.0), (2.0, 0.0, 0.0, 0.0))
 
 
+@pytest.mark.parametrize("region", [((), (1.0,)), ((0.1,), ()), ((0.1, 0.2), (0.2, 0.1))])
+def test_a_region_reaches_from_its_least_corner_to_its_greatest(region, fill):
+    scene = fill(messages.SceneState)
+    with pytest.raises(ValueError, match="a region cannot reach from"):
+        msgspec.structs.replace(scene, condition_region=region)
+
+
 def test_an_array_must_have_as_many_bytes_as_its_shape_says():
     with pytest.raises(ValueError, match="24 bytes"):
         messages.Array("<f8", (2, 3), b"\0" * 24)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from protocol import queries, topics
+from protocol.codec import decode_reply, encode
 from protocol.messages import AuthorityRenewal, EmergencyStop, MasterState, ModelState, OperatorInput, Phase
 from services.bus.arrays import motion_to_wire
 from services.bus.bus import Failed
@@ -109,6 +110,41 @@ def test_what_is_thrown_away_is_counted_and_named_and_nothing_else_happens(bus, 
         eventually(lambda: getattr(subscription.drops, cause) == 1, WITHIN_S, "it is counted")
     assert subscription.latest() is None
     assert "cmd/master_state" in receiver.faults()[0]
+
+
+@pytest.mark.parametrize(
+    ("robot", "source", "process"),
+    [("robot2", "master", "master"), ("robot1", "master", "master-ann"), ("robot1", "station", "station")],
+    ids=["another robot's", "another process' key", "not its publisher's"],
+)
+def test_a_sample_under_a_key_that_is_not_its_own_is_dropped_and_counted(bus, router, robot, source, process):
+    subscription = bus("robot").subscribe(topics.MASTER_STATE)
+    message = MasterState(robot=robot, topic=topics.MASTER_STATE.name, process=process, sequence=1)
+    with Stranger(router) as stranger:
+        stranger.put(topics.MASTER_STATE.key("robot1", source), encode(topics.MASTER_STATE, message))
+        eventually(lambda: subscription.drops.misplaced == 1, WITHIN_S, "it is counted")
+    assert subscription.latest() is None
+
+
+def test_a_request_of_another_robot_is_refused(bus, router):
+    server = bus("model").serve(queries.UNDO)
+    with Stranger(router) as stranger:
+        (answer,) = stranger.get(queries.UNDO.key("robot1"), b"\x80", "Undo/1 robot2 model/undo")
+    assert "robot 'robot2'" in decode_reply(queries.UNDO, answer).reason
+    assert server.take() == []
+
+
+def test_a_change_that_is_asked_twice_is_made_once(bus):
+    server, asker = bus("model").serve(queries.UNDO), bus("station")
+    request = queries.Undo(request=12345)
+    for _ in range(2):
+        lost = asker.ask(queries.UNDO, request, timeout_s=0.2)
+        assert isinstance(eventually(lost.poll, WITHIN_S, "it is not answered"), Failed)
+    (call,) = server.take()
+    call.reply(queries.Refused("nothing to take back"))
+    again = asker.ask(queries.UNDO, request)
+    assert eventually(again.poll, WITHIN_S, "the kept answer") == queries.Refused("nothing to take back")
+    assert server.take() == []
 
 
 def test_a_question_is_answered_and_a_refusal_is_an_answer(bus):
