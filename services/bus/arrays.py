@@ -11,12 +11,16 @@ from services.process.exceptions import ServiceError
 Floats = NDArray[np.float64]
 
 
+GREATEST = 1e9
+"""As of every other number of a message."""
+
+
 class NotFinite(ServiceError):
-    """An array from the wire holds NaN or infinity."""
+    """An array from the wire holds NaN, infinity, or what is too large to be measured."""
 
     def __init__(self, count: int) -> None:
         self.count = count
-        super().__init__(f"{count} numbers of an array are not finite")
+        super().__init__(f"{count} numbers of an array are not finite or beyond {GREATEST:g}")
 
 
 def to_wire(array: ArrayLike) -> Array:
@@ -29,11 +33,11 @@ def from_wire(array: Array) -> Floats:
     """The array, read-only, as 64-bit floats.
 
     Raises:
-        NotFinite: it holds NaN or infinity.
+        NotFinite: it holds NaN, infinity, or a number beyond `GREATEST`.
     """
     values = np.frombuffer(array.data, dtype=array.dtype).reshape(array.shape).astype(np.float64, copy=False)
     values.flags.writeable = False
-    wrong = int(np.size(values) - np.count_nonzero(np.isfinite(values)))
+    wrong = int(np.size(values) - np.count_nonzero(np.abs(values) <= GREATEST))
     if wrong:
         raise NotFinite(wrong)
     return values

@@ -9,10 +9,10 @@ import rerun as rr
 
 from protocol.messages import CameraImage, Figure, Pose, Recording
 from protocol.topics import (
+    EXECUTION,
     HEAD_IMAGE,
     MASTER_STATE,
     OBJECT_POSE,
-    PREDICTION,
     RECORDING,
     ROBOT_STATE,
     SCENE_STATE,
@@ -23,6 +23,7 @@ from protocol.topics import (
 )
 from services.bus.arrays import NotFinite, from_wire, vector3
 from services.bus.bus import Bus
+from services.bus.predictions import Predictions
 from services.process.clock import Clock
 from services.process.config import Configuration
 from services.process.runner import Service
@@ -92,7 +93,8 @@ class ViewerService:
         self._scene = News(bus.subscribe(SCENE_STATE), _REPEAT_S)
         self._object = News(bus.subscribe(OBJECT_POSE))
         self._verdict = News(bus.subscribe(VERDICT))
-        self._prediction = News(bus.subscribe(PREDICTION), _REPEAT_S)
+        self._predictions = Predictions(bus)
+        self._execution = bus.subscribe(EXECUTION)
         self._trace = Trace()
         self._teaching = News(bus.subscribe(TEACHING_STATE))
         self._images = (News(bus.subscribe(HEAD_IMAGE)), News(bus.subscribe(WRIST_IMAGE)))
@@ -183,9 +185,12 @@ class ViewerService:
             series.log_pose_error(self._run, seen.error)
 
     def _log_motions(self, now_ns: int) -> None:
-        prediction = self._prediction.take(now_ns)
+        # While a motion is under way it is the one to see, whatever was predicted since.
+        execution = self._execution.fresh(now_ns)
+        predictions = self._predictions
+        prediction = predictions.find(execution.prediction) if execution is not None else predictions.newest()
         try:
-            if prediction is not None:
+            if prediction is not None and self._changes.due("prediction", prediction, now_ns):
                 positions = from_wire(prediction.motion.positions)
                 motions.log_prediction(self._run, positions, from_wire(prediction.deviations))
         except NotFinite:

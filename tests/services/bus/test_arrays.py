@@ -21,7 +21,7 @@ def test_what_comes_from_the_wire_is_read_only():
         from_wire(to_wire([1.0]))[0] = 2.0
 
 
-@pytest.mark.parametrize("value", [np.nan, np.inf])
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, 1.001e9, -1e300])
 def test_what_is_no_number_is_refused_with_a_count(value):
     with pytest.raises(NotFinite) as caught:
         from_wire(to_wire([1.0, value, value]))

@@ -43,6 +43,15 @@ def test_the_newest_ones_stay_known_and_no_more():
     assert predictions.motion(identities[-1]) == motion(2.0 * KEPT)
 
 
+def test_the_newest_one_is_known_before_anybody_asks_for_it():
+    model, predictions = heard()
+    assert predictions.newest() is None
+    announce(model, motion(1.0))
+    last = announce(model, motion(2.0))
+    assert predictions.newest().id == last
+    assert predictions.find(last) == predictions.newest()
+
+
 def test_what_has_no_id_is_no_prediction_that_can_be_named():
     model, predictions = heard()
     model.publish(topics.PREDICTION, prediction(motion(1.0), identity=0))
