@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import logging
 import os
@@ -32,7 +33,8 @@ def run_process(process: Process, configuration: Configuration) -> None:
     Raises:
         ServiceError: it cannot start; the message is for the person who started it.
     """
-    os.nice(process.nice)
+    with contextlib.suppress(PermissionError):  # not everybody may go before others
+        os.nice(process.nice)
     leave_on_signals()
     end_within()
     # Loaded before the network is joined: most of a start is this, and the router starts meanwhile.

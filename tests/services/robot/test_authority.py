@@ -133,6 +133,19 @@ def test_the_operator_goes_with_the_authority():
     assert lease.operator == ""
 
 
+def test_a_release_of_what_nobody_holds_says_so():
+    with pytest.raises(Refusal, match="'ann' does not hold the authority: nobody does"):
+        Lease(1.0).release("ann", 0)
+    lease = Lease(1.0)
+    lease.acquire("bob", 0)
+    with pytest.raises(Refusal, match="'ann' does not hold the authority: bob does"):
+        lease.release("ann", 1)
+
+
+def test_the_first_epoch_that_is_given_out_is_above_the_one_to_start_from():
+    assert (Lease(1.0).epoch, Lease(1.0).acquire("ann", 0)) == (0, 1)
+
+
 def test_each_change_raises_the_epoch_by_one():
     lease = Lease(1.0, epoch=41)
     assert lease.acquire("ann", 0) == 42

@@ -2,7 +2,7 @@
 
 import pytest
 
-from protocol import queries
+from protocol import messages, queries
 from protocol.messages import Mode, Phase
 from protocol.queries import Accepted, Adapt, EpisodeStarted, Refused
 from tests.services.predictions import announce
@@ -76,6 +76,19 @@ def test_what_a_reset_does_not_name_stays_as_it_was_put_last(site):
     assert site.ask(queries.RESET, queries.Reset(site.epoch, OBSTACLE, condition=(0.1, -0.2))) == Accepted()
     assert site.ask(queries.RESET, queries.Reset(site.epoch)) == Accepted()
     assert (site.arm.variant, site.arm.condition.tolist()) == (OBSTACLE, [0.1, -0.2])
+
+
+@pytest.mark.parametrize("length", [0.9995, 1.0, 1.0005])
+def test_a_start_takes_an_orientation_as_exact_as_the_wire_has_it(site, length):
+    start = messages.Pose((0.0, 0.05, 0.0), (length, 0.0, 0.0, 0.0))
+    assert site.ask(queries.RESET, queries.Reset(site.epoch, start=start)) == Accepted()
+    assert site.arm.start.orientation.tolist() == [1.0, 0.0, 0.0, 0.0]
+
+
+def test_a_start_that_the_robot_cannot_take_is_refused(site):
+    turned = messages.Pose((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+    refused = site.ask(queries.RESET, queries.Reset(site.epoch, start=turned))
+    assert refused.reason.endswith("the robot does not reach it in that orientation: give another start")
 
 
 def test_only_a_refinement_is_corrected(site):
