@@ -14,6 +14,7 @@ import signal
 import socket
 import threading
 import time
+from dataclasses import dataclass
 from typing import NoReturn
 
 from services.process.exit_codes import Exit
@@ -25,24 +26,42 @@ _STDERR = 2
 _ENDING = {signal.SIGTERM, signal.SIGINT, signal.SIGHUP}
 
 
-def end_within(seconds: float = WITHIN_S) -> None:
+@dataclass
+class Patience:
+    """How long a process that was told to end may take.
+
+    Attributes:
+        seconds: from the signal; at 0 it ends at once, as one does that has nothing to finish yet [s].
+    """
+
+    seconds: float
+
+
+def end_within(seconds: float = WITHIN_S) -> Patience:
     """From now on a signal that ends this process does so within the time, even where something hangs.
 
     Args:
         seconds: from the signal; a process that ends by itself is left alone [s].
+
+    Returns:
+        The time, to be changed when there is more or less to finish.
     """
+    patience = Patience(seconds)
     heard, told = socket.socketpair()
     told.setblocking(False)
     # Written by the signal's handler in C, so that it does not depend on what Python's main thread is doing.
     signal.set_wakeup_fd(told.fileno(), warn_on_full_buffer=False)
-    threading.Thread(target=_guard, args=(heard, told, seconds), name="end", daemon=True).start()
+    threading.Thread(target=_guard, args=(heard, told, patience), name="end", daemon=True).start()
+    return patience
 
 
-def _guard(heard: socket.socket, told: socket.socket, seconds: float) -> None:
+def _guard(heard: socket.socket, told: socket.socket, patience: Patience) -> None:
     with heard, told:
         while not _ENDING.intersection(heard.recv(64)):
             pass
-        time.sleep(seconds)
+        if patience.seconds <= 0.0:
+            os._exit(Exit.DONE)
+        time.sleep(patience.seconds)
         with contextlib.suppress(OSError):
             os.write(_STDERR, b"retouch: did not end in time: ended by force\n")
         os._exit(Exit.CRASHED)

@@ -13,7 +13,7 @@ from services.bus.bus import Bus
 from services.bus.zenoh import connect
 from services.process.clock import Clock, SystemClock
 from services.process.config import Configuration
-from services.process.ending import end_within
+from services.process.ending import WITHIN_S, end_within
 from services.process.exceptions import RoomMissing
 from services.process.processes import Process
 from services.process.runner import Service, leave_on_signals, run, stop_on_signals
@@ -36,7 +36,8 @@ def run_process(process: Process, configuration: Configuration) -> None:
     with contextlib.suppress(PermissionError):  # not everybody may go before others
         os.nice(process.nice)
     leave_on_signals()
-    end_within()
+    # A long import lets no handler run, and nothing is begun yet that would have to be finished.
+    patience = end_within(0.0)
     # Loaded before the network is joined: most of a start is this, and the router starts meanwhile.
     build = _builder(process)
     clock = SystemClock()
@@ -44,6 +45,7 @@ def run_process(process: Process, configuration: Configuration) -> None:
     try:
         service = build(bus, clock, configuration)
         stop = stop_on_signals()
+        patience.seconds = WITHIN_S
         log.info("started on %s", configuration.connect)
         run(service, bus, clock, process.name, stop)
     finally:
