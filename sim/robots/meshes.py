@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-import coal
 import numpy as np
 from numpy.typing import NDArray
 
@@ -44,6 +43,9 @@ def read_mesh(path: Path) -> Triangles:
     Returns:
         Corners of the triangles, shape (n, 3, 3) [m].
     """
+    # Imported here because it takes a fifth of a second, and meshes are converted once a machine.
+    import coal  # noqa: PLC0415
+
     mesh = coal.MeshLoader().load(str(path), np.ones(3))
     vertices = np.asarray(mesh.vertices(), dtype=np.float32)
     corners = [mesh.tri_indices(i) for i in range(mesh.num_tris)]
