@@ -5,11 +5,11 @@ While the arm hides the marker nothing is published: the pose's age says so, a r
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from statistics import median
 
 import cv2
-import numpy as np
 
 from protocol.messages import CameraImage, Figure, ObjectPose, Pose
 from protocol.topics import HEAD_IMAGE, OBJECT_POSE
@@ -24,6 +24,8 @@ from services.process.runner import Service
 from sim.tasks.scene import TAG_ID
 
 RATE_HZ = 30.0
+
+_LARGEST_ERROR = 1e9  # [m] as large as a message's number may be
 
 
 def build(bus: Bus, clock: Clock, configuration: Configuration) -> Service:
@@ -51,7 +53,7 @@ class PerceptionService:
         self._previous: Matrix | None = None
         self._seen = (0, 0)
         self._durations_ns: deque[int] = deque(maxlen=256)
-        self._undecodable = self._without_tag = self._flips = 0
+        self._undecodable = self._without_tag = self._without_pose = self._flips = 0
         self._error = -1.0
 
     @property
@@ -77,6 +79,7 @@ class PerceptionService:
             Figure("pose_error", self._error, "m"),
             Figure("undecodable_pictures", float(self._undecodable), "1"),
             Figure("pictures_without_tag", float(self._without_tag), "1"),
+            Figure("tags_without_pose", float(self._without_pose), "1"),
             Figure("rejected_flips", float(self._flips), "1"),
         )
         self._durations_ns.clear()
@@ -97,6 +100,7 @@ class PerceptionService:
         base_from_camera = placement(image.pose.position, image.pose.orientation)
         choice = choose(candidates(corners, image.intrinsics, base_from_camera), self._previous)
         if choice is None:
+            self._without_pose += 1
             return None
         self._flips += choice.flipped
         self._previous = choice.base_from_object
@@ -105,7 +109,7 @@ class PerceptionService:
     def _publish(self, base_from_object: Matrix, image: CameraImage) -> None:
         position = base_from_object[:3, 3]
         truth = image.object_pose
-        self._error = -1.0 if truth is None else float(np.linalg.norm(position - np.array(truth.position)))
+        self._error = -1.0 if truth is None else min(math.dist(position, truth.position), _LARGEST_ERROR)
         self._bus.publish(
             OBJECT_POSE,
             ObjectPose(

@@ -27,6 +27,8 @@ _TAG_FROM_OBJECT = inverse(placement(TAG_IN_OBJECT.position, TAG_IN_OBJECT.orien
 _ENLARGEMENT = 3
 _MARGIN = 4.0  # [pixel] beside half the marker's size
 
+_FARTHEST = 100.0  # [m] no robot reaches an object there, and no camera sees its marker
+
 # A pose explains the corners where its error is within this ratio of the best one's, or within the corners' noise.
 _AMBIGUOUS_RATIO = 2.0
 _CORNER_NOISE = 0.4  # [pixel]
@@ -133,14 +135,20 @@ def candidates(
     """
     fx, fy, cx, cy = intrinsics
     matrix = np.array([[fx, 0.0, cx], [0.0, fy, cy], [0.0, 0.0, 1.0]])
-    _, rotations, translations, errors = cv2.solvePnPGeneric(
-        _SQUARE, corners, matrix, None, flags=cv2.SOLVEPNP_IPPE_SQUARE
-    )
+    try:
+        _, rotations, translations, errors = cv2.solvePnPGeneric(
+            _SQUARE, corners, matrix, None, flags=cv2.SOLVEPNP_IPPE_SQUARE
+        )
+    except cv2.error:  # a camera that there cannot be
+        return []
     found = []
-    for rotation, translation, error in zip(rotations, translations, np.ravel(errors), strict=True):
+    # For such a camera there may also be more errors than poses.
+    for rotation, translation, error in zip(rotations, translations, np.ravel(errors), strict=False):
         camera_from_tag = assembled(np.asarray(cv2.Rodrigues(rotation)[0], dtype=np.float64), translation)
-        if np.isfinite(camera_from_tag).all():
-            found.append(Candidate(base_from_camera @ camera_from_tag @ _TAG_FROM_OBJECT, float(error)))
+        base_from_object = base_from_camera @ camera_from_tag @ _TAG_FROM_OBJECT
+        # What is not a number is not near either.
+        if np.isfinite(error) and np.all(np.abs(base_from_object) <= _FARTHEST):
+            found.append(Candidate(base_from_object, float(error)))
     return sorted(found, key=lambda candidate: candidate.error)
 
 

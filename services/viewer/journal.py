@@ -1,11 +1,15 @@
-"""What happened, in words: changes of phase, verdict and teaching, once each."""
+"""What happened, in words: changes of phase, verdict and teaching, once each; what flickers, when it settles."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from protocol.messages import Phase, RobotState, TeachingState, Verdict
+
+SETTLED_NS = 500_000_000
+"""What changes sooner is only counted."""
 
 
 class Entry(NamedTuple):
@@ -20,33 +24,58 @@ class Entry(NamedTuple):
     level: str
 
 
+@dataclass
+class _Pending:
+    """What is not said yet, since when it has been so, and how often such a thing passed before it could be said."""
+
+    text: str = ""
+    since_ns: int = 0
+    passed: int = 0
+
+
 class Journal:
     """Remembers what was said, and says what is new."""
 
     def __init__(self) -> None:
         self._said: dict[str, str] = {}
+        self._pending: dict[str, _Pending] = {}
 
-    def robot(self, state: RobotState) -> Iterator[Entry]:
+    def robot(self, state: RobotState, now_ns: int) -> Iterator[Entry]:
         """What is new about the robot."""
         phase = f"robot: {state.phase.value}" + (f", episode {state.episode}" if state.episode else "")
-        level = "ERROR" if state.phase is Phase.STOPPED else "INFO"
-        yield from self._changed("robot", Entry(f"{phase}: {state.hold_reason}" if state.hold_reason else phase, level))
+        if state.phase is Phase.STOPPED:
+            yield from self._changed("robot", Entry(phase, "ERROR"))
+            return
+        text = f"{phase}: {state.hold_reason}" if state.hold_reason else phase
+        yield from self._settled("robot", Entry(text, "INFO"), now_ns)
 
-    def verdict(self, verdict: Verdict) -> Iterator[Entry]:
+    def verdict(self, verdict: Verdict, now_ns: int) -> Iterator[Entry]:
         """What is new about the criteria."""
         collision = f"collision, {verdict.collision_force:.0f} N" if verdict.collision else "no collision"
         yield from self._changed("collision", Entry(collision, "ERROR" if verdict.collision else "INFO"))
         kicked = "object kicked over" if verdict.kicked_over else "object in place"
         yield from self._changed("kicked", Entry(kicked, "ERROR" if verdict.kicked_over else "INFO"))
-        yield from self._changed(
-            "reached", Entry("object reached" if verdict.reached else "object not reached", "INFO")
-        )
+        reached = "object reached" if verdict.reached else "object not reached"
+        yield from self._settled("reached", Entry(reached, "INFO"), now_ns)
 
     def teaching(self, state: TeachingState) -> Iterator[Entry]:
         """What is new about the teaching."""
         yield from self._changed("teaching", Entry(f"{state.phase}: {state.text}", "INFO"))
         if state.reason:
             yield from self._changed("reason", Entry(state.reason, "WARN"))
+
+    def _settled(self, subject: str, entry: Entry, now_ns: int) -> Iterator[Entry]:
+        """The entry where it has been so for a while: a robot that holds for moments would fill the journal."""
+        pending = self._pending.setdefault(subject, _Pending())
+        said = self._said.get(subject)
+        if entry.text != pending.text:
+            pending.passed += pending.text not in ("", said)
+            pending.text, pending.since_ns = entry.text, now_ns
+        if entry.text == said or (said is not None and now_ns - pending.since_ns < SETTLED_NS):
+            return
+        self._said[subject] = entry.text
+        moments, pending.passed = pending.passed, 0
+        yield entry._replace(text=f"{entry.text} (after {moments} changes of a moment)") if moments else entry
 
     def _changed(self, subject: str, entry: Entry) -> Iterator[Entry]:
         if self._said.get(subject) != entry.text:

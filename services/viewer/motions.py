@@ -5,13 +5,24 @@ from __future__ import annotations
 import numpy as np
 import rerun as rr
 
-from services.bus.arrays import Floats
+from protocol.messages import Array
+from services.bus.arrays import Floats, NotFinite, from_wire
 from services.viewer import entities, palette
 from services.viewer.recording import Recording
 
 _ELLIPSOIDS = 24
 _THINNEST = 0.001  # [m]
 _SIGMAS = 2.0
+_FARTHEST = 1e6  # [m] beyond it nothing is a place, and single precision ends somewhere
+
+
+def drawable(array: Array) -> Floats | None:
+    """The array's numbers; None where they are nothing that can be drawn: not finite, or far beyond any robot."""
+    try:
+        values = from_wire(array)
+    except NotFinite:
+        return None
+    return values if np.all(np.abs(values) <= _FARTHEST) else None
 
 
 def log_prediction(recording: Recording, positions: Floats, deviations: Floats | None) -> None:
@@ -24,14 +35,16 @@ def log_prediction(recording: Recording, positions: Floats, deviations: Floats |
     """
     line = rr.LineStrips3D([positions], radii=[0.0035], colors=[palette.PREDICTED])
     recording.log(entities.PREDICTION, line)
-    chosen = np.empty(0, dtype=int)
+    centres = half_sizes = np.empty((0, 3))
     if deviations is not None and deviations.shape == positions.shape:
         chosen = np.unique(np.linspace(0, len(positions) - 1, _ELLIPSOIDS).round().astype(int))
+        centres = positions[chosen]
+        half_sizes = np.maximum(_SIGMAS * deviations[chosen], _THINNEST)
     recording.log(
         entities.UNCERTAINTY,
         rr.Ellipsoids3D(
-            centers=positions[chosen],
-            half_sizes=np.maximum(_SIGMAS * deviations[chosen], _THINNEST) if deviations is not None else [],
+            centers=centres,
+            half_sizes=half_sizes,
             colors=[palette.UNCERTAINTY],
             fill_mode="solid",
         ),

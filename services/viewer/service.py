@@ -21,7 +21,7 @@ from protocol.topics import (
     WORLD_STATE,
     WRIST_IMAGE,
 )
-from services.bus.arrays import NotFinite, from_wire, vector3
+from services.bus.arrays import vector3
 from services.bus.bus import Bus
 from services.bus.predictions import Predictions
 from services.process.clock import Clock
@@ -49,6 +49,9 @@ _REPEAT_S = 1.0
 
 # Numbers over time and the force's arrow: every second step, since nobody sees more and each costs as much as a joint.
 _SERIES_S = 0.06
+
+# The whole way so far is drawn each time.
+_TRACE_S = 0.2
 
 _TEXT_LENGTH = 4096
 
@@ -100,6 +103,7 @@ class ViewerService:
         self._images = (News(bus.subscribe(HEAD_IMAGE)), News(bus.subscribe(WRIST_IMAGE)))
         self._changes = Changes(_REPEAT_S)
         self._pace = Changes(_SERIES_S)
+        self._tracing = Changes(_TRACE_S)
         self._joint_names: tuple[str, ...] = ()
         self._unusable = 0
         run.at(0)
@@ -155,7 +159,7 @@ class ViewerService:
             if self._model is not None:
                 self._model.move(time_s, robot.joint_names, robot.q)
             scene.log_grasp(self._run, robot.measured)
-        self._write(*self._journal.robot(robot))
+        self._write(*self._journal.robot(robot, now_ns))
         if self._pace.due("robot", None, now_ns):
             series.log_joints(self._run, robot.q)
             series.log_correction(self._run, robot.offset, robot.turn)
@@ -189,21 +193,22 @@ class ViewerService:
         execution = self._execution.fresh(now_ns)
         predictions = self._predictions
         prediction = predictions.find(execution.prediction) if execution is not None else predictions.newest()
-        try:
-            if prediction is not None and self._changes.due("prediction", prediction, now_ns):
-                positions = from_wire(prediction.motion.positions)
-                motions.log_prediction(self._run, positions, from_wire(prediction.deviations))
-        except NotFinite:
-            self._unusable += 1
+        if prediction is not None and self._changes.due("prediction", prediction, now_ns):
+            positions = motions.drawable(prediction.motion.positions)
+            deviations = motions.drawable(prediction.deviations)
+            if positions is None or deviations is None:
+                self._unusable += 1
+            else:
+                motions.log_prediction(self._run, positions, deviations)
         refined = self._trace.points
-        if self._changes.due("refined", refined.tobytes(), now_ns):
+        if self._tracing.due("refined", None, now_ns) and self._changes.due("refined", refined.tobytes(), now_ns):
             motions.log_refined(self._run, refined)
 
     def _log_verdict(self, now_ns: int) -> None:
         verdict = self._verdict.take(now_ns)
         if verdict is None:
             return
-        self._write(*self._journal.verdict(verdict))
+        self._write(*self._journal.verdict(verdict, now_ns))
         if self._changes.due("collision", verdict.collision_position, now_ns):
             scene.log_collision(self._run, verdict.collision_position, verdict.collision_force)
         known, thing = self._scene.known, self._object_pose()

@@ -1,11 +1,7 @@
-"""What the viewer says in words, and what it finds worth drawing."""
+"""What the viewer says in words."""
 
 from protocol.messages import Light, Mode, Phase, Pose, RobotState, TeachingState, Verdict
-from protocol.topics import TEACHING_STATE
-from services.bus.memory import MemoryNetwork
-from services.process.clock import ManualClock
 from services.viewer.journal import Journal
-from services.viewer.news import Changes, News
 
 HERE = Pose((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
 SECOND = 1_000_000_000
@@ -15,49 +11,52 @@ def robot(phase, reason=""):
     return RobotState(measured=HERE, reference=HERE, phase=phase, mode=Mode.REFINE, episode=2, hold_reason=reason)
 
 
+def said(journal, *states):
+    """What is said of (time [s], state), each until the next."""
+    return [entry for time_s, state in states for entry in journal.robot(state, round(time_s * SECOND))]
+
+
 def test_a_phase_is_said_once():
-    journal = Journal()
-    said = [list(journal.robot(robot(phase))) for phase in (Phase.RAMP, Phase.RAMP, Phase.EXECUTE)]
-    assert [len(entries) for entries in said] == [1, 0, 1]
-    assert said[2][0].text == "robot: execute, episode 2"
+    ramp, execute = robot(Phase.RAMP), robot(Phase.EXECUTE)
+    entries = said(Journal(), (0.0, ramp), (1.0, ramp), (2.0, execute), (2.5, execute), (3.0, execute))
+    assert [entry.text for entry in entries] == ["robot: ramp, episode 2", "robot: execute, episode 2"]
 
 
-def test_a_hold_is_said_with_its_reason_and_a_stop_as_an_error():
-    journal = Journal()
-    (held,) = journal.robot(robot(Phase.HOLD, "no hand on the master"))
-    (stopped,) = journal.robot(robot(Phase.STOPPED))
+def test_a_hold_is_said_with_its_reason():
+    (held,) = said(Journal(), (0.0, robot(Phase.HOLD, "no hand on the master")))
     assert held.text == "robot: hold, episode 2: no hand on the master"
-    assert stopped.level == "ERROR"
+
+
+def test_holds_of_a_moment_are_counted_and_said_when_the_robot_settles():
+    journal = Journal()
+    said(journal, (0.0, robot(Phase.EXECUTE)))
+    flicker = [(0.2 * i, robot((Phase.HOLD, Phase.EXECUTE)[i % 2])) for i in range(1, 21)]
+    assert said(journal, *flicker) == []
+    entries = said(journal, (4.2, robot(Phase.HOLD)), (4.5, robot(Phase.HOLD)), (4.7, robot(Phase.HOLD)))
+    assert [entry.text for entry in entries] == ["robot: hold, episode 2 (after 9 changes of a moment)"]
+
+
+def test_a_stop_is_said_at_once_and_as_an_error():
+    journal = Journal()
+    said(journal, (0.0, robot(Phase.EXECUTE)))
+    (stopped,) = said(journal, (0.1, robot(Phase.STOPPED)))
+    assert stopped == ("robot: stopped, episode 2", "ERROR")
+
+
+def test_after_a_stop_the_next_phase_is_said_again():
+    journal = Journal()
+    said(journal, (0.0, robot(Phase.EXECUTE)), (0.1, robot(Phase.STOPPED)))
+    entries = said(journal, (1.0, robot(Phase.EXECUTE)), (2.0, robot(Phase.EXECUTE)))
+    assert [entry.text for entry in entries] == ["robot: execute, episode 2"]
 
 
 def test_a_verdict_says_what_changed_only():
     journal = Journal()
-    list(journal.verdict(Verdict(reached=False, kicked_over=False, collision=False)))
-    (entry,) = journal.verdict(Verdict(reached=False, kicked_over=False, collision=True, collision_force=31.4))
+    list(journal.verdict(Verdict(reached=False, kicked_over=False, collision=False), 0))
+    (entry,) = journal.verdict(Verdict(reached=False, kicked_over=False, collision=True, collision_force=31.4), 1)
     assert entry == ("collision, 31 N", "ERROR")
 
 
 def test_teaching_is_said_in_its_own_words():
     (entry,) = Journal().teaching(TeachingState(phase="watch", text="watch the robot", light=Light.RED))
     assert entry.text == "watch: watch the robot"
-
-
-def test_a_message_is_news_once_and_again_after_the_repeat():
-    network = MemoryNetwork(ManualClock())
-    bus = network.bus()
-    news = News(bus.subscribe(TEACHING_STATE), repeat_s=1.0)
-    bus.publish(TEACHING_STATE, TeachingState(phase="watch", text="", light=Light.RED))
-    taken = [news.take(round(t * SECOND)) is not None for t in (0.0, 0.5, 1.1, 1.2)]
-    assert taken == [True, False, True, False]
-
-
-def test_a_value_is_due_when_it_changed_or_stayed_long():
-    changes = Changes(repeat_s=1.0)
-    times = ((1, 0.0), (1, 0.5), (2, 0.6), (2, 1.5), (2, 1.7))
-    assert [changes.due("a", value, round(t * SECOND)) for value, t in times] == [True, False, True, False, True]
-
-
-def test_subjects_do_not_know_each_other():
-    changes = Changes(repeat_s=1.0)
-    assert changes.due("a", 1, 0)
-    assert changes.due("b", 1, 0)
