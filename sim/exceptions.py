@@ -90,11 +90,13 @@ class DescriptionInvalid(SimError):
 class DrawingLibraryMissing(SimError):
     """No library that draws without a display could be loaded."""
 
-    def __init__(self, reason: str) -> None:
+    def __init__(self, reason: str, variables: Sequence[str] = ()) -> None:
         self.reason = reason
-        super().__init__(
-            f"cannot draw without a display ({reason}): apt install libegl1 libgl1, or apt install libosmesa6"
-        )
+        self.variables = tuple(variables)
+        remedy = "apt install libegl1 libgl1, or apt install libosmesa6"
+        if variables:
+            remedy = f"unset {', '.join(variables)}, or {remedy}"
+        super().__init__(f"cannot draw without a display ({reason}): {remedy}")
 
 
 def _point(values: Sequence[float]) -> str:

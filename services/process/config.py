@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import codecs
+import re
 from pathlib import Path
 from typing import Annotated
 
@@ -10,6 +12,11 @@ import msgspec
 from protocol.queries import Adapt
 from services.bus import endpoint
 from services.process.exceptions import BadEndpoint, ConfigurationError
+
+LARGEST = 1 << 20
+"""Of a configuration file [byte]; more is some other file."""
+
+_BYTE = re.compile(r"\(byte (\d+)\)")
 
 Port = Annotated[int, msgspec.Meta(ge=1, le=65535)]
 Positive = Annotated[float, msgspec.Meta(gt=0.0)]
@@ -188,22 +195,48 @@ class Configuration(_Section, frozen=True):
 
 
 def load(path: Path) -> Configuration:
-    """Read a configuration file: TOML, or JSON where its name ends so.
+    """Read a configuration file: TOML, or JSON where its name ends so; in UTF-8 or UTF-16, whoever wrote it.
 
     Raises:
         ConfigurationError: it is not there, cannot be parsed, or has a wrong key, type or value; says which.
     """
+    text = _text(path)
     try:
-        content = path.read_bytes()
         if path.suffix == ".json":
-            return msgspec.json.decode(content, type=Configuration)
-        return msgspec.toml.decode(content, type=Configuration)
-    except OSError as error:
-        raise ConfigurationError(path, error.strerror or str(error)) from None
+            return msgspec.json.decode(text, type=Configuration)
+        return msgspec.toml.decode(text, type=Configuration)
     except BadEndpoint as error:
         raise ConfigurationError(path, str(error)) from None
-    except (msgspec.DecodeError, UnicodeDecodeError) as error:
-        raise ConfigurationError(path, str(error).replace("Object contains unknown field", "unknown key")) from None
+    except RecursionError:
+        raise ConfigurationError(path, "it is nested too deeply for a configuration") from None
+    except msgspec.DecodeError as error:
+        reason = str(error).replace("Object contains unknown field", "unknown key")
+        raise ConfigurationError(path, _BYTE.sub(lambda m: _place(text, int(m[1])), reason)) from None
+
+
+def _text(path: Path) -> str:
+    """The file's text, its lines ended as everywhere."""
+    try:
+        if path.exists() and not path.is_file():
+            raise ConfigurationError(path, f"it is a {'folder' if path.is_dir() else 'pipe or device'}; name a file")
+        if path.stat().st_size > LARGEST:
+            raise ConfigurationError(path, f"it is larger than {LARGEST >> 20} MiB: no configuration")
+        content = path.read_bytes()
+    except OSError as error:
+        raise ConfigurationError(path, error.strerror or str(error)) from None
+    wide = content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+    try:
+        text = content.decode("utf-16" if wide else "utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        reason = f"line {line} holds a byte (0x{content[error.start]:02x}) that is no UTF-8: save the file as UTF-8"
+        raise ConfigurationError(path, reason) from None
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _place(text: str, byte: int) -> str:
+    """What the JSON parser calls by its byte, by its line, as people do."""
+    return f"(line {text.encode()[:byte].count(10) + 1})"
 
 
 def save(configuration: Configuration, path: Path) -> None:

@@ -1,10 +1,12 @@
 """Drawing a MuJoCo model into an array, without a display.
 
 MuJoCo's own renderer takes its OpenGL library from an environment variable, once, when MuJoCo is
-first imported. Here the library is looked for when something is to be drawn: EGL, then OSMesa.
+first imported. Here the library is looked for when something is to be drawn: EGL, then OSMesa;
+what other projects have put into the environment for theirs is passed over.
 """
 
 import ctypes
+import os
 from types import TracebackType
 from typing import Protocol, Self
 
@@ -17,6 +19,8 @@ from sim.exceptions import DrawingLibraryMissing
 Image = NDArray[np.uint8]
 
 _LIBRARIES = {"egl": ("libEGL.so.1", "libGL.so.1"), "osmesa": ("libOSMesa.so.8",)}
+_OF_DRIVERS = ("EGL_", "__EGL", "GALLIUM_", "LIBGL_", "MESA_", "MUJOCO_EGL_", "PYOPENGL_")
+_PLATFORM = "PYOPENGL_PLATFORM"
 _MAX_GEOMS = 2000
 
 
@@ -94,6 +98,7 @@ def open_graphics(width: int, height: int) -> GraphicsContext:
         DrawingLibraryMissing: Neither can be used.
     """
     library = _available()
+    os.environ[_PLATFORM] = library
     try:
         # Imported here because the import itself loads the library.
         if library == "egl":
@@ -101,9 +106,18 @@ def open_graphics(width: int, height: int) -> GraphicsContext:
         else:
             from mujoco.osmesa import GLContext  # noqa: PLC0415
         context: GraphicsContext = GLContext(width, height)
-    except (ImportError, AttributeError, RuntimeError) as error:
-        raise DrawingLibraryMissing(f"{library}: {str(error).splitlines()[0]}") from error
+    except (ImportError, AttributeError, RuntimeError, ValueError, ctypes.ArgumentError) as error:
+        raise DrawingLibraryMissing(f"{library}: {_reason(error)}", _foreign()) from error
     return context
+
+
+def _reason(error: Exception) -> str:
+    return next(iter(str(error).splitlines()), type(error).__name__)
+
+
+def _foreign() -> list[str]:
+    """Variables that are set and change which driver the library takes."""
+    return sorted(name for name in os.environ if name.startswith(_OF_DRIVERS) and name != _PLATFORM)
 
 
 def _available() -> str:

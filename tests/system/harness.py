@@ -88,9 +88,10 @@ class Command:
         arguments: of the command.
         folder: where it runs and where its output is kept.
         environment: variables to set besides.
+        shell: redirections of its streams, as bash writes them.
     """
 
-    def __init__(self, *arguments, folder, environment=None):
+    def __init__(self, *arguments, folder, environment=None, shell=""):
         self.mark = secrets.token_hex(8)
         self._out = folder / f"{self.mark}.out"
         self._err = folder / f"{self.mark}.err"
@@ -102,13 +103,15 @@ class Command:
             **(environment or {}),
         }
         with self._out.open("wb") as out, self._err.open("wb") as err:
+            command = [str(Path(sys.executable).with_name("retouch")), *map(str, arguments)]
             self.process = subprocess.Popen(
-                [Path(sys.executable).with_name("retouch"), *map(str, arguments)],
+                ["bash", "-c", f'exec "$@" {shell}', "bash", *command] if shell else command,
                 cwd=folder,
                 env=environment,
                 stdin=subprocess.DEVNULL,
                 stdout=out,
                 stderr=err,
+                start_new_session=True,
             )
 
     def __enter__(self):

@@ -5,6 +5,7 @@ from contextlib import ExitStack
 
 import pytest
 
+from services.process.exit_codes import Exit
 from tests.system.harness import Command, Witness, configured, free_endpoint
 
 pytestmark = [pytest.mark.system, pytest.mark.zenoh]
@@ -13,10 +14,10 @@ WITHIN_S = 60.0
 NOT_A_DATABASE = b"this was a database once" * 100
 
 
-def complaint(*arguments, folder, environment=None):
-    """The only line on standard error of a command that has to fail."""
+def complaint(*arguments, folder, environment=None, code=Exit.BAD_INPUT):
+    """The only line on standard error of a command that has to fail with this code."""
     with Command(*arguments, folder=folder, environment=environment) as command:
-        assert command.ended(WITHIN_S) not in (0, None), command.tail()
+        assert command.ended(WITHIN_S) == code, command.tail()
         assert command.left() == []
     assert "Traceback" not in command.out + command.err
     lines = command.err.splitlines()
@@ -106,8 +107,8 @@ def taken():
 def test_a_routers_port_in_use_is_named(tmp_path, taken):
     endpoint = f"tcp/127.0.0.1:{taken}"
     for line in (
-        complaint("router", "--listen", endpoint, folder=tmp_path),
-        complaint("up", "--headless", "--only", "master", "--listen", endpoint, folder=tmp_path),
+        complaint("router", "--listen", endpoint, folder=tmp_path, code=Exit.ENVIRONMENT),
+        complaint("up", "--headless", "--only", "master", "--listen", endpoint, folder=tmp_path, code=Exit.ENVIRONMENT),
     ):
         assert endpoint in line
         assert "--listen" in line
@@ -121,7 +122,7 @@ def test_a_pages_port_in_use_is_named_with_its_setting(tmp_path, taken, process,
     path = configured(tmp_path, free_endpoint())
     lines = [f"{key} = {taken}" if line.startswith(f"{key} =") else line for line in path.read_text().splitlines()]
     path.write_text("\n".join(lines))
-    line = complaint("up", "--no-browser", "--only", process, "--config", path, folder=tmp_path)
+    line = complaint("up", "--no-browser", "--only", process, "--config", path, folder=tmp_path, code=Exit.ENVIRONMENT)
     assert f"127.0.0.1:{taken}" in line
     assert f"[{section}] {key}" in line
 
@@ -141,7 +142,7 @@ def test_a_corrupt_database_is_named_and_left_as_it_is(tmp_path, router, command
 def test_a_second_robot_of_the_same_name_is_refused(tmp_path, router):
     with Command("robot", "--connect", router, folder=tmp_path), Witness(router) as witness:
         first = witness.next_beats({"robot"}, 30.0)["robot"]
-        line = complaint("robot", "--connect", router, folder=tmp_path)
+        line = complaint("robot", "--connect", router, folder=tmp_path, code=Exit.ENVIRONMENT)
         assert "'robot1'" in line
         assert "--robot" in line
         assert witness.next_beats({"robot"})["robot"].pid == first.pid
@@ -155,7 +156,7 @@ def test_a_network_that_is_not_there_is_named(tmp_path):
             for arguments in (("top", "--once"), ("stop",), ("echo", "**"))
         ]
         for command in commands:
-            assert command.ended(WITHIN_S) == 3, command.tail()
+            assert command.ended(WITHIN_S) == Exit.ENVIRONMENT, command.tail()
             waiting, line = command.err.splitlines()
             assert f"waiting for a router at {endpoint}: connection refused" in waiting
             assert endpoint in line
@@ -173,6 +174,7 @@ def test_a_camera_that_cannot_draw_says_what_to_install(tmp_path, router):
     libraries.mkdir()
     for name in ("libEGL.so.1", "libGL.so.1", "libOSMesa.so.8"):
         (libraries / name).write_text("no library")
-    line = complaint("camera", "--connect", router, folder=tmp_path, environment={"LD_LIBRARY_PATH": str(libraries)})
+    environment = {"LD_LIBRARY_PATH": str(libraries)}
+    line = complaint("camera", "--connect", router, folder=tmp_path, environment=environment, code=Exit.ENVIRONMENT)
     assert "cannot draw without a display" in line
     assert "apt install" in line

@@ -1,12 +1,16 @@
 """Ctrl-C and SIGTERM end everything, soon and cleanly, and what happened so far is told."""
 
 import json
+import os
 import signal
+import subprocess
 import time
 
 import pytest
 
+from services.process.exit_codes import Exit
 from services.process.processes import PROCESS_NAMES
+from services.viewer.web_files import sdk_program
 from tests.system.harness import START_S, Command, Witness, configured, free_endpoint, reachable
 
 pytestmark = [pytest.mark.system, pytest.mark.zenoh]
@@ -46,9 +50,52 @@ def test_a_process_that_stands_alone_ends_with_0(tmp_path, number):
                 assert "Traceback" not in command.err
 
 
-def test_an_interrupted_run_that_should_have_closed_the_loop_has_failed(tmp_path):
+def test_an_interrupted_run_that_should_have_closed_the_loop_says_so(tmp_path):
     arguments = ("--headless", "--once", "--only", "master", "--config", configured(tmp_path, free_endpoint()))
     with Command("up", *arguments, folder=tmp_path) as up:
         up.until(lambda: "master | INFO started" in up.out, START_S, "the master has started")
         up.process.terminate()
-        assert up.ended(10.0) == 1
+        assert up.ended(10.0) == Exit.INTERRUPTED
+
+
+@pytest.mark.sim
+def test_a_terminal_that_is_closed_ends_it_as_sigterm_does_and_the_recording_is_whole(tmp_path):
+    endpoint = free_endpoint()
+    arguments = ("--fresh", "--no-browser", "--json", "out.json", "--config", configured(tmp_path, endpoint))
+    with Command("up", *arguments, folder=tmp_path) as up:
+        with Witness(endpoint) as witness:
+            witness.next_beats(PROCESS_NAMES, START_S)
+        os.killpg(up.process.pid, signal.SIGHUP)
+        assert up.ended(10.0) == Exit.DONE
+        assert up.left() == []
+    report = json.loads((tmp_path / "out.json").read_text())
+    assert report["reason"] == "interrupted"
+    assert not any(report["restarts"].values())
+    verified = subprocess.run(
+        [sdk_program(), "rrd", "verify", report["recording"]], capture_output=True, text=True, timeout=60.0, check=False
+    )
+    assert verified.returncode == 0, verified.stderr
+
+
+@pytest.mark.parametrize("number", [signal.SIGHUP, signal.SIGINT])
+def test_what_a_terminal_sends_to_its_group_reaches_the_supervisor_alone(tmp_path, number):
+    arguments = ("--only", "master", "--no-browser", "--config", configured(tmp_path, free_endpoint()))
+    with Command("up", *arguments, folder=tmp_path) as up:
+        up.until(lambda: "master | INFO started" in up.out, START_S, "the master has started")
+        assert all(os.getpgid(pid) == pid for pid in up.pids().values())
+        os.killpg(up.process.pid, number)
+        assert up.ended(10.0) == Exit.DONE
+    assert "starts again" not in up.out
+
+
+@pytest.mark.parametrize("shell", ["<&- >&- 2>&-", "> >(head -n 1 > first) 2>&1"], ids=["closed", "head"])
+def test_streams_that_nobody_reads_end_nothing(tmp_path, shell):
+    endpoint = free_endpoint()
+    arguments = ("--only", "master", "--no-browser", "--json", "out.json", "--config", configured(tmp_path, endpoint))
+    with Command("up", *arguments, folder=tmp_path, shell=shell) as up, Witness(endpoint) as witness:
+        first = witness.next_beats({"master"}, START_S)["master"]
+        os.kill(first.pid, signal.SIGKILL)  # what is said of it has nowhere to go
+        up.until(lambda: (beat := witness.beats().get("master")) and beat.pid != first.pid, START_S, "it is back")
+        up.process.terminate()
+        assert up.ended(10.0) == Exit.DONE
+    assert json.loads((tmp_path / "out.json").read_text())["restarts"]["master"] == 1

@@ -43,6 +43,49 @@ def test_other_projects_modules_are_not_run(tmp_path, foreign):
     assert "starts again" not in up.out
 
 
+@pytest.mark.parametrize(
+    ("variable", "process"), [("XDG_DATA_HOME", "model"), ("XDG_STATE_HOME", "robot")], ids=["data", "state"]
+)
+@pytest.mark.parametrize("value", ["/dev/null", "relative"])
+@pytest.mark.sim
+def test_a_folder_that_cannot_be_ends_the_run_with_its_name_and_variable(tmp_path, variable, process, value):
+    arguments = ("--headless", "--once", "--only", process, "--config", configured(tmp_path, free_endpoint()))
+    with Command("up", *arguments, folder=tmp_path, environment={variable: value}) as up:
+        assert up.ended(START_S) == Exit.ENVIRONMENT
+    (line,) = up.err.splitlines()
+    for word in (process, value, variable):
+        assert word in line
+    assert "starts again" not in up.out
+
+
+def test_a_folder_of_runs_that_cannot_be_is_named_with_its_setting(tmp_path):
+    (tmp_path / "runs").write_text("a file")
+    with Command("up", "--headless", "--only", "master", folder=tmp_path) as up:
+        assert up.ended(START_S) == Exit.ENVIRONMENT
+    (line,) = up.err.splitlines()
+    assert "runs" in line
+    assert "[viewer] folder" in line
+
+
+@pytest.mark.sim
+@pytest.mark.parametrize("cache", [{"XDG_CACHE_HOME": "/dev/null"}, {"XDG_CACHE_HOME": "", "HOME": "/dev/null"}])
+def test_a_cache_that_cannot_be_is_replaced_and_said(tmp_path, router, cache):
+    (tmp_path / "tmp").mkdir()
+    environment = {**cache, "TMPDIR": str(tmp_path / "tmp"), "PYOPENGL_PLATFORM": "osmesa", "MUJOCO_GL": "osmesa"}
+    arguments = ("camera", "--connect", router)
+    with Command(*arguments, folder=tmp_path, environment=environment) as camera, Witness(router) as witness:
+        witness.next_beats({"camera"}, START_S)
+        assert "XDG_CACHE_HOME" in camera.err
+        assert "/dev/null" in camera.err
+
+
+@pytest.mark.sim
+def test_a_driver_that_another_project_chose_is_named(tmp_path, router):
+    with Command("camera", "--connect", router, folder=tmp_path, environment={"GALLIUM_DRIVER": "none"}) as camera:
+        assert camera.ended(START_S) == Exit.ENVIRONMENT
+    assert "unset GALLIUM_DRIVER" in camera.err
+
+
 @pytest.mark.parametrize("encoding", ["ascii", "latin-1"])
 def test_a_terminal_of_another_alphabet_is_no_reason_to_fail(tmp_path, encoding):
     environment = {"LC_ALL": "C", "LANG": "C", "PYTHONIOENCODING": encoding, "TERM": "dumb", "COLUMNS": "20"}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import logging
 import os
 import sys
 import time
@@ -18,7 +19,7 @@ from services.commands.terminal import Terminal
 from services.commands.up.child import Child, Job
 from services.commands.up.network import Page
 from services.commands.up.supervisor import ROUTER, Supervisor
-from services.commands.up.voice import Voice
+from services.commands.up.voice import Spoken, Voice
 from services.process.config import Configuration, save
 from services.process.exceptions import CommandFailed, FolderUnusable
 from services.process.exit_codes import Exit
@@ -103,6 +104,7 @@ def launch(configuration: Configuration, options: Launch) -> int:
         voice = Voice(console, folder / "log.txt", live=console.is_terminal and not options.headless)
     except OSError as error:
         raise FolderUnusable(folder, FOLDER_SETTING, error.strerror or str(error)) from None
+    logging.getLogger().handlers[:] = [Spoken(voice)]
     voice.say("retouch", f"the run's folder is {folder}")
     children = [Child(job, voice.say) for job in _jobs(options, resolved)]
     supervisor = Supervisor(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import queue
 import threading
 from datetime import UTC, datetime
@@ -16,6 +17,22 @@ WAITING = 2000
 
 END_S = 0.5
 """How long the last lines may take."""
+
+
+class Spoken(logging.Handler):
+    """What the supervisor itself logs, said as what its processes log.
+
+    Args:
+        voice: says it.
+    """
+
+    def __init__(self, voice: Voice) -> None:
+        super().__init__()
+        self._voice = voice
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Say it."""
+        self._voice.say("retouch", f"{record.levelname} {record.getMessage()}")
 
 
 class Voice:

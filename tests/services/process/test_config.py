@@ -1,10 +1,12 @@
 """The configuration: defaults that work, and one line for what is wrong, with its place."""
 
+import os
+
 import pytest
 
 from services.cli import parser
 from services.commands.settings import configuration
-from services.process.config import Configuration, Keyboard, Scripted, load, save
+from services.process.config import LARGEST, Configuration, Keyboard, Scripted, load, save
 from services.process.exceptions import ConfigurationError
 from sim.exceptions import UnknownVariant
 from sim.tasks import SCENES
@@ -54,6 +56,49 @@ def test_what_is_wrong_is_named_with_its_place_in_one_line(write, text, said):
         load(path)
     assert said in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-16-le", "utf-16-be"])
+@pytest.mark.parametrize("ending", ["\n", "\r\n", "\r"])
+@pytest.mark.parametrize(("name", "text"), [("c.toml", "# größer\nname = 'k'\n"), ("c.json", '{\n"name": "k"}\n')])
+def test_a_file_is_read_whatever_editor_wrote_it(tmp_path, name, text, ending, encoding):
+    mark = "\ufeff" if encoding in ("utf-16-le", "utf-16-be") else ""
+    (tmp_path / name).write_bytes((mark + text.replace("\n", ending)).encode(encoding))
+    assert load(tmp_path / name).name == "k"
+
+
+def test_a_byte_that_is_no_utf8_is_named_with_its_line(tmp_path):
+    (tmp_path / "c.toml").write_bytes("name = 'k'\n# größer\n".encode("latin-1"))
+    with pytest.raises(ConfigurationError, match=r"line 2.*0xf6.*UTF-8"):
+        load(tmp_path / "c.toml")
+
+
+def test_a_mistake_in_json_is_named_with_its_line(tmp_path):
+    (tmp_path / "c.json").write_text('{\n"name": "k",\n}')
+    with pytest.raises(ConfigurationError, match="line 3"):
+        load(tmp_path / "c.json")
+
+
+@pytest.mark.parametrize(("name", "text"), [("c.toml", "a = " + "[" * 5000), ("c.json", '{"a": ' + "[" * 5000)])
+def test_what_is_nested_without_end_is_one_line(tmp_path, name, text):
+    (tmp_path / name).write_text(text)
+    with pytest.raises(ConfigurationError) as caught:
+        load(tmp_path / name)
+    assert "\n" not in str(caught.value)
+
+
+def test_what_is_no_file_is_not_waited_for(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    for path, word in ((tmp_path, "folder"), (tmp_path / "pipe", "pipe")):
+        with pytest.raises(ConfigurationError, match=word):
+            load(path)
+
+
+def test_what_is_too_large_is_not_read(tmp_path):
+    with (tmp_path / "c.toml").open("wb") as file:
+        file.truncate(LARGEST + 1)
+    with pytest.raises(ConfigurationError, match="larger"):
+        load(tmp_path / "c.toml")
 
 
 def test_a_file_that_is_not_there_is_named(tmp_path):

@@ -1,12 +1,13 @@
 """Whatever becomes of the terminal and the log, nobody who says something waits or fails."""
 
 import contextlib
+import logging
 import os
 
 import pytest
 
 from services.commands.terminal import Terminal
-from services.commands.up.voice import WAITING, Voice
+from services.commands.up.voice import WAITING, Spoken, Voice
 
 MORE_THAN_A_PIPE_HOLDS = 3 * WAITING
 
@@ -32,6 +33,15 @@ def test_a_line_stands_on_the_terminal_and_in_the_log_with_its_name(tmp_path, pi
     voice.close()
     assert os.read(reader, 1000).decode() == "     robot | moves → there, and tells it at length\n"
     assert logged(tmp_path / "log.txt")[0].endswith("robot: moves → there, and tells it at length")
+    os.close(reader)
+
+
+def test_what_the_supervisor_logs_is_said_as_what_its_processes_log(tmp_path, pipe):
+    reader, stream = pipe
+    voice = Voice(Terminal(file=stream, width=80), tmp_path / "log.txt", live=False)
+    Spoken(voice).emit(logging.LogRecord("bus", logging.INFO, "", 0, "waiting for %s", ("a router",), None))
+    voice.close()
+    assert os.read(reader, 1000).decode() == "   retouch | INFO waiting for a router\n"
     os.close(reader)
 
 
