@@ -13,6 +13,10 @@ from services.station.page.view import Picture
 M = TypeVar("M", bound=Message)
 
 
+HEARD_S = 0.3
+"""Age at which the robot's state is not shown as its present one any more, on a busy machine too."""
+
+
 class Ears:
     """What the station subscribes to."""
 
@@ -28,6 +32,11 @@ class Ears:
         self.recording = bus.subscribe(topics.RECORDING)
         self.head = bus.subscribe(topics.HEAD_IMAGE)
         self.wrist = bus.subscribe(topics.WRIST_IMAGE)
+
+
+def young(received: Received[M] | None, now_ns: int) -> M | None:
+    """The message, where it came within `HEARD_S`."""
+    return received.message if received is not None and received.age_s(now_ns) <= HEARD_S else None
 
 
 def message(received: Received[M] | None) -> M | None:

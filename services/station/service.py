@@ -18,7 +18,7 @@ from services.bus.bus import Bus, Pending
 from services.process.clock import Clock
 from services.process.config import Configuration, StationSection
 from services.process.schedule import Schedule
-from services.station.ears import Ears, came_s, message, picture
+from services.station.ears import Ears, came_s, message, picture, young
 from services.station.page.view import PageView
 from services.station.stop import StopButton
 from services.station.workflow.state import Action, Phase, Place, Settings, Workflow
@@ -148,7 +148,7 @@ class StationService:
             present=held.present,
             steering=any(key in PUSH_KEYS or key in TURN_KEYS for key in held.keys),
             stopping=self._stop.unconfirmed,
-            robot=ears.robot.fresh(now_ns),
+            robot=young(ears.robot.latest(), now_ns),
             authority=ears.authority.fresh(now_ns),
             safety=ears.safety.fresh(now_ns),
             verdict=ears.verdict.fresh(now_ns),

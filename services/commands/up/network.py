@@ -70,12 +70,13 @@ class Narrator:
 
     Attributes:
         first_motion_s: from the start to the robot's first motion [s]; negative where it never moved.
-        attempts: every episode of the run by its number; the network tells of the newest only.
+        attempts: every episode of the run, by the station process that told it and its number there: a station tells of
+            its newest only, and one that was restarted counts anew.
     """
 
     def __init__(self, say: Say, started: float) -> None:
         self.first_motion_s = -1.0
-        self.attempts: dict[int, Attempt] = {}
+        self.attempts: dict[tuple[int, int], Attempt] = {}
         self._say = say
         self._started = started
         self._phase = ""
@@ -92,10 +93,10 @@ class Narrator:
             self._phase = teaching.phase
             self._say("teaching", teaching.text)
         for place, attempt in enumerate(teaching.attempts, 1):
-            number = attempt.number or place
-            if number not in self.attempts:
-                self.attempts[number] = attempt
-                self._say("teaching", attempt_line(number, attempt))
+            told = (teaching.publisher, attempt.number or place)
+            if told not in self.attempts:
+                self.attempts[told] = attempt
+                self._say("teaching", attempt_line(len(self.attempts), attempt))
 
 
 class Page:

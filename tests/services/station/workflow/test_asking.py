@@ -51,8 +51,11 @@ def test_a_failure_is_shown_and_the_question_repeated_only_after_a_moment():
     site.step()
     assert "nobody answers" in site.state.notice
     asked = len(site.asked)
-    site.step(now_s=site.now_s + 0.4 * RETRY_S)
+    failed_s = site.now_s
+    site.step(now_s=failed_s + 0.9 * RETRY_S)
     assert len(site.asked) == asked
+    site.step(now_s=failed_s + 1.1 * RETRY_S)
+    assert len(site.asked) == asked + 1
     site.run_to(Phase.EXECUTING)
 
 
@@ -62,6 +65,8 @@ def test_an_answer_to_another_question_is_not_taken():
     site.run_to(Phase.ACQUIRING)
     site.step()
     site.stay(answer=Answer(site.state.question + 100, queries.AuthorityGranted(99, 1.0)))
+    assert site.state.phase is Phase.ACQUIRING
+    site.stay(answer=None)
     assert site.state.phase is Phase.ACQUIRING
     site.sees(answer=Answer(site.state.question, queries.AuthorityGranted(99, 1.0)))
     site.run_to(Phase.LOOKING)

@@ -31,7 +31,13 @@ CLOSED = (
 
 def test_the_loop_has_closed_when_all_three_happened_in_order():
     assert has_closed(CLOSED)
-    assert has_closed((*CLOSED, attempt(Mode.AUTONOMOUS, COLLIDED, 3)))
+
+
+def test_what_has_closed_stays_closed_and_remembers_nothing_else():
+    closure = Closure(closed=True)
+    for one in (attempt(Mode.AUTONOMOUS, COLLIDED, 3), *CLOSED):
+        closure = closure.after(one)
+    assert closure == Closure(closed=True)
 
 
 @pytest.mark.parametrize("failure", [MISSED, COLLIDED, Outcome(reached=True, kicked_over=True, collision=False)])
@@ -55,6 +61,8 @@ def test_whatever_the_first_prediction_failed_by_counts(failure):
         (CLOSED[0], attempt(Mode.REFINE, REACHED, 2, hand=False), CLOSED[2]),
         (CLOSED[0], attempt(Mode.REFINE, MISSED, 2), CLOSED[2]),
         (*CLOSED[:2], attempt(Mode.AUTONOMOUS, MISSED, 3)),
+        (attempt(Mode.REFINE, MISSED, 2), *CLOSED[1:]),
+        (CLOSED[0], attempt(Mode.AUTONOMOUS, REACHED, 2, hand=True), CLOSED[2]),
     ],
     ids=[
         "no attempt before",
@@ -70,6 +78,8 @@ def test_whatever_the_first_prediction_failed_by_counts(failure):
         "a refinement without a hand",
         "a refinement that failed",
         "a failure again",
+        "a refinement failed first",
+        "a hand in a prediction instead",
     ],
 )
 def test_the_loop_has_not_closed_when_a_part_is_missing(attempts):

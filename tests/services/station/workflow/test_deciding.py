@@ -105,13 +105,15 @@ def test_an_undo_that_is_refused_is_said_and_the_operator_asked():
 
 
 def test_the_next_object_is_drawn_anew_and_its_counts_begin_anew():
-    site = Site(BY_HAND, [COLLIDED, MISSED])
+    site = Site(BY_HAND, [COLLIDED, REACHED, MISSED])
     site.press(Action.EXECUTE, Phase.EXECUTING)
+    site.press(Action.REFINE, Phase.LEARNING)
     site.press(Action.REFINE, Phase.EXECUTING)
     site.run_to(Phase.DECIDING)
     assert site.state.refinements == 1
     site.step(Action.NEXT)
     assert (site.state.placed, site.state.refinements, site.state.last) == (None, 0, None)
+    assert site.state.updates == 0
     site.run_to(Phase.EXECUTING)
     assert site.state.mode is Mode.AUTONOMOUS
 

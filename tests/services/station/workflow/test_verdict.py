@@ -10,7 +10,7 @@ from protocol.messages import Mode
 from services.station.workflow.state import Action, Phase
 from services.station.workflow.verdict import ATTEMPTS_KEPT
 from services.station.workflow.words import teaching_state
-from tests.services.station.workflow.site import BY_HAND, COLLIDED, MISSED, REACHED, Site
+from tests.services.station.workflow.site import BY_HAND, COLLIDED, MISSED, REACHED, SCRIPTED, Site, lose_authority
 
 FINISHED = {"completed": False, "reason": "finished by ann at 80%"}
 LEARN = "model/add_demonstration"
@@ -64,6 +64,29 @@ def test_a_success_that_was_offered_and_not_taught_is_dropped_by_the_next_episod
     ended(site, MISSED)
     assert Action.TEACH not in site.state.offered
     assert LEARN not in site.names()
+
+
+def test_a_success_that_was_offered_and_not_taught_is_dropped_by_an_undo():
+    site = ended(refining(), REACHED)
+    site.press(Action.REFINE, Phase.EXECUTING)
+    site.step(Action.FINISH)
+    ended(site, REACHED, **FINISHED)
+    site.step(Action.UNDO)
+    site.run_to(Phase.DECIDING)
+    site.step()
+    assert Action.TEACH not in site.state.offered
+
+
+def test_a_script_teaches_a_success_whose_result_came_while_the_authority_was_lost():
+    site = Site(SCRIPTED, [COLLIDED])
+    site.run_to(Phase.LOOKING)
+    while site.state.mode is not Mode.REFINE or site.state.phase is not Phase.EXECUTING:
+        site.step()
+    lose_authority(site)
+    site.end(REACHED)
+    site.run_to(Phase.LEARNING)
+    site.run_to(Phase.RESETTING)
+    assert site.names().count(LEARN) == 1
 
 
 @pytest.mark.parametrize(
