@@ -89,9 +89,10 @@ class Command:
         folder: where it runs and where its output is kept.
         environment: variables to set besides.
         shell: redirections of its streams, as bash writes them.
+        there: what to put before it so that it runs on another machine.
     """
 
-    def __init__(self, *arguments, folder, environment=None, shell=""):
+    def __init__(self, *arguments, folder, environment=None, shell="", there=()):
         self.mark = secrets.token_hex(8)
         self._out = folder / f"{self.mark}.out"
         self._err = folder / f"{self.mark}.err"
@@ -103,7 +104,7 @@ class Command:
             **(environment or {}),
         }
         with self._out.open("wb") as out, self._err.open("wb") as err:
-            command = [str(Path(sys.executable).with_name("retouch")), *map(str, arguments)]
+            command = [*there, str(Path(sys.executable).with_name("retouch")), *map(str, arguments)]
             self.process = subprocess.Popen(
                 ["bash", "-c", f'exec "$@" {shell}', "bash", *command] if shell else command,
                 cwd=folder,
@@ -309,8 +310,12 @@ class Stranger:
         replies = self._session.get(key, payload=payload, encoding=encoding, timeout=5.0)
         return [reply.ok.payload.to_bytes() for reply in replies if reply.ok is not None]
 
+    def watch(self, key, callback):
+        """Hand what passes on a key expression to the callback, on a thread of Zenoh's."""
+        watch(self._session, key, callback)
+
     def listen(self, key, kept=1000):
         """What passes on a key expression from now on, the newest last."""
         heard: deque[Passing] = deque(maxlen=kept)
-        watch(self._session, key, heard.append)
+        self.watch(key, heard.append)
         return heard
