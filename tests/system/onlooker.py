@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import msgpack
 
-from tests.system.harness import START_S, Stranger, eventually
+from tests.system.harness import START_S, eventually
+from tests.system.stranger import Stranger
 
 STANDING = {"idle", "stopped"}
 """The phases of a robot that nobody asked to move."""

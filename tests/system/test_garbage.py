@@ -17,7 +17,8 @@ from services.bus.outbox import Outbox
 from services.process.clock import SystemClock
 from services.process.processes import PROCESS_NAMES
 from tests.system import garbage
-from tests.system.harness import START_S, Command, Stranger, Witness, configured, eventually, free_endpoint
+from tests.system.harness import START_S, Command, Witness, configured, eventually, free_endpoint
+from tests.system.stranger import Stranger
 
 pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.sim]
 

@@ -10,13 +10,14 @@ import pytest
 
 from protocol import queries, topics
 from protocol.codec import decode_reply, encode
-from protocol.messages import AuthorityRenewal, EmergencyStop, MasterState, ModelState, OperatorInput, Phase
+from protocol.messages import AuthorityRenewal, MasterState, ModelState
 from services.bus.arrays import motion_to_wire
 from services.bus.bus import Failed
 from services.bus.zenoh import connect
 from services.process.clock import SystemClock
 from services.process.exceptions import BusError, NameTaken
-from tests.system.harness import Command, Stranger, Witness, eventually, free_endpoint
+from tests.system.harness import Command, Witness, eventually, free_endpoint
+from tests.system.stranger import Stranger
 
 pytestmark = [pytest.mark.system, pytest.mark.zenoh]
 
@@ -236,46 +237,6 @@ def test_everybody_finds_a_router_that_was_killed_again(tmp_path):
                 connect(endpoint, "robot1", "model", SystemClock())
 
 
-def test_echo_prints_what_strangers_and_newer_versions_send(tmp_path, router):
-    newer = {"engaged": True, "epoch": 7, "colour": "of the next version"}
-    printed = {
-        "cmd/else [?] {temperature: 21.5, unit: 'C'}": (msgpack.packb({"temperature": 21.5, "unit": "C"}), ""),
-        "cmd/else [?] b'\\xc1 no msgpack'": (b"\xc1 no msgpack", ""),
-        "cmd/else [MasterState/2] {engaged: True, epoch: 7, colour: 'of the next version'}": (
-            msgpack.packb(newer),
-            "MasterState/2",
-        ),
-    }
-    with (
-        Command("echo", "retouch/@v1/robot1/cmd/**", "--connect", router, folder=tmp_path) as echo,
-        Stranger(router) as stranger,
-    ):
-        for line, (payload, schema) in printed.items():
-
-            def shown(line=line, payload=payload, schema=schema):
-                stranger.put("retouch/@v1/robot1/cmd/else", payload, schema)
-                return line in echo.out
-
-            echo.until(shown, WITHIN_S, line)
-        echo.process.terminate()
-        assert echo.ended(WITHIN_S) == 0
-    assert echo.err == ""
-
-
-def test_echo_ends_after_as_many_messages_as_asked_for(tmp_path, router):
-    with (
-        Command("echo", "**", "--count", "2", "--connect", router, folder=tmp_path) as echo,
-        Stranger(router) as stranger,
-    ):
-
-        def ended():
-            stranger.put("some/key", msgpack.packb(1))
-            return echo.process.poll() is not None
-
-        eventually(ended, WITHIN_S, "it ends")
-    assert echo.out.count("some/key") == echo.out.count("\n") == 2
-
-
 def test_a_newer_version_of_a_message_with_one_field_more_is_read(bus, router):
     subscription = bus("b").subscribe(topics.MASTER_STATE)
     place = {"robot": "robot1", "topic": topics.MASTER_STATE.name, "process": "master"}
@@ -286,65 +247,3 @@ def test_a_newer_version_of_a_message_with_one_field_more_is_read(bus, router):
         )
         eventually(subscription.latest, WITHIN_S, "it is read")
     assert subscription.latest().message.engaged
-
-
-def test_top_shows_the_live_processes_with_rate_age_latency_and_drops(tmp_path, bus, router):
-    with (
-        Command("model", "--connect", router, folder=tmp_path),
-        Command("master", "--connect", router, folder=tmp_path) as master,
-        Witness(router) as witness,
-        Stranger(router) as stranger,
-    ):
-        witness.next_beats({"model", "master"}, 30.0)
-
-        def dropped():
-            stranger.put(topics.OPERATOR_INPUT.key("robot1", "stranger"), b"\xc1")
-            beat = witness.beats()["master"]
-            return next(t for t in beat.topics if t.topic == topics.OPERATOR_INPUT.name).malformed
-
-        eventually(dropped, WITHIN_S, "a drop is counted")
-        bus("station").publish(topics.OPERATOR_INPUT, OperatorInput())
-        with Command("top", "--once", "--connect", router, folder=tmp_path) as top:
-            assert top.ended(20.0) == 0
-        for heading in ("process", "Hz", "rate", "age", "latency", "drops", "CPU", "late"):
-            assert heading in top.out
-        (row,) = (line for line in top.out.splitlines() if topics.OPERATOR_INPUT.name in line)
-        assert f":{master.process.pid}" in row
-        cells = [cell.strip() for cell in row.strip("│┃ ").split("│")]
-        assert int(cells[-1]) > 0
-        assert cells[-2].endswith("ms")
-        assert cells[-3].endswith("ms")
-        assert re.search(r"robot1\s*│\s*model", top.out)
-
-
-@pytest.mark.sim
-def test_stop_latches_and_release_releases(tmp_path, router):
-    with Command("robot", "--connect", router, folder=tmp_path), Witness(router) as witness:
-        granted = witness.asked(queries.ACQUIRE, queries.AcquireAuthority("witness"), 30.0)
-        with Command("stop", "--operator", "bob", "--connect", router, folder=tmp_path) as stop:
-            assert stop.ended(20.0) == 0, stop.tail()
-        eventually(lambda: witness.safety and witness.safety.emergency_stop, WITHIN_S, "the stop has latched")
-        eventually(lambda: witness.robot.phase is Phase.STOPPED, WITHIN_S, "the robot says so")
-        refused = witness.ask(queries.ACQUIRE, queries.AcquireAuthority("witness"))
-        assert isinstance(refused, queries.Refused)
-        assert "emergency stop" in refused.reason
-        # Not pressing any more is no release.
-        witness.bus.publish(topics.EMERGENCY_STOP, EmergencyStop(pressed=False, by="witness"))
-        witness.next_beats({"robot"})
-        assert witness.safety.emergency_stop
-
-        arguments = ("--release", "--operator", "anna", "--connect", router)
-        with Command("stop", *arguments, folder=tmp_path) as release:
-            assert release.ended(20.0) == 0, release.tail()
-        assert "released by anna; bob had pressed it at 20" in release.err
-        eventually(lambda: witness.safety and not witness.safety.emergency_stop, WITHIN_S, "the stop is released")
-        stale = witness.ask(queries.RESET, queries.Reset(granted.epoch))
-        assert isinstance(stale, queries.Refused), "who held the authority before has to ask for it again"
-        assert witness.asked(queries.ACQUIRE, queries.AcquireAuthority("witness")).epoch > granted.epoch
-
-
-def test_a_robot_that_does_not_confirm_the_stop_is_named(tmp_path, router):
-    with Command("stop", "--timeout", "2", "--robot", "left", "--connect", router, folder=tmp_path) as alone:
-        assert alone.ended(20.0) == 3
-        assert "stop of robot left NOT confirmed yet: it is not heard" in alone.err
-        assert "robot 'left' did not confirm the stop in 2 s" in alone.err
