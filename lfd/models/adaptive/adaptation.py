@@ -15,7 +15,7 @@ from lfd.arrays import Array, frozen
 from lfd.exceptions import NothingToTakeBack
 from lfd.models.adaptive.condensation import condensed
 from lfd.models.adaptive.correction import CorrectionOptions, Corrections, Effect
-from lfd.models.adaptive.regression import Place, Regression, RegressionOptions
+from lfd.models.adaptive.regression import Expectation, Regression, RegressionOptions
 from lfd.models.adaptive.spread import Spread, SpreadPrior, spread_of
 from lfd.models.basis import GaussianBasis
 from lfd.models.distribution import POSITION, MotionDistribution
@@ -128,10 +128,10 @@ class AdaptiveProMP:
     def predict(self, situation: Situation, n: int = PREDICTION_POINTS) -> Prediction:
         """See `MovementModel.predict`; the prediction begins exactly at the start pose."""
         self._check(situation.condition)
-        place = self._regression.at(situation.condition)
-        effect = self.corrections.effect(place)
-        trajectory = self.encoding.decode(place.mean + effect.change, situation, n)
-        taught, changed = self._variances(place, effect)
+        expected = self._regression.at(situation.condition)
+        effect = self.corrections.effect(expected)
+        trajectory = self.encoding.decode(expected.mean + effect.change, situation, n)
+        taught, changed = self._variances(expected, effect)
         covariances = taught * self.spread.positions(n)
         duration_variance = taught * self.spread.covariance[-1, -1]
         if changed > 0.0:
@@ -143,14 +143,14 @@ class AdaptiveProMP:
     def distribution(self, situation: Situation) -> MotionDistribution:
         """See `MovementModel.distribution`."""
         self._check(situation.condition)
-        place = self._regression.at(situation.condition)
-        effect = self.corrections.effect(place)
-        taught, changed = self._variances(place, effect)
+        expected = self._regression.at(situation.condition)
+        effect = self.corrections.effect(expected)
+        taught, changed = self._variances(expected, effect)
         covariance = taught * self.spread.covariance
         if changed > 0.0:
             changes = self.corrections.changes
             covariance = covariance + changed * (changes.T @ changes) / len(changes)
-        mean = frozen(place.mean + effect.change)
+        mean = frozen(expected.mean + effect.change)
         return MotionDistribution(self.encoding, situation, mean, frozen(covariance))
 
     @property
@@ -160,10 +160,10 @@ class AdaptiveProMP:
     def _check(self, s: Array) -> None:
         check_dimension(s, self._regression.conditions.shape[1])
 
-    def _variances(self, place: Place, effect: Effect) -> tuple[float, float]:
+    def _variances(self, expected: Expectation, effect: Effect) -> tuple[float, float]:
         """Of what was taught, in units of the spread, and of what has changed, in units of the changes seen so far."""
         left = effect.open_share
-        taught = left * self._regression.uncertainty(place) + (1.0 - left) * self.options.repeatability
+        taught = left * self._regression.uncertainty(expected) + (1.0 - left) * self.options.repeatability
         return taught, left * self.corrections.surprising_share
 
 

@@ -19,7 +19,7 @@ from scipy.linalg import cho_factor, cho_solve
 from scipy.spatial.distance import cdist
 
 from lfd.arrays import Array
-from lfd.models.adaptive.regression import Place, Regression
+from lfd.models.adaptive.regression import Expectation, Regression
 
 
 @dataclass(frozen=True)
@@ -103,14 +103,14 @@ class Corrections:
     def __len__(self) -> int:
         return len(self.conditions)
 
-    def added(self, place: Place, x: Array) -> Self:
+    def added(self, expected: Expectation, x: Array) -> Self:
         """With a newer correction: at a place the vector is x (D,)."""
-        row, corner = self._open(place), self._open_at(place)
+        row, corner = self._open(expected), self._open_at(expected)
         longer = replace(
             self,
-            conditions=np.vstack([self.conditions, place.s]),
-            changes=np.vstack([self.changes, x - place.mean]),
-            solved=np.vstack([self.solved, place.solved]),
+            conditions=np.vstack([self.conditions, expected.s]),
+            changes=np.vstack([self.changes, x - expected.mean]),
+            solved=np.vstack([self.solved, expected.solved]),
             openness=np.block([[self.openness, row[:, None]], [row[None], np.full((1, 1), corner)]]),
         )
         return longer if len(longer) <= self.options.most else longer.without(int(np.argmax(longer._outdated)))
@@ -151,12 +151,12 @@ class Corrections:
             openness=self.openness[np.ix_(kept, kept)],
         )
 
-    def effect(self, place: Place) -> Effect:
+    def effect(self, expected: Expectation) -> Effect:
         """What the corrections change at a place."""
         if not len(self):
             return Effect(np.zeros(self.changes.shape[1]), 1.0)
-        covariances = self._open(place) + self.surprise * self._wide(place.s[None])[0]
-        before = self._open_at(place) + self.surprise
+        covariances = self._open(expected) + self.surprise * self._wide(expected.s[None])[0]
+        before = self._open_at(expected) + self.surprise
         explained = float(covariances @ cho_solve(self._factor, covariances, check_finite=False))
         return Effect(covariances @ self._gain, min(max(1.0 - explained / before, 0.0), 1.0))
 
@@ -177,16 +177,16 @@ class Corrections:
         """Mean squares of the changes, in the measure's unit squared, shape (J,)."""
         return np.asarray(np.sum((self.changes @ self.regression.measure) ** 2, axis=1), dtype=np.float64)
 
-    def _open(self, place: Place) -> Array:
+    def _open(self, expected: Expectation) -> Array:
         """Part 1 of C between a place and the corrections, shape (J,)."""
-        near = self.regression.kernel(place.s[None], self.conditions)[0] - self.solved @ place.nearness
-        slopes = (self.conditions - self.middle) @ (self.slope_covariance @ (place.s - self.middle))
+        near = self.regression.kernel(expected.s[None], self.conditions)[0] - self.solved @ expected.nearness
+        slopes = (self.conditions - self.middle) @ (self.slope_covariance @ (expected.s - self.middle))
         return np.asarray(self._mean_variance + slopes + self._near_variance * near, dtype=np.float64)
 
-    def _open_at(self, place: Place) -> float:
-        away = place.s - self.middle
+    def _open_at(self, expected: Expectation) -> float:
+        away = expected.s - self.middle
         slope = float(away @ self.slope_covariance @ away)
-        return self._mean_variance + slope + self._near_variance * place.unexplained
+        return self._mean_variance + slope + self._near_variance * expected.unexplained
 
     @cached_property
     def _mean_variance(self) -> float:

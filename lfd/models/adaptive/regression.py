@@ -13,6 +13,7 @@ from scipy.linalg import cho_factor, cho_solve
 from scipy.spatial.distance import cdist
 
 from lfd.arrays import Array
+from lfd.models.adaptive.moments import Moments
 from lfd.motion.alignment import group_by_condition
 
 Groups = list[NDArray[np.intp]]
@@ -43,7 +44,7 @@ class RegressionOptions:
 
 
 @dataclass(frozen=True, eq=False)
-class Place:
+class Expectation:
     """A condition, and what the demonstrations say about it.
 
     Attributes:
@@ -88,11 +89,11 @@ class Regression:
     options: RegressionOptions
     tested_shrinkage: float | None = None
 
-    def at(self, s: Array) -> Place:
+    def at(self, s: Array) -> Expectation:
         """What the demonstrations say about a condition, shape (c,)."""
         nearness = self.kernel(s[None], self.conditions)[0]
         mean = np.asarray(self.trend(s) + nearness @ self._gain, dtype=np.float64)
-        return Place(s, nearness, self.solved(nearness), mean)
+        return Expectation(s, nearness, self.solved(nearness), mean)
 
     def mean(self, s: Array) -> Array:
         """The vector expected at a condition (c,), shape (D,)."""
@@ -116,9 +117,9 @@ class Regression:
         away = s - self._centre[0]
         return float(1.0 / len(self.conditions) + away @ self._slope_variance @ away)
 
-    def uncertainty(self, place: Place) -> float:
+    def uncertainty(self, expected: Expectation) -> float:
         """Variance of a motion at a place relative to the departures from the trend [-]."""
-        return self.options.noise + place.unexplained * (1.0 + self.leverage(place.s))
+        return self.options.noise + expected.unexplained * (1.0 + self.leverage(expected.s))
 
     @cached_property
     def length(self) -> float:
@@ -167,7 +168,7 @@ class Regression:
         known = self.tested_shrinkage is not None and math.isclose(self.tested_shrinkage, shrinkage, abs_tol=1e-9)
         return self if known else replace(self, tested_shrinkage=shrinkage)
 
-    def _unshrunk(self, moments: _Moments, away: Array) -> Array:
+    def _unshrunk(self, moments: Moments, away: Array) -> Array:
         """What a trend without shrinkage adds to its mean at distances (m, c) from the mean condition, shape (m, D)."""
         directions, values = self._directions(moments)
         return np.asarray(away @ directions / values @ directions.T @ moments.cross, dtype=np.float64)
@@ -232,17 +233,17 @@ class Regression:
         return self.vectors - self._centre[1]
 
     @cached_property
-    def _moments(self) -> _Moments:
+    def _moments(self) -> Moments:
         S, X = self._deviations, self._departures
-        return _Moments(len(S), np.zeros(S.shape[1]), np.zeros(X.shape[1]), S.T @ S, S.T @ X)
+        return Moments(len(S), np.zeros(S.shape[1]), np.zeros(X.shape[1]), S.T @ S, S.T @ X)
 
-    def _directions(self, moments: _Moments) -> tuple[Array, Array]:
+    def _directions(self, moments: Moments) -> tuple[Array, Array]:
         """The directions in which conditions differ by more than `same`, shape (c, r), and their scatter (r,)."""
         values, axes = np.linalg.eigh(moments.scatter)
         differs = values > moments.count * (self.options.same * self.extent) ** 2
         return axes[:, differs], values[differs]
 
-    def _ridge(self, moments: _Moments) -> tuple[Array, Array]:
+    def _ridge(self, moments: Moments) -> tuple[Array, Array]:
         """Slope (c, D) of a trend through the mean, and its variance relative to that of a motion (c, c)."""
         q, scatter, count = self.shrinkage, moments.scatter, moments.count
         total, squared = float(np.trace(scatter)), float(np.sum(scatter**2))
@@ -276,37 +277,6 @@ class Regression:
     @cached_property
     def _gain(self) -> Array:
         return self.solved(self.vectors - self.trend(self.conditions))
-
-
-@dataclass(frozen=True, eq=False)
-class _Moments:
-    """Count, means and sums of squares of conditions and vectors about their means.
-
-    Attributes:
-        count: Of the demonstrations.
-        s_mean: Mean condition, shape (c,).
-        mean: Mean vector, shape (D,).
-        scatter: Of the conditions, shape (c, c).
-        cross: Of conditions and vectors, shape (c, D).
-    """
-
-    count: int
-    s_mean: Array
-    mean: Array
-    scatter: Array
-    cross: Array
-
-    def without(self, S: Array, X: Array) -> _Moments:
-        """The same for what is left when conditions (m, c) and vectors (m, D) are taken away, at least one staying."""
-        left = self.count - len(S)
-        s_mean = (self.count * self.s_mean - S.sum(axis=0)) / left
-        mean = (self.count * self.mean - X.sum(axis=0)) / left
-        # Raw sums of the whole less those of the part, moved to the new means.
-        raw_scatter = self.scatter + self.count * np.outer(self.s_mean, self.s_mean) - S.T @ S
-        raw_cross = self.cross + self.count * np.outer(self.s_mean, self.mean) - S.T @ X
-        return _Moments(
-            left, s_mean, mean, raw_scatter - left * np.outer(s_mean, s_mean), raw_cross - left * np.outer(s_mean, mean)
-        )
 
 
 _RANK_TOLERANCE = 1e-12
