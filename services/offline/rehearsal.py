@@ -15,7 +15,7 @@ from protocol.queries import AddDemonstration, Kind, Learnt
 from protocol.topics import EPISODE_RESULT, TEACHING_STATE
 from services.bus.arrays import from_wire, motion_to_wire, vector3
 from services.bus.predictions import Predictions
-from services.offline.pool import Progress, each
+from services.offline.pool import Progress, each, overall
 from services.offline.result import Arrangement, Attempt, Course
 from services.offline.stage import Stage
 from services.process.config import Configuration, MasterSection, ModelSection, RobotSection, Scripted, StationSection
@@ -112,7 +112,7 @@ def rehearse_all(plans: Sequence[Plan], jobs: int, progress: Progress = lambda _
     Raises:
         ServiceError: as `rehearse`.
     """
-    done = dict(each(rehearse, plans, jobs, progress))
+    done = dict(each(rehearse, plans, jobs, overall(len(plans), progress)))
     return [done[number] for number in range(len(plans))]
 
 

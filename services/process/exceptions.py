@@ -3,6 +3,7 @@
 ServiceError
 ├── ConfigurationError       a wrong key, type or value in a configuration file
 ├── CommandFailed            a command ended without what it was started for
+│   └── ProcessDied          a process of the pool that was killed or crashed (services.offline.pool)
 ├── EnvironmentFault         the machine or the network, not what a person wrote; exit code 3
 │   ├── RouterUnreachable    no router answers (a BusError too)
 │   ├── EndpointInUse        another program listens there (a BusError too)

@@ -16,7 +16,7 @@ from lfd.motion.trajectory import Trajectory
 from lfd.store.database import DemonstrationStore, StoredDemonstration
 from services.bus.arrays import vector3
 from services.offline.lessons import steered
-from services.offline.pool import Progress, each
+from services.offline.pool import Progress, each, overall
 from services.offline.rehearsal import Plan, Rehearsal
 from services.offline.result import Arrangement
 from services.offline.rollout import rollout
@@ -67,7 +67,7 @@ def conditions(task: Tried, jobs: int, progress: Progress = lambda _: None) -> l
     parts = max(1, min(jobs, len(task.places)))
     tasks = [Tried(task.scene, task.variant, task.models, task.places[i::parts]) for i in range(parts)]
     found: list[tuple[Trial, ...]] = [()] * len(task.places)
-    for part, trials in each(_carry_out, tasks, parts, progress):
+    for part, trials in each(_carry_out, tasks, parts, overall(parts, progress)):
         found[part::parts] = trials
     return [Condition(place, trials) for place, trials in zip(task.places, found, strict=True)]
 

@@ -1,11 +1,22 @@
 """The same work on every item, here and in processes of its own."""
 
 import os
+import signal
+import time
+from pathlib import Path
 
 import pytest
 
-from services.offline.pool import each
+from services.offline.pool import ProcessDied, each, overall
 from services.process.exceptions import CommandFailed
+
+
+def nested(number, progress):
+    return [half for _, (half, _) in sorted(each(halve, [number, 2 * number], 2))]
+
+
+def die(number, progress):
+    os.kill(os.getpid(), signal.SIGKILL) if number == 1 else time.sleep(0.01)
 
 
 def halve(number, progress):
@@ -18,7 +29,7 @@ def halve(number, progress):
 @pytest.mark.parametrize("jobs", [1, pytest.param(2, marks=pytest.mark.system)])
 def test_every_item_has_its_result_and_the_progress_grows_to_one(jobs):
     shares = []
-    results = dict(each(halve, [2, 4, 6], jobs, shares.append))
+    results = dict(each(halve, [2, 4, 6], jobs, overall(3, shares.append)))
     assert {number: half for number, (half, _) in results.items()} == {0: 1.0, 1: 2.0, 2: 3.0}
     apart = {process for _, process in results.values()} - {os.getpid()}
     assert bool(apart) == (jobs > 1)
@@ -30,3 +41,31 @@ def test_every_item_has_its_result_and_the_progress_grows_to_one(jobs):
 def test_an_error_comes_back_as_itself(jobs):
     with pytest.raises(CommandFailed, match="-3 cannot be halved"):
         list(each(halve, [2, -3, 6], jobs))
+
+
+def test_an_item_is_told_to_begin_and_to_end_even_if_it_says_nothing():
+    told = []
+    list(each(halve, [2, 4], 1, lambda *report: told.append(report)))
+    assert told == [(0, 0.0), (0, 0.5), (0, 1.0), (1, 0.0), (1, 0.5), (1, 1.0)]
+
+
+@pytest.mark.system
+def test_a_process_of_the_pool_starts_no_processes_itself():
+    assert dict(each(nested, [2, 4], 2)) == {0: [1.0, 2.0], 1: [2.0, 4.0]}
+
+
+@pytest.mark.system
+def test_a_killed_process_ends_the_work_in_one_line_and_the_pool_works_again():
+    with pytest.raises(ProcessDied):
+        list(each(die, [0, 1, 2, 3], 2))
+    assert len(list(each(halve, [2, 4], 2))) == 2
+
+
+@pytest.mark.system
+def test_a_closed_iterator_leaves_no_process():
+    results = each(halve, [2] * 50, 2)
+    next(results)
+    results.close()
+    children = Path(f"/proc/{os.getpid()}/task/{os.getpid()}/children").read_text().split()
+    running = [Path(f"/proc/{child}/cmdline").read_bytes() for child in children]
+    assert [line for line in running if b"loky" in line and b"resource_tracker" not in line] == []
