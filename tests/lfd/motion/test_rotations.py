@@ -29,6 +29,14 @@ def test_log_is_the_inverse_of_exp_near_the_identity(size):
     np.testing.assert_allclose(rotations.log_map(rotations.exp_map(r)), r, rtol=1e-6, atol=0.0)
 
 
+@pytest.mark.parametrize("size", [1e-12, 1e-8, 1e-5])
+def test_log_that_keeps_the_sign_is_near_a_full_turn_what_it_is_near_none(size):
+    """Where the rotation vector is about as long as a full turn its direction has no meaning; near none it has."""
+    r = size * np.array([0.6, 0.0, -0.8])
+    back = rotations.exp_map(rotations.log_map(-rotations.exp_map(r), shortest=False))
+    assert rotations.log_map(back) == pytest.approx(r, rel=1e-6)
+
+
 @given(vectors)
 def test_the_vector_of_a_quaternion_and_of_its_negative_is_the_same_and_at_most_pi_long(r):
     q = rotations.exp_map(3.0 * r)
@@ -111,7 +119,9 @@ def test_mean_rotation_ignores_signs_and_is_the_middle_of_a_symmetric_set(rng):
     tangents = rng.normal(scale=0.3, size=(10, 3))
     q = rotations.multiply(centre, rotations.exp_map(np.vstack([tangents, -tangents])))
     signs = rng.choice([-1.0, 1.0], size=(20, 1))
-    assert same_rotation(rotations.mean_rotation(signs * q), centre)
+    mean = rotations.mean_rotation(signs * q)
+    assert same_rotation(mean, centre)
+    assert mean[0] > 0.0
 
 
 def test_sign_continuous_keeps_the_rotations_and_joins_the_signs(rng):
@@ -124,3 +134,20 @@ def test_sign_continuous_keeps_the_rotations_and_joins_the_signs(rng):
 def test_log_along_a_continuous_sequence_passes_pi_without_a_jump():
     r = np.linspace(0.0, 5.0, 40)[:, None] * [0.0, 0.6, 0.8]
     np.testing.assert_allclose(rotations.log_map(rotations.exp_map(r), shortest=False), r, atol=1e-12)
+
+
+@given(st.tuples(*[st.floats(-3.0, 3.0)] * 3).map(np.array))
+def test_the_quaternion_of_a_matrix_has_no_negative_scalar_part(r):
+    q = rotations.exp_map(r)
+    found = rotations.quaternion_from_matrix(rotations.matrix_from_quaternion(q))
+    assert same_rotation(found, q)
+    assert found[0] >= 0.0
+
+
+def test_many_rotations_have_the_matrices_of_each():
+    q = rotations.exp_map(np.array([[0.3, -0.2, 0.5], [1.0, 0.0, 0.0], [0.0, -2.0, 0.4]])).reshape(3, 1, 4)
+    many = rotations.matrix_from_quaternion(q)
+    assert many.shape == (3, 1, 3, 3)
+    for one, matrix in zip(q[:, 0], many[:, 0], strict=True):
+        np.testing.assert_array_equal(matrix, rotations.matrix_from_quaternion(one))
+        np.testing.assert_allclose(matrix, Rotation.from_quat(xyzw(one)).as_matrix(), atol=1e-12)
