@@ -1,9 +1,11 @@
-"""Lines through way-points that do not swing out between them."""
+"""Lines through way-points that do not swing out between them, and how far along them one is."""
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+
+_FINENESS = 50  # points between two way-points by which lengths are measured
 
 
 def through(points: Array, numbers: Array) -> Array:
@@ -28,6 +30,37 @@ def through(points: Array, numbers: Array) -> Array:
         + t * (3.0 * steps[i] - 2.0 * slopes[i] - slopes[i + 1] + t * (slopes[i] + slopes[i + 1] - 2.0 * steps[i]))
     )
     return np.asarray(hermite, dtype=np.float64)
+
+
+def covered_shares(points: Array) -> Array:
+    """The share of its length that a line has covered at each of its points, shape (n,), from 0 to 1.
+
+    Args:
+        points: Shape (n, d); where all are one point the shares are even.
+    """
+    lengths = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    if lengths[-1] == 0.0:
+        return np.linspace(0.0, 1.0, len(points))
+    return np.asarray(lengths / lengths[-1], dtype=np.float64)
+
+
+def numbers_at(points: Array, shares: Array) -> Array:
+    """Which fractional point number of the line `through` points is reached at shares of its length.
+
+    Args:
+        points: Shape (n, d), n at least 2.
+        shares: From 0 to 1, shape (k,).
+
+    Returns:
+        From 0 to n - 1, shape (k,).
+    """
+    fine = np.linspace(0.0, len(points) - 1.0, _FINENESS * (len(points) - 1) + 1)
+    return np.interp(shares, covered_shares(through(points, fine)), fine)
+
+
+def minimum_jerk(time: Array) -> Array:
+    """The share of the way covered by a minimum-jerk movement at each share of its time, both from 0 to 1."""
+    return time**3 * (10.0 + time * (-15.0 + 6.0 * time))
 
 
 def _slopes(steps: Array) -> Array:

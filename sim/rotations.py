@@ -1,4 +1,8 @@
-"""Rotation vectors in base axes that lead from one orientation to another; quaternions are scalar first."""
+"""Rotation vectors in base axes that lead from one orientation to another; quaternions are scalar first.
+
+MuJoCo has the same for one quaternion at a time. A person's plan turns whole motions, and the processes that stand in
+for a person load no physics.
+"""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -42,10 +42,10 @@ def _teach(scene: AnyScene, part: Path, target: Path) -> None:
     del target
     log.info("teaching the first demonstrations of %s in the simulator (once)", scene.name)
     # Imported here: who finds them kept needs no simulator.
-    from services.offline.lessons import lesson  # noqa: PLC0415
+    from services.offline.demonstrations import demonstrations  # noqa: PLC0415
 
     with DemonstrationStore(part) as store:
-        for demonstration in lesson(scene):
+        for demonstration in demonstrations(scene):
             store.add(demonstration, Kind.INITIAL, Binding(scene.name, scene.robot.kind))
 
 

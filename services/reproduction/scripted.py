@@ -7,14 +7,13 @@ from numpy.typing import NDArray
 
 from lfd.motion.demonstration import Demonstration
 from lfd.motion.trajectory import Trajectory
+from services.offline.steering import steered
 from services.robot.verdict import ellipsoid_value
-from sim.person.steering import steer
 from sim.pose import Pose
 from sim.tasks.scene import ReachingScene
 
 Array = NDArray[np.float64]
 
-DURATION = 10.0  # [s] the thesis' time of an autonomous execution
 POINTS = 200
 
 
@@ -37,8 +36,7 @@ def demonstrate(
     """
     begin = None if start is None else Pose(start, scene.start.orientation)
     corridor = scene.corridor(variant or scene.variants[0], object_position, begin)
-    way = steer(corridor, rng, POINTS)
-    return Demonstration.reaching(Trajectory(way.positions, way.orientations, DURATION), object_position)
+    return Demonstration.reaching(steered(corridor, rng, n=POINTS), object_position)
 
 
 def steady_motions(scene: ReachingScene, object_positions: Array) -> list[Demonstration]:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from lfd.motion.demonstration import Demonstration
 from protocol import messages
 from services.bus.arrays import quaternion, vector3
-from services.offline.lessons import demonstrate
+from services.offline.demonstrations import demonstrate
 from services.offline.rehearsal import Plan, Rehearsed, rehearse_all
 from services.offline.result import Arrangement, Course
 from services.reproduction.analysis import Context, Holds, Row

@@ -15,11 +15,11 @@ from lfd.motion.demonstration import Demonstration, Situation
 from lfd.motion.trajectory import Trajectory
 from lfd.store.database import DemonstrationStore, StoredDemonstration
 from services.bus.arrays import vector3
-from services.offline.lessons import steered
 from services.offline.pool import Progress, each, overall
 from services.offline.rehearsal import Plan, Rehearsal
 from services.offline.result import Arrangement
 from services.offline.rollout import rollout
+from services.offline.steering import steered
 from services.robot.arm import Arm
 from services.robot.assembly import simulated_arm
 from services.robot.starts import StartImpossible

@@ -6,14 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.interpolation import through
+from sim.interpolation import covered_shares, numbers_at, through
 from sim.pose import Pose
 from sim.rotations import rotated, rotation_to
 from sim.tasks.scene import Corridor
 
 Array = NDArray[np.float64]
-
-_FINENESS = 20  # points between two way-points by which lengths are measured
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,12 +62,12 @@ def plan(
         known: Ways that the robot may have learnt; `safe` is one of them.
         exaggeration: Of the correction; 1 is natural.
     """
-    covered = _covered(positions)
+    covered = covered_shares(positions)
 
     def departure(way: Corridor) -> float:
-        return float(np.sum((through(way.positions, _numbers(way.positions, covered)) - positions) ** 2))
+        return float(np.sum((through(way.positions, numbers_at(way.positions, covered)) - positions) ** 2))
 
-    numbers = _numbers(min(known, key=departure).positions, covered)
+    numbers = numbers_at(min(known, key=departure).positions, covered)
     turned = through(safe.orientations, numbers)
     turned /= np.linalg.norm(turned, axis=1, keepdims=True)
     return Intention(
@@ -93,20 +91,6 @@ def plan_at_equal_progress(
     """
     wanted = through(safe.positions, np.linspace(0.0, len(safe.positions) - 1.0, len(positions)))
     return Intention(positions, orientations, exaggeration * (wanted - positions), np.zeros_like(positions))
-
-
-def _numbers(way: Array, covered: Array) -> Array:
-    """Which fractional way-point is reached when a share of the way's length is covered."""
-    fine = np.linspace(0.0, len(way) - 1.0, _FINENESS * (len(way) - 1) + 1)
-    return np.interp(covered, _covered(through(way, fine)), fine)
-
-
-def _covered(points: Array) -> Array:
-    """The share of its length that a line has covered at each of its points, shape (n,), from 0 to 1."""
-    lengths = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-    if lengths[-1] == 0.0:
-        return np.linspace(0.0, 1.0, len(points))
-    return np.asarray(lengths / lengths[-1], dtype=np.float64)
 
 
 def _at(points: Array, progress: float) -> Array:

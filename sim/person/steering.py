@@ -5,12 +5,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.interpolation import through
+from sim.interpolation import minimum_jerk, numbers_at, through
 from sim.tasks.scene import Corridor, Freedom
 
 Array = NDArray[np.float64]
 
-_FINENESS = 50  # points between two way-points by which lengths are measured
 _UNSTEADINESS = 0.004  # [m] largest amplitude of one wave of the deviation from the way meant
 _WAVES = 3  # slow waves that the deviation is made of, on each axis
 
@@ -43,23 +42,11 @@ def steer(corridor: Corridor, rng: np.random.Generator | None, n: int = 200, fre
     freedom = freedom or Freedom()
     time = np.linspace(0.0, 1.0, n)
     way = corridor.positions
-    numbers = _numbers(way, minimum_jerk(time)) if freedom.tempo else (len(way) - 1) * time
+    numbers = numbers_at(way, minimum_jerk(time)) if freedom.tempo else (len(way) - 1) * time
     orientations = through(corridor.orientations, numbers)
     orientations /= np.linalg.norm(orientations, axis=1, keepdims=True)
     positions = through(way, numbers)
     return Steered(positions if rng is None else positions + freedom.axes * _deviation(n, rng), orientations)
-
-
-def minimum_jerk(time: Array) -> Array:
-    """The share of the way covered by a minimum-jerk movement at each share of its time, both from 0 to 1."""
-    return time**3 * (10.0 + time * (-15.0 + 6.0 * time))
-
-
-def _numbers(way: Array, covered: Array) -> Array:
-    """Which fractional way-point number is reached when a share of the way's length is covered."""
-    fine = np.linspace(0.0, len(way) - 1.0, _FINENESS * (len(way) - 1) + 1)
-    lengths = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(through(way, fine), axis=0), axis=1))])
-    return np.interp(covered, lengths / lengths[-1], fine)
 
 
 def _deviation(n: int, rng: np.random.Generator) -> Array:

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sim.person.steering import minimum_jerk
+from sim.interpolation import minimum_jerk
 from sim.pose import Pose
 from sim.region import Region
 from sim.robots import robot

@@ -8,10 +8,11 @@ from numpy.typing import NDArray
 from lfd.models.dmp import DMP
 from lfd.motion.demonstration import Demonstration
 from lfd.motion.trajectory import Trajectory
+from services.offline.steering import DURATION_S
 from services.reproduction.analysis import Analysis, Context, Figure, Finding, Holds, Row
 from services.reproduction.functions import rms
 from services.reproduction.models import DEFAULT, THESIS
-from services.reproduction.scripted import DURATION, demonstrate, object_grid, reaches, steady_motions
+from services.reproduction.scripted import demonstrate, object_grid, reaches, steady_motions
 from services.reproduction.style import CONDITIONED, DEMONSTRATION_LINE, TRUE_LINE, Line, drawn, panels
 from sim.tasks.table import TABLE
 
@@ -25,7 +26,7 @@ def reproduced(primitive: DMP, motion: Demonstration, goal: Trajectory) -> Traje
     """The primitive from a motion's own start to the last pose of another trajectory."""
     start, n = motion.trajectory, motion.trajectory.n_points
     return primitive.reproduce(
-        (start.positions[0], start.orientations[0]), (goal.positions[-1], goal.orientations[-1]), DURATION, n
+        (start.positions[0], start.orientations[0]), (goal.positions[-1], goal.orientations[-1]), DURATION_S, n
     )
 
 

@@ -17,11 +17,11 @@ from protocol.messages import Mode
 from services.offline.rehearsal import Plan, rehearse
 from services.offline.result import Arrangement
 from services.offline.rollout import rollout
+from services.offline.steering import DURATION_S
 from services.process.exceptions import CommandFailed
 from services.reproduction import teaching
 from services.reproduction.analysis import Analysis, Context, Figure, Finding, Holds, Row
 from services.reproduction.models import KINDS, Kind
-from services.reproduction.scripted import DURATION
 from services.reproduction.style import DEMONSTRATION_LINE, OBSTACLE, REFINEMENT, Line, drawn, panels
 from services.robot.arm import Arm
 from services.robot.assembly import simulated_arm
@@ -108,7 +108,7 @@ def _refinement(place: Array, demonstrations: tuple[Demonstration, ...], seed: i
     (course,) = rehearse(plan).first
     for attempt in course.attempts:
         if attempt.mode is Mode.REFINE and attempt.success:
-            return Demonstration.reaching(replace(attempt.commanded, duration=DURATION), place)
+            return Demonstration.reaching(replace(attempt.commanded, duration=DURATION_S), place)
     raise CommandFailed(f"no refinement of {course.refinements} succeeded")
 
 
@@ -118,7 +118,7 @@ def _fed(kind: Kind, demonstrations: Sequence[Demonstration], refinement: Demons
     asked = type(situation).reaching(refinement.origin, situation.start_position, situation.start_orientation)
     predictions = []
     while True:
-        predictions.append(replace(model.predict(asked).trajectory, duration=DURATION))
+        predictions.append(replace(model.predict(asked).trajectory, duration=DURATION_S))
         outcome = rollout(arm, predictions[-1], refinement.origin, variant=_VARIANT, to_collision=True)
         if outcome.verdict.success or len(predictions) > _MOST_UPDATES:
             return Way(tuple(predictions), outcome.verdict.success)

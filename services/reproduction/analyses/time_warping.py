@@ -12,9 +12,10 @@ from lfd.motion.demonstration import Demonstration
 from lfd.motion.dtw import dtw
 from lfd.motion.resampling import at_phases, resample
 from lfd.motion.trajectory import Trajectory
+from services.offline.steering import DURATION_S
 from services.reproduction.analysis import Analysis, Context, Figure, Finding, Holds, Row
 from services.reproduction.functions import rms
-from services.reproduction.scripted import DURATION, demonstrate
+from services.reproduction.scripted import demonstrate
 from services.reproduction.style import CONDITIONED, DEMONSTRATION, REFINEMENT, Line, drawn, panels
 from sim.tasks.dishwasher import DISHWASHER
 from sim.tasks.table import TABLE
@@ -88,7 +89,7 @@ def _time_warping(context: Context) -> Finding:
             "Both models align the demonstrations of one condition in the same way. The thesis uses FastDTW, an"
             " approximation; here the warping is exact. It keeps two demonstrations of each condition, the reference"
             " and the one most similar to it; here all are matched to the reference and kept.",
-            f"Two speeds: one way over the table in {DURATION:g} s and, hesitating at first, in {_SLOWER:g} s; both"
+            f"Two speeds: one way over the table in {DURATION_S:g} s and, hesitating at first, in {_SLOWER:g} s; both"
             f" with {_POINTS} points. Three ways: to one object straight, and passing {1e2 * _BULGE:g} cm to either"
             " side, at three paces; that they pass on three ways is what is left. Refinement: the motion round the"
             " basket that was pulled out, stopping short of the prediction's end; what is left is the correction.",
@@ -115,7 +116,7 @@ def _three_ways(rng: np.random.Generator) -> list[Demonstration]:
         motion = demonstrate(DISHWASHER, DISHWASHER.training_positions[0], rng)
         t = motion.trajectory
         bulged = t.positions + np.outer(np.sin(np.pi * t.phases) ** 2, [0.0, side * _BULGE, 0.0])
-        way = _hesitating(replace(t, positions=bulged), exponent, DURATION)
+        way = _hesitating(replace(t, positions=bulged), exponent, DURATION_S)
         ways.append(replace(motion, trajectory=way))
     return ways
 

@@ -12,7 +12,7 @@ from protocol.messages import Mode
 from protocol.queries import Accepted, AuthorityGranted, EpisodeStarted, Refused
 from services.bus.arrays import from_wire, motion_to_wire
 from services.bus.memory import MemoryNetwork
-from services.offline.lessons import lesson
+from services.offline.demonstrations import demonstrations
 from services.offline.rollout import rollout
 from services.process.clock import ManualClock
 from services.process.config import Configuration, RobotSection
@@ -83,7 +83,7 @@ def test_a_stylus_that_is_displaced_otherwise_is_no_input():
 
 
 def test_the_lesson_is_the_thesis_initial_model():
-    (taught,) = lesson(PARTICLE)
+    (taught,) = demonstrations(PARTICLE)
     np.testing.assert_array_equal(taught.condition, [0.0, 0.0])
     np.testing.assert_array_equal(taught.origin, 0.0)
     np.testing.assert_allclose(taught.trajectory.positions[:, 0], np.linspace(0.0, 0.4, 75), atol=2e-3)
@@ -92,7 +92,7 @@ def test_the_lesson_is_the_thesis_initial_model():
 
 
 def test_any_conditions_can_be_demonstrated_in_any_variant():
-    taught = lesson(PARTICLE, OBSTACLE_TRAINING, OBSTACLE)
+    taught = demonstrations(PARTICLE, OBSTACLE_TRAINING, OBSTACLE)
     np.testing.assert_array_equal([d.condition for d in taught], OBSTACLE_TRAINING)
     for demonstration in taught:
         height = np.interp(0.07, *demonstration.trajectory.positions.T[:2])

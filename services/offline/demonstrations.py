@@ -4,29 +4,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lfd.motion.demonstration import Demonstration
-from lfd.motion.resampling import from_samples
 from lfd.motion.trajectory import Trajectory
 from services.offline.rollout import rollout
+from services.offline.steering import steered
 from services.process.exceptions import CommandFailed
 from services.robot.arm import Arm
 from services.robot.assembly import simulated_arm
-from sim.person.steering import steer
 from sim.pose import Pose
 from sim.robots.description import prepare
 from sim.tasks import AnyScene
-from sim.tasks.scene import Corridor, Freedom
 
 Array = NDArray[np.float64]
 
 SEED = 0
-DURATION_S = 10.0
-"""Of a demonstration: the thesis' time of an autonomous execution."""
-
-POINTS = 75
 TRIES = 5
 
 
-def lesson(scene: AnyScene, places: Array | None = None, variant: str | None = None) -> list[Demonstration]:
+def demonstrations(scene: AnyScene, places: Array | None = None, variant: str | None = None) -> list[Demonstration]:
     """A demonstration for each of some places of a scene's target.
 
     Args:
@@ -78,13 +72,6 @@ def demonstrate(
         if outcome.verdict.success:
             return _demonstration(scene, place, outcome.measured)
     raise CommandFailed(f"no motion to a target at {np.round(place, 3).tolist()} succeeded in {TRIES} tries")
-
-
-def steered(corridor: Corridor, rng: np.random.Generator | None, freedom: Freedom) -> Trajectory:
-    """A person's motion through a corridor; with a steady hand where there is no randomness."""
-    way = steer(corridor, rng, freedom=freedom)
-    times = np.linspace(0.0, DURATION_S, len(way.positions))
-    return from_samples(times, way.positions, way.orientations, POINTS)
 
 
 def _demonstration(scene: AnyScene, place: Array, motion: Trajectory) -> Demonstration:

@@ -1,0 +1,28 @@
+"""A person steers through a corridor: the motion that every scripted demonstration begins with."""
+
+import numpy as np
+
+from lfd.motion.resampling import resample
+from lfd.motion.trajectory import Trajectory
+from sim.person.steering import steer
+from sim.tasks.scene import Corridor, Freedom
+
+DURATION_S = 10.0
+"""Of a demonstration: the thesis' time of an autonomous execution."""
+
+POINTS = 75
+
+
+def steered(
+    corridor: Corridor, rng: np.random.Generator | None, freedom: Freedom | None = None, n: int = POINTS
+) -> Trajectory:
+    """A person's motion through a corridor.
+
+    Args:
+        corridor: to steer through.
+        rng: of the person's unsteadiness; None for a steady hand.
+        freedom: of the person; all of it by default.
+        n: points of the motion.
+    """
+    way = steer(corridor, rng, freedom=freedom)
+    return resample(Trajectory(way.positions, way.orientations, DURATION_S), n)
