@@ -18,7 +18,7 @@ _VERSION = "SELECT max(coalesce(max(added), 0), coalesce(max(undone), 0)) FROM d
 _THEN = "added <= ? AND (undone IS NULL OR undone > ?)"
 
 
-class Kind(Enum):
+class Purpose(Enum):
     """What a demonstration is for the model."""
 
     INITIAL = "initial"  # one of those that the model is fitted to
@@ -63,7 +63,7 @@ class StoredDemonstration:
     """
 
     version: int
-    kind: Kind
+    kind: Purpose
     binding: Binding
     demonstration: Demonstration
 
@@ -131,10 +131,10 @@ class DemonstrationStore:
         rows = self._connection.rows(
             f"SELECT kind, count(*) FROM demonstrations WHERE {_THEN} GROUP BY kind", [version] * 2
         )
-        found = {Kind(kind): int(number) for kind, number in rows}
-        return Counts(found.get(Kind.INITIAL, 0), found.get(Kind.UPDATE, 0))
+        found = {Purpose(kind): int(number) for kind, number in rows}
+        return Counts(found.get(Purpose.INITIAL, 0), found.get(Purpose.UPDATE, 0))
 
-    def add(self, demonstration: Demonstration, kind: Kind, binding: Binding, request: int = 0) -> int:
+    def add(self, demonstration: Demonstration, kind: Purpose, binding: Binding, request: int = 0) -> int:
         """Store a demonstration.
 
         Args:
@@ -169,7 +169,7 @@ class DemonstrationStore:
                 self._connection.rows("INSERT INTO arrays VALUES (?, ?, ?, ?, ?)", row)
         return version
 
-    def undo(self, kind: Kind, request: int = 0) -> int:
+    def undo(self, kind: Purpose, request: int = 0) -> int:
         """Take back the newest active demonstration of a kind.
 
         Args:
@@ -202,7 +202,7 @@ class DemonstrationStore:
             "SELECT added, kind, scene, robot, duration FROM demonstrations WHERE undone IS NULL ORDER BY added"
         )
         return [
-            StoredDemonstration(added, Kind(kind), Binding(scene, robot), self._demonstration(added, duration))
+            StoredDemonstration(added, Purpose(kind), Binding(scene, robot), self._demonstration(added, duration))
             for added, kind, scene, robot, duration in rows
         ]
 

@@ -16,7 +16,7 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, Task, TextColumn, TimeRemainingColumn
 
 from lfd.models.model import MovementModel
-from lfd.store.database import DemonstrationStore, Kind, StoredDemonstration
+from lfd.store.database import DemonstrationStore, Purpose, StoredDemonstration
 from services.commands.arguments import add_debug, whole, within
 from services.commands.terminal import Terminal
 from services.model.learning import learn_all
@@ -26,7 +26,7 @@ from services.process.files import write_whole
 from services.reproduction.exceptions import CannotKeep, NothingToMap
 from services.reproduction.models import BY_NAME
 from services.success_map import conditions as success_map
-from services.success_map.conditions import Place, SuccessMap
+from services.success_map.conditions import Setting, SuccessMap
 from services.success_map.figure import figure
 from services.success_map.work import Tried, conditions, corrected_once
 from sim.tasks import REACHING, AnyScene
@@ -205,27 +205,29 @@ def _first(request: Request, scene: ReachingScene, variant: str, console: Consol
     """The scene's first demonstrations, and a correction where one is asked for."""
     demonstrations = first_demonstrations(scene)
     if not request.teach:
-        return [StoredDemonstration(i, Kind.INITIAL, binding_of(scene), one) for i, one in enumerate(demonstrations, 1)]
+        return [
+            StoredDemonstration(i, Purpose.INITIAL, binding_of(scene), one) for i, one in enumerate(demonstrations, 1)
+        ]
     with console.status("the scripted operator corrects"):
         return corrected_once(scene, variant, request.kind, demonstrations, request.seed)
 
 
 def _stages(request: Request, stored: list[StoredDemonstration]) -> tuple[tuple[int, ...], tuple[MovementModel, ...]]:
     """How many corrections the model has learnt at each stage, and the model."""
-    updates = sum(one.kind is Kind.UPDATE for one in stored)
+    updates = sum(one.kind is Purpose.UPDATE for one in stored)
     before = min(1, updates) if request.before is None else request.before
     if before > updates:
         raise NothingToMap(f"--before {before} takes back more than the {updates} updates of {request.database}")
     taken = sorted({updates - before, updates})
-    newest_last = [one for one in stored if one.kind is Kind.UPDATE]
-    initial = [one for one in stored if one.kind is Kind.INITIAL]
+    newest_last = [one for one in stored if one.kind is Purpose.UPDATE]
+    initial = [one for one in stored if one.kind is Purpose.INITIAL]
     models = [learn_all(request.kind, [*initial, *newest_last[:n]]) for n in taken]
     if any(model is None for model in models):
         raise NothingToMap("the model knows no motion before its updates: give a smaller --before")
     return tuple(taken), tuple(model for model in models if model is not None)
 
 
-def _places(request: Request, scene: ReachingScene) -> tuple[Place, ...]:
+def _places(request: Request, scene: ReachingScene) -> tuple[Setting, ...]:
     if request.samples is None:
         return success_map.grid(scene, request.grid, request.spread)
     return success_map.sample(scene, request.samples, request.spread, np.random.default_rng(request.seed))

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from lfd.models.adaptive.adaptation import AdaptiveProMP
 from lfd.models.model import MovementModel
 from lfd.models.promp import ConditionedProMP
-from lfd.store.database import Kind, StoredDemonstration
+from lfd.store.database import Purpose, StoredDemonstration
 
 MODELS: dict[str, type[AdaptiveProMP] | type[ConditionedProMP]] = {
     "adaptive": AdaptiveProMP,
@@ -26,8 +26,8 @@ def learn_all(kind: str, stored: Sequence[StoredDemonstration]) -> MovementModel
     Returns:
         The model; None before the first demonstration.
     """
-    initial = [s.demonstration for s in stored if s.kind is Kind.INITIAL]
-    updates = [s.demonstration for s in stored if s.kind is Kind.UPDATE]
+    initial = [s.demonstration for s in stored if s.kind is Purpose.INITIAL]
+    updates = [s.demonstration for s in stored if s.kind is Purpose.UPDATE]
     if not initial:
         initial, updates = updates[:1], updates[1:]
     if not initial:

@@ -13,7 +13,7 @@ from lfd.models.model import MovementModel
 from lfd.motion.demonstration import Demonstration, Situation
 from lfd.motion.refinement import refine
 from lfd.motion.trajectory import Trajectory
-from lfd.store.database import DemonstrationStore, Kind, StoredDemonstration
+from lfd.store.database import DemonstrationStore, Purpose, StoredDemonstration
 from protocol import messages, queries, topics
 from protocol.queries import AddDemonstration, Learnt, Predict, Predicted, Refused, Undo
 from services.bus.arrays import motion_from_wire, motion_to_wire, to_wire
@@ -143,22 +143,22 @@ class ModelService:
             )
         demonstration = _demonstration(request)
         check_demonstration(self._scene, demonstration)
-        kind = Kind(request.kind.value)
+        kind = Purpose(request.kind.value)
         candidate = self._extended(demonstration, kind)
         self._store.add(demonstration, kind, self._binding, request.request)
         self._model, self._stored = candidate, self._store.active()
         return Learnt(self._state())
 
-    def _extended(self, demonstration: Demonstration, kind: Kind) -> MovementModel | None:
-        if kind is Kind.UPDATE and self._model is not None:
+    def _extended(self, demonstration: Demonstration, kind: Purpose) -> MovementModel | None:
+        if kind is Purpose.UPDATE and self._model is not None:
             return self._model.updated(demonstration)
         version = self._store.version + 1
         return learn_all(self._kind, [*self._stored, StoredDemonstration(version, kind, self._binding, demonstration)])
 
     def _undone(self, request: Undo) -> Learnt | Refused:
-        kind = Kind(request.kind.value)
+        kind = Purpose(request.kind.value)
         if not any(s.kind is kind for s in self._stored):
-            known = "update" if kind is Kind.UPDATE else "first demonstration"
+            known = "update" if kind is Purpose.UPDATE else "first demonstration"
             return Refused(f"there is no {known} to take back")
         self._store.undo(kind, request.request)
         self._stored = self._store.active()

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import sim
 from lfd.motion.demonstration import Demonstration
-from lfd.store.database import Binding, DemonstrationStore, Kind
+from lfd.store.database import Binding, DemonstrationStore, Purpose
 from services import offline, robot
 from sim.cache import kept
 from sim.tasks import AnyScene
@@ -46,7 +46,7 @@ def _teach(scene: AnyScene, part: Path, target: Path) -> None:
 
     with DemonstrationStore(part) as store:
         for demonstration in demonstrations(scene):
-            store.add(demonstration, Kind.INITIAL, Binding(scene.name, scene.robot.kind))
+            store.add(demonstration, Purpose.INITIAL, Binding(scene.name, scene.robot.kind))
 
 
 def _key() -> str:

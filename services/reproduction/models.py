@@ -13,7 +13,7 @@ from services.reproduction.style import ADAPTIVE, CONDITIONED, Line
 
 
 @dataclass(frozen=True)
-class Kind:
+class Contender:
     """One of the two models.
 
     Attributes:
@@ -27,9 +27,9 @@ class Kind:
     fit: Callable[[Sequence[Demonstration]], MovementModel]
 
 
-THESIS = Kind("thesis' method", Line(CONDITIONED, 3.2), ConditionedProMP.fit)
-DEFAULT = Kind("default model", Line(ADAPTIVE, 1.5), AdaptiveProMP.fit)
-KINDS = (THESIS, DEFAULT)
+THESIS = Contender("thesis' method", Line(CONDITIONED, 3.2), ConditionedProMP.fit)
+DEFAULT = Contender("default model", Line(ADAPTIVE, 1.5), AdaptiveProMP.fit)
+CONTENDERS = (THESIS, DEFAULT)
 """In the order of a row's columns, `conditioned` and `adaptive`."""
 
 BY_NAME = {"promp": THESIS, "adaptive": DEFAULT}

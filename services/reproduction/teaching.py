@@ -16,7 +16,7 @@ from services.offline.demonstrations import demonstrate
 from services.offline.rehearsal import Plan, Rehearsed, rehearse_all
 from services.offline.result import Arrangement, Course
 from services.reproduction.analysis import Context, Holds, Row
-from services.reproduction.models import BY_NAME, KINDS
+from services.reproduction.models import BY_NAME, CONTENDERS
 from services.robot.assembly import simulated_arm
 from sim.pose import Pose
 from sim.robots.description import prepare
@@ -25,7 +25,7 @@ from sim.tasks import AnyScene
 Array = NDArray[np.float64]
 
 MODELS = tuple(BY_NAME)
-"""The model process' names of `KINDS`, in their order."""
+"""The model process' names of `CONTENDERS`, in their order."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +49,7 @@ class Question:
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """What came out, for both models in the order of `KINDS`.
+    """What came out, for both models in the order of `CONTENDERS`.
 
     Attributes:
         question: that was asked.
@@ -170,7 +170,7 @@ def rows(answer: Answer, needed_by_thesis: int) -> tuple[Row, ...]:
 def notes(answer: Answer) -> tuple[str, ...]:
     """Which predictions failed and by what, for each model; and the operator's own failures."""
     said = []
-    for kind, rehearsed in zip(KINDS, answer.of_kinds, strict=True):
+    for kind, rehearsed in zip(CONTENDERS, answer.of_kinds, strict=True):
         first = [f"{number}: {_history(course)}" for number, course in enumerate(rehearsed.first, 1)]
         second = [
             f"{number}: {course.attempts[0].failure}"

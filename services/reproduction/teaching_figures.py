@@ -10,7 +10,7 @@ from protocol.messages import Mode
 from services.offline.rehearsal import Rehearsed
 from services.offline.result import Course
 from services.reproduction.analysis import Figure
-from services.reproduction.models import KINDS, Kind
+from services.reproduction.models import CONTENDERS, Contender
 from services.reproduction.scenery import draw_way, furnish, place_object
 from services.reproduction.style import DEMONSTRATION_LINE, REFINEMENT, Line, drawn, panels
 from services.reproduction.teaching import MODELS, Answer
@@ -34,7 +34,7 @@ def first_rounds(answer: Answer, part: Part, titles: Sequence[str], caption: str
         caption: without the model's name.
     """
     figures = []
-    for kind, model, rehearsed in zip(KINDS, MODELS, answer.of_kinds, strict=True):
+    for kind, model, rehearsed in zip(CONTENDERS, MODELS, answer.of_kinds, strict=True):
         height = 2.9 if len(titles) <= _COLUMNS else 3.3
         canvas, panes = panels(titles, height=height, rows=-(-len(titles) // _COLUMNS), solid=True)
         _draw_round(panes, answer.question.scene, part, rehearsed, kind)
@@ -42,7 +42,7 @@ def first_rounds(answer: Answer, part: Part, titles: Sequence[str], caption: str
     return figures
 
 
-def _draw_round(panes: Sequence[Axes], scene: AnyScene, part: Part, rehearsed: Rehearsed, kind: Kind) -> None:
+def _draw_round(panes: Sequence[Axes], scene: AnyScene, part: Part, rehearsed: Rehearsed, kind: Contender) -> None:
     for axes, course in zip(panes, rehearsed.first, strict=True):
         furnish(axes, scene.boxes(course.arrangement.variant), *part)
         place_object(axes, course.arrangement.place.tolist())
@@ -58,8 +58,8 @@ def second_round(answer: Answer, part: Part, caption: str) -> Figure:
         caption: of the figure.
     """
     question = answer.question
-    canvas, panes = panels([kind.label for kind in KINDS], height=3.6, solid=True)
-    for axes, kind, rehearsed in zip(panes, KINDS, answer.of_kinds, strict=True):
+    canvas, panes = panels([kind.label for kind in CONTENDERS], height=3.6, solid=True)
+    for axes, kind, rehearsed in zip(panes, CONTENDERS, answer.of_kinds, strict=True):
         furnish(axes, question.scene.boxes(question.executed[-1].variant), *part)
         for demonstration in answer.demonstrations:
             draw_way(axes, demonstration.trajectory.positions, DEMONSTRATION_LINE, "demonstration")
@@ -69,14 +69,14 @@ def second_round(answer: Answer, part: Part, caption: str) -> Figure:
     return drawn(canvas, "second", caption, raster=True)
 
 
-def prediction_line(kind: Kind, *, success: bool) -> tuple[Line, str]:
+def prediction_line(kind: Contender, *, success: bool) -> tuple[Line, str]:
     """How a prediction is drawn that succeeded, or one that failed, and what it is called."""
     if success:
         return Line(kind.line.color, 1.3), f"{kind.label}: prediction"
     return Line(kind.line.color, 1.3, (0.0, (2.0, 1.5))), f"{kind.label}: prediction that failed"
 
 
-def _draw_course(axes: Axes, course: Course, kind: Kind) -> None:
+def _draw_course(axes: Axes, course: Course, kind: Contender) -> None:
     for attempt in course.attempts:
         if attempt.mode is Mode.REFINE:
             draw_way(axes, attempt.refined.positions, REFINEMENT_LINE, "refinement")

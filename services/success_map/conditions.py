@@ -18,7 +18,7 @@ from sim.tasks.scene import ReachingScene
 Array = NDArray[np.float64]
 
 
-class Outcome(Enum):
+class Ending(Enum):
     """What became of a prediction; the first that holds of those that fail."""
 
     REACHED = "reached"
@@ -28,7 +28,7 @@ class Outcome(Enum):
     UNREACHABLE = "unreachable"
 
 
-class Place(msgspec.Struct, frozen=True):
+class Setting(msgspec.Struct, frozen=True):
     """A condition of a map.
 
     Attributes:
@@ -52,17 +52,17 @@ class Trial(msgspec.Struct, frozen=True):
         touched: the robot's part and the thing that met, where they did.
     """
 
-    outcome: Outcome
+    outcome: Ending
     touched: tuple[str, str] | None = None
 
 
-UNREACHABLE = Trial(Outcome.UNREACHABLE)
+UNREACHABLE = Trial(Ending.UNREACHABLE)
 
 
 class Condition(msgspec.Struct, frozen=True):
     """A place, and what became of the prediction there at each stage of the model."""
 
-    place: Place
+    place: Setting
     trials: tuple[Trial, ...]
 
 
@@ -83,19 +83,19 @@ class SuccessMap(msgspec.Struct, frozen=True):
     corrections: tuple[int, ...]
     conditions: tuple[Condition, ...]
 
-    def count(self, stage: int, outcome: Outcome) -> int:
+    def count(self, stage: int, outcome: Ending) -> int:
         """Conditions with an outcome at a stage."""
         return sum(condition.trials[stage].outcome is outcome for condition in self.conditions)
 
     @property
     def reachable(self) -> int:
         """Conditions at which a motion can succeed."""
-        return len(self.conditions) - self.count(-1, Outcome.UNREACHABLE)
+        return len(self.conditions) - self.count(-1, Ending.UNREACHABLE)
 
     def summary(self) -> str:
         """What came out, in a line."""
         reachable = self.reachable
-        reached = [self.count(stage, Outcome.REACHED) for stage in range(len(self.corrections))]
+        reached = [self.count(stage, Ending.REACHED) for stage in range(len(self.corrections))]
         said = f"{reached[-1]} of {reachable} reachable conditions succeed ({_percent(reached[-1], reachable)})"
         if len(reached) == 1:
             return f"{stage_name(self.corrections[0])}: {said}"
@@ -115,7 +115,7 @@ def stage_name(corrections: int, *, before: bool = False) -> str:
     return f"after {corrections} correction{'' if corrections == 1 else 's'}"
 
 
-def grid(scene: ReachingScene, n: int, spread: float) -> tuple[Place, ...]:
+def grid(scene: ReachingScene, n: int, spread: float) -> tuple[Setting, ...]:
     """About n * n object positions evenly all over a scene's region, each with a start of its own.
 
     The cells are as square as the region allows. The starts fill their cube evenly (a Halton sequence), so that each
@@ -136,7 +136,7 @@ def grid(scene: ReachingScene, n: int, spread: float) -> tuple[Place, ...]:
     return _places(lower + shares * (upper - lower), spread * (2.0 * starts - 1.0))
 
 
-def sample(scene: ReachingScene, n: int, spread: float, rng: np.random.Generator) -> tuple[Place, ...]:
+def sample(scene: ReachingScene, n: int, spread: float, rng: np.random.Generator) -> tuple[Setting, ...]:
     """Random object positions and starts, both even.
 
     Args:
@@ -154,8 +154,8 @@ def _middles(n: int) -> Array:
     return (np.arange(n) + 0.5) / n
 
 
-def _places(objects: Array, offsets: Array) -> tuple[Place, ...]:
-    return tuple(Place(vector3(one), vector3(offset)) for one, offset in zip(objects, offsets, strict=True))
+def _places(objects: Array, offsets: Array) -> tuple[Setting, ...]:
+    return tuple(Setting(vector3(one), vector3(offset)) for one, offset in zip(objects, offsets, strict=True))
 
 
 def _percent(part: int, whole: int) -> str:

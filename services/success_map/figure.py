@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from lfd.motion.rotations import matrix_from_quaternion
 from services.reproduction.analysis import Figure
-from services.reproduction.models import Kind
+from services.reproduction.models import Contender
 from services.reproduction.style import ADAPTIVE, CONDITIONED, OBSTACLE, REFINEMENT, TRUTH, drawn, panels
-from services.success_map.conditions import Condition, Outcome, SuccessMap, stage_name
+from services.success_map.conditions import Condition, Ending, SuccessMap, stage_name
 from sim.tasks.scene import OBJECT_SIZE, Box, Group, ReachingScene
 
 Array = NDArray[np.float64]
@@ -33,11 +33,11 @@ class _Mark:
 
 # The shapes differ too: not everybody sees the colours.
 _MARKS = {
-    Outcome.REACHED: _Mark(REFINEMENT, "o", 13.0),
-    Outcome.COLLISION: _Mark(CONDITIONED, "x", 15.0),
-    Outcome.KICKED_OVER: _Mark(OBSTACLE, "^", 17.0),
-    Outcome.NOT_REACHED: _Mark(ADAPTIVE, "s", 12.0),
-    Outcome.UNREACHABLE: _Mark("#b6bec8", ".", 9.0),
+    Ending.REACHED: _Mark(REFINEMENT, "o", 13.0),
+    Ending.COLLISION: _Mark(CONDITIONED, "x", 15.0),
+    Ending.KICKED_OVER: _Mark(OBSTACLE, "^", 17.0),
+    Ending.NOT_REACHED: _Mark(ADAPTIVE, "s", 12.0),
+    Ending.UNREACHABLE: _Mark("#b6bec8", ".", 9.0),
 }
 
 
@@ -88,7 +88,7 @@ _FROM_THE_SIDE = _View(
 )
 
 
-def figure(scene: ReachingScene, found: SuccessMap, kind: Kind) -> Figure:
+def figure(scene: ReachingScene, found: SuccessMap, kind: Contender) -> Figure:
     """A column for each stage: above it where the object stood, below it where the motion started.
 
     Args:

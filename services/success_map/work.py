@@ -24,7 +24,7 @@ from services.robot.arm import Arm
 from services.robot.assembly import simulated_arm
 from services.robot.starts import StartImpossible
 from services.robot.verdict import Verdict
-from services.success_map.conditions import UNREACHABLE, Condition, Outcome, Place, Trial
+from services.success_map.conditions import UNREACHABLE, Condition, Ending, Setting, Trial
 from sim.robots.description import prepare
 from sim.tasks import REACHING
 from sim.tasks.scene import ReachingScene
@@ -46,7 +46,7 @@ class Tried:
     scene: str
     variant: str
     models: tuple[MovementModel, ...]
-    places: tuple[Place, ...]
+    places: tuple[Setting, ...]
 
 
 def conditions(task: Tried, jobs: int, progress: Progress = lambda _: None) -> list[Condition]:
@@ -117,7 +117,7 @@ def _carry_out(task: Tried, progress: Progress) -> list[tuple[Trial, ...]]:
     return found
 
 
-def _tried(arm: Arm, scene: ReachingScene, task: Tried, place: Place) -> tuple[Trial, ...]:
+def _tried(arm: Arm, scene: ReachingScene, task: Tried, place: Setting) -> tuple[Trial, ...]:
     start, position = place.start(scene), np.array(place.object_position)
     situation = Situation.reaching(position, start.position, start.orientation)
 
@@ -128,14 +128,14 @@ def _tried(arm: Arm, scene: ReachingScene, task: Tried, place: Place) -> tuple[T
         trials = [_trial(verdict(model.predict(situation).trajectory)) for model in task.models]
     except StartImpossible:
         return (UNREACHABLE,) * len(task.models)
-    proven = any(trial.outcome is Outcome.REACHED for trial in trials)
+    proven = any(trial.outcome is Ending.REACHED for trial in trials)
     possible = proven or verdict(steered(scene.corridor(task.variant, position, start), None, scene.freedom)).success
     return tuple(trials) if possible else (UNREACHABLE,) * len(trials)
 
 
 def _trial(verdict: Verdict) -> Trial:
     if verdict.collision is not None:
-        return Trial(Outcome.COLLISION, verdict.collision.between)
+        return Trial(Ending.COLLISION, verdict.collision.between)
     if verdict.kicked_over:
-        return Trial(Outcome.KICKED_OVER)
-    return Trial(Outcome.REACHED if verdict.reached else Outcome.NOT_REACHED)
+        return Trial(Ending.KICKED_OVER)
+    return Trial(Ending.REACHED if verdict.reached else Ending.NOT_REACHED)

@@ -8,8 +8,7 @@ import pytest
 
 from lfd.motion.demonstration import Demonstration
 from lfd.motion.trajectory import Trajectory
-from lfd.store.database import Binding, DemonstrationStore
-from lfd.store.database import Kind as StoredKind
+from lfd.store.database import Binding, DemonstrationStore, Purpose
 from protocol import queries
 from protocol.queries import Kind, Undo
 from services.bus.arrays import motion_to_wire
@@ -83,7 +82,7 @@ def test_a_database_that_cannot_be_used_ends_the_process_in_one_line_and_the_cod
     if file == "of the table":
         with DemonstrationStore(path) as store:
             motion = Trajectory(np.linspace((0.5, 0, 0.4), OBJECT, 9), np.tile((1.0, 0, 0, 0), (9, 1)), 5.0)
-            store.add(Demonstration.reaching(motion, np.array(OBJECT)), StoredKind.INITIAL, Binding("table", "tiago"))
+            store.add(Demonstration.reaching(motion, np.array(OBJECT)), Purpose.INITIAL, Binding("table", "tiago"))
     with closing(sqlite3.connect(path, isolation_level=None)) as holder:
         if file == "held":
             holder.execute("BEGIN EXCLUSIVE")

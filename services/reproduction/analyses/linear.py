@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from lfd.models.promp import CONDITION_SCALE, ConditionedProMP, PrompOptions
 from services.reproduction.analysis import Analysis, Context, Figure, Finding, Holds, Row
 from services.reproduction.functions import TAUGHT, Family, X
-from services.reproduction.models import DEFAULT, KINDS, THESIS
+from services.reproduction.models import CONTENDERS, DEFAULT, THESIS
 from services.reproduction.style import DEMONSTRATION_LINE, TRUE_LINE, Line, drawn, panels
 
 Array = NDArray[np.float64]
@@ -72,7 +72,7 @@ def _linear(context: Context) -> Finding:
 def _linear_3d_context(context: Context) -> Finding:
     odd = np.array([1.0, 3.0, 5.0])
     taken = []
-    for kind in KINDS:
+    for kind in CONTENDERS:
         situation = _LINE_OF_THREE.motion(3.0).situation
         asked = type(situation)(odd, situation.origin, situation.start_position, situation.start_orientation)
         y = kind.fit(_LINE_OF_THREE.motions()).predict(asked, len(X)).trajectory.positions[:, 0]
@@ -94,7 +94,7 @@ def _linear_3d_output(context: Context) -> Finding:
     holds, sentence = _verdict(_THREE_LINES)
     at_one = [
         np.abs(_THREE_LINES.predicted(kind.fit(_THREE_LINES.motions()), 1.0) - _THREE_LINES.outputs(1.0))
-        for kind in KINDS
+        for kind in CONTENDERS
     ]
     worst = [float(error.max()) for error in at_one]
     return Finding(
@@ -120,9 +120,9 @@ def _verdict(family: Family) -> tuple[Holds, str]:
 
 
 def _error_rows(family: Family) -> list[Row]:
-    taught = [kind.fit(family.motions()) for kind in KINDS]
+    taught = [kind.fit(family.motions()) for kind in CONTENDERS]
     kept = family.motions([b for b in TAUGHT if b != _LEFT_OUT])
-    partly = [kind.fit(kept) for kind in KINDS]
+    partly = [kind.fit(kept) for kind in CONTENDERS]
     return [
         Row("RMSE at s = 1, demonstrated", "", "“correct”", *(family.error(model, 1.0) for model in taught)),
         Row("RMSE at s = 3, not demonstrated", "", None, *(family.error(model, _LEFT_OUT) for model in partly)),
@@ -136,7 +136,7 @@ def _ends(y: Array) -> str:
 
 def _predictions_figure(family: Family) -> Figure:
     motions = family.motions()
-    models = [(kind, kind.fit(motions)) for kind in KINDS]
+    models = [(kind, kind.fit(motions)) for kind in CONTENDERS]
     values = (1.0, 2.5, _BEYOND)
     titles = ["s = 1, demonstrated", "s = 2.5, between", "s = 7, beyond"]
     canvas, panes = panels(titles)
@@ -156,7 +156,7 @@ def _predictions_figure(family: Family) -> Figure:
 def _errors_figure(family: Family, context: Context) -> Figure:
     canvas, (axes,) = panels([""], height=2.5)
     motions = family.motions()
-    for kind in context.track(KINDS):
+    for kind in context.track(CONTENDERS):
         model = kind.fit(motions)
         axes.semilogy(_ASKED, [family.error(model, float(b)) for b in _ASKED], **kind.line(kind.label))
     axes.axvspan(min(TAUGHT), max(TAUGHT), color="#f1f4f7", zorder=0, label="demonstrated range")

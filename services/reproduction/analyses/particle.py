@@ -17,7 +17,7 @@ from protocol.messages import Mode
 from services.offline.result import Arrangement, Course
 from services.reproduction import teaching
 from services.reproduction.analysis import Analysis, Context, Figure, Finding, Row
-from services.reproduction.models import KINDS, Kind
+from services.reproduction.models import CONTENDERS, Contender
 from services.reproduction.style import DEMONSTRATION_LINE, OBSTACLE, TRUTH, Line, drawn, panels
 from services.reproduction.teaching import MODELS, Answer, Question
 from services.reproduction.teaching_figures import REFINEMENT_LINE, prediction_line
@@ -118,7 +118,7 @@ def _finding(
             f" {', '.join(_named(one) for one in question.demonstrated)}, without an obstacle; Algorithm 1 went through"
             f" {', '.join(_named(one) for one in question.refined)} in this order, which the thesis does not tell.",
             *teaching.notes(answer),
-            *(_missed(kind, courses) for kind, courses in zip(KINDS, answer.beyond, strict=True)),
+            *(_missed(kind, courses) for kind, courses in zip(CONTENDERS, answer.beyond, strict=True)),
         ),
     )
 
@@ -135,14 +135,14 @@ def _named(arrangement: Arrangement) -> str:
     return f"[{', '.join(f'{value:g}' for value in (arrangement.place / Y_UNIT).round(6))}]"
 
 
-def _missed(kind: Kind, courses: Sequence[Course]) -> str:
+def _missed(kind: Contender, courses: Sequence[Course]) -> str:
     failed = [f"{_named(one.arrangement)}: {one.attempts[0].failure}" for one in courses if not one.success]
     return f"Beyond them the {kind.label} failed under {'; '.join(failed) or 'none'}."
 
 
 def _error_figure(answer: Answer) -> Figure:
     canvas, (axes,) = panels([""], height=2.3)
-    for kind, rehearsed in zip(KINDS, answer.of_kinds, strict=True):
+    for kind, rehearsed in zip(CONTENDERS, answer.of_kinds, strict=True):
         errors = [_first_error(course) for course in rehearsed.first]
         axes.plot(range(1, len(errors) + 1), errors, marker="o", ms=4.0, **kind.line(f"{kind.label}: at first"))
         again = [_first_error(course) for course in rehearsed.second]
@@ -160,7 +160,7 @@ def _error_figure(answer: Answer) -> Figure:
 def _first_rounds(answer: Answer, reference: str) -> list[Figure]:
     titles = [f"{number}: {_named(one)}" for number, one in enumerate(answer.question.refined, 1)]
     made = []
-    for kind, model, rehearsed in zip(KINDS, MODELS, answer.of_kinds, strict=True):
+    for kind, model, rehearsed in zip(CONTENDERS, MODELS, answer.of_kinds, strict=True):
         canvas, panes = panels(titles, height=1.8, rows=-(-len(titles) // _COLUMNS))
         for axes, course in zip(panes, rehearsed.first, strict=True):
             _furnish(axes, course.arrangement.variant)
@@ -182,7 +182,7 @@ def _second_round(answer: Answer, reference: str) -> Figure:
     for number, axes in enumerate(panes):
         _furnish(axes, answer.question.executed[number].variant)
         _mark(axes, answer.question.executed[number])
-        for kind, rehearsed in zip(KINDS, answer.of_kinds, strict=True):
+        for kind, rehearsed in zip(CONTENDERS, answer.of_kinds, strict=True):
             course = rehearsed.second[number]
             line, label = prediction_line(kind, success=course.success)
             _draw(axes, course.attempts[0].prediction, replace(line, linewidth=kind.line.linewidth), label)
@@ -191,8 +191,8 @@ def _second_round(answer: Answer, reference: str) -> Figure:
 
 
 def _beyond_figure(answer: Answer, reference: str) -> Figure:
-    canvas, panes = panels([kind.label for kind in KINDS], height=2.9)
-    for axes, kind, courses in zip(panes, KINDS, answer.beyond, strict=True):
+    canvas, panes = panels([kind.label for kind in CONTENDERS], height=2.9)
+    for axes, kind, courses in zip(panes, CONTENDERS, answer.beyond, strict=True):
         for demonstration in answer.demonstrations:
             _draw(axes, demonstration.trajectory, DEMONSTRATION_LINE, "demonstration")
         _furnish(axes, courses[0].arrangement.variant)

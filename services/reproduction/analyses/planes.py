@@ -13,7 +13,7 @@ from lfd.motion.demonstration import Demonstration, relative_to_origin, to_base
 from lfd.motion.resampling import resample
 from services.reproduction.analysis import Analysis, Context, Figure, Finding, Holds, Row
 from services.reproduction.functions import rms
-from services.reproduction.models import KINDS
+from services.reproduction.models import CONTENDERS
 from services.reproduction.scripted import demonstrate, reaches
 from services.reproduction.style import DEMONSTRATION_LINE, TRUE_LINE, Line, drawn, panels
 from sim.tasks.table import TABLE
@@ -72,7 +72,7 @@ def answer(model: MovementModel, question: Question) -> Answer:
 
 def _planes(context: Context) -> Finding:
     taught, questions = _demonstrations(context.rng()), _questions()
-    models = [kind.fit(taught) for kind in KINDS]
+    models = [kind.fit(taught) for kind in CONTENDERS]
     answers = [[answer(model, question) for model in models] for question in context.track(questions)]
     rows = []
     for question, of_kinds in zip(questions, answers, strict=True):
@@ -152,8 +152,8 @@ def _preparation_figure(taught: list[Demonstration]) -> Figure:
 
 
 def _predictions_figure(models: list[MovementModel], question: Question) -> Figure:
-    canvas, panes = panels([kind.label for kind in KINDS], height=2.9)
-    for axes, kind, model in zip(panes, KINDS, models, strict=True):
+    canvas, panes = panels([kind.label for kind in CONTENDERS], height=2.9)
+    for axes, kind, model in zip(panes, CONTENDERS, models, strict=True):
         for motion in question.motions:
             p = model.predict(motion.situation).trajectory.positions
             axes.plot(p[:, 1], p[:, 0], **Line(kind.line.color, 1.4)(kind.label))
@@ -171,7 +171,7 @@ def _side_figure(models: list[MovementModel], questions: list[Question]) -> Figu
     canvas, panes = panels([q.name.removeprefix("new objects ") for q in questions], height=2.6)
     for axes, question in zip(panes, questions, strict=True):
         for motion in question.motions[:3]:
-            for kind, model in zip(KINDS, models, strict=True):
+            for kind, model in zip(CONTENDERS, models, strict=True):
                 p = model.predict(motion.situation).trajectory.positions
                 axes.plot(p[:, 1], p[:, 2], **Line(kind.line.color, kind.line.linewidth * 0.7)(kind.label))
             real = motion.trajectory.positions

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from lfd.models.model import MovementModel
 from lfd.motion.demonstration import Demonstration, Situation
 from services.reproduction.analysis import Analysis, Context, Figure, Finding, Holds, Row
-from services.reproduction.models import KINDS, THESIS
+from services.reproduction.models import CONTENDERS, THESIS
 from services.reproduction.scripted import demonstrate, object_grid
 from services.reproduction.style import DEMONSTRATION_LINE, Line, drawn, panels
 from sim.tasks.table import TABLE
@@ -35,7 +35,7 @@ def _shifted_start(context: Context) -> Finding:
     asked = [Situation.reaching(p, start.start_position, start.start_orientation) for p in object_grid(TABLE, _GRID)]
     shifts = {}
     for count in context.track(_COUNTS):
-        models = [kind.fit(motions[:count]) for kind in KINDS]
+        models = [kind.fit(motions[:count]) for kind in CONTENDERS]
         shifts[count] = [1e3 * np.array([shift(model, s) for s in asked]) for model in models]
     few, enough = shifts[1][0].max() / 1e3, shifts[4][0].max() / 1e3
     confirmed = few > _VISIBLE > enough
@@ -73,7 +73,7 @@ def _predictions_figure(motions: list[Demonstration], asked: list[Situation]) ->
         for motion in motions[:count]:
             p = motion.trajectory.positions
             axes.plot(p[:, 1], p[:, 0], **DEMONSTRATION_LINE("demonstrations"))
-        for kind in KINDS:
+        for kind in CONTENDERS:
             model = kind.fit(motions[:count])
             line = Line(kind.line.color, 1.2)
             for situation in (asked[_GRID - 1], asked[-_GRID]):
@@ -95,7 +95,7 @@ def _shifts_figure(motions: list[Demonstration], asked: list[Situation], shifts:
         taught = np.array([m.condition for m in motions[:count]])
         away = [1e3 * float(np.linalg.norm(taught - s.condition, axis=1).min()) for s in asked]
         axes.plot(away, shifts[count][0], "o", ms=3.5, color=shade, label=f"{THESIS.label}, {_said(count)}")
-    axes.plot(away, shifts[_COUNTS[-1]][1], "o", ms=3.5, color=KINDS[1].line.color, label=KINDS[1].label)
+    axes.plot(away, shifts[_COUNTS[-1]][1], "o", ms=3.5, color=CONTENDERS[1].line.color, label=CONTENDERS[1].label)
     axes.set(xlabel="distance to the nearest condition taught [mm]", ylabel="shift of the start [mm]")
     return drawn(canvas, "shifts", "Shift of the prediction's start over how far the object is from those taught.")
 

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from services.reproduction.analysis import Analysis, Context, Figure, Finding, Holds, Row
 from services.reproduction.functions import TAUGHT, Family, X, rms
-from services.reproduction.models import KINDS
+from services.reproduction.models import CONTENDERS
 from services.reproduction.style import DEMONSTRATION_LINE, TRUE_LINE, TRUTH, Line, drawn, panels
 
 Array = NDArray[np.float64]
@@ -41,7 +41,7 @@ def best_affine(family: Family, b: float) -> Array:
 
 
 def _sine(context: Context) -> Finding:
-    thesis, default = ({f: kind.fit(f.motions()) for f in (PHASE, OFFSET, TURNED)} for kind in KINDS)
+    thesis, default = ({f: kind.fit(f.motions()) for f in (PHASE, OFFSET, TURNED)} for kind in CONTENDERS)
     questions = [
         ("RMSE of sin(10x + b) at s = b = 1, demonstrated", "“correct”", PHASE, 1.0),
         ("the same at s = b = 2.5, between", None, PHASE, _BETWEEN),
@@ -91,7 +91,7 @@ def _predictions_figure() -> Figure:
     for axes, (family, b) in zip(panes, shown, strict=True):
         for taught in TAUGHT:
             axes.plot(X, family.outputs(taught), **DEMONSTRATION_LINE("demonstrations"))
-        for kind in KINDS:
+        for kind in CONTENDERS:
             axes.plot(X, family.predicted(kind.fit(family.motions()), b), **kind.line(kind.label))
         axes.plot(X, family.outputs(b), **TRUE_LINE("the function itself"))
         axes.set(xlabel="x", ylabel="y")
@@ -101,7 +101,7 @@ def _predictions_figure() -> Figure:
 def _errors_figure(context: Context) -> Figure:
     values = np.linspace(0.0, 6.0, 31)
     canvas, panes = panels(["sin(10x + b), s = b", "sin(10x + b), s = [cos b, sin b]"], height=2.5)
-    questions = [(axes, f, kind) for axes, f in zip(panes, (PHASE, TURNED), strict=True) for kind in KINDS]
+    questions = [(axes, f, kind) for axes, f in zip(panes, (PHASE, TURNED), strict=True) for kind in CONTENDERS]
     for axes, family, kind in context.track(questions):
         model = kind.fit(family.motions())
         axes.plot(values, [family.error(model, float(b)) for b in values], **kind.line(kind.label))

@@ -21,7 +21,7 @@ from services.offline.steering import DURATION_S
 from services.process.exceptions import CommandFailed
 from services.reproduction import teaching
 from services.reproduction.analysis import Analysis, Context, Figure, Finding, Holds, Row
-from services.reproduction.models import KINDS, Kind
+from services.reproduction.models import CONTENDERS, Contender
 from services.reproduction.style import DEMONSTRATION_LINE, OBSTACLE, REFINEMENT, Line, drawn, panels
 from services.robot.arm import Arm
 from services.robot.assembly import simulated_arm
@@ -65,7 +65,7 @@ def _slow_adaptation(context: Context) -> Finding:
     ways: dict[int, list[Way]] = {}
     for count in context.track(_DEMONSTRATIONS):
         some = [demonstrations[i] for i in np.linspace(0, len(demonstrations) - 1, count).round().astype(int)]
-        ways[count] = [_fed(kind, some, refinement, arm) for kind in KINDS]
+        ways[count] = [_fed(kind, some, refinement, arm) for kind in CONTENDERS]
     conditioned = [ways[count][0].updates for count in _DEMONSTRATIONS]
     slower = all(a < b for a, b in pairwise(conditioned))
     longest = max(ways[count][1].updates for count in _DEMONSTRATIONS)
@@ -112,7 +112,7 @@ def _refinement(place: Array, demonstrations: tuple[Demonstration, ...], seed: i
     raise CommandFailed(f"no refinement of {course.refinements} succeeded")
 
 
-def _fed(kind: Kind, demonstrations: Sequence[Demonstration], refinement: Demonstration, arm: Arm) -> Way:
+def _fed(kind: Contender, demonstrations: Sequence[Demonstration], refinement: Demonstration, arm: Arm) -> Way:
     model = kind.fit(demonstrations)
     situation = demonstrations[0].situation
     asked = type(situation).reaching(refinement.origin, situation.start_position, situation.start_orientation)
@@ -134,8 +134,8 @@ def _said(way: Way) -> float | str:
 
 
 def _predictions_figure(ways: Sequence[Way], refinement: Demonstration) -> Figure:
-    canvas, panes = panels([kind.label for kind in KINDS], height=3.0)
-    for axes, kind, way in zip(panes, KINDS, ways, strict=True):
+    canvas, panes = panels([kind.label for kind in CONTENDERS], height=3.0)
+    for axes, kind, way in zip(panes, CONTENDERS, ways, strict=True):
         for box in DISHWASHER.boxes(_VARIANT):
             if box.group is Group.PANEL:
                 (x, _, z), (half_x, _, half_z) = box.centre, box.half_sizes
@@ -163,7 +163,7 @@ def _predictions_figure(ways: Sequence[Way], refinement: Demonstration) -> Figur
 def _rest_figure(ways: dict[int, list[Way]], refinement: Demonstration) -> Figure:
     canvas, panes = panels([f"after {count} demonstrations" for count in ways], height=2.4)
     for axes, of_kinds in zip(panes, ways.values(), strict=True):
-        for kind, way in zip(KINDS, of_kinds, strict=True):
+        for kind, way in zip(CONTENDERS, of_kinds, strict=True):
             rest = [1e3 * _distance(p, refinement.trajectory) for p in way.predictions]
             axes.plot(range(len(rest)), rest, marker="o", ms=3.5, **Line(kind.line.color, 1.2)(kind.label))
         axes.set(xlabel="updates", ylim=(0.0, None))

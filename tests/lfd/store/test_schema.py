@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from lfd.exceptions import BoundElsewhere, StorageError
-from lfd.store.database import Binding, DemonstrationStore, Kind
+from lfd.store.database import Binding, DemonstrationStore, Purpose
 
 DISHWASHER, TABLE = Binding("dishwasher", "tiago"), Binding("table", "tiago")
 
@@ -28,7 +28,7 @@ def test_a_file_of_schema_1_gets_its_conditions(path, reach):
     """They were the object relative to the motion's first point; the object's position had another name."""
     given = reach([0.9, 0.1, 0.6])
     with DemonstrationStore(path) as store:
-        store.add(given, Kind.INITIAL, TABLE)
+        store.add(given, Purpose.INITIAL, TABLE)
     _as_schema_2(path)
     with sqlite3.connect(path) as old:
         old.execute("DELETE FROM arrays WHERE name = 'condition'")
@@ -44,7 +44,7 @@ def test_a_file_of_schema_1_gets_its_conditions(path, reach):
 
 def test_a_file_of_schema_2_is_bound_to_the_scene_of_its_rows_whatever_the_robot(path, reach):
     with DemonstrationStore(path) as store:
-        store.add(reach([0.9, 0.1, 0.6]), Kind.INITIAL, DISHWASHER)
+        store.add(reach([0.9, 0.1, 0.6]), Purpose.INITIAL, DISHWASHER)
     _as_schema_2(path)
     for _ in range(2):
         with DemonstrationStore(path) as store:
@@ -52,14 +52,14 @@ def test_a_file_of_schema_2_is_bound_to_the_scene_of_its_rows_whatever_the_robot
             with pytest.raises(BoundElsewhere, match=r"scene dishwasher.*scene table"):
                 store.check(TABLE)
     with DemonstrationStore(path) as store:
-        store.add(reach([0.9, 0.1, 0.6]), Kind.UPDATE, DISHWASHER, request=5)
+        store.add(reach([0.9, 0.1, 0.6]), Purpose.UPDATE, DISHWASHER, request=5)
         assert store.made_by(5) == 2
 
 
 def test_a_file_in_which_an_earlier_version_mixed_two_scenes_is_refused_by_both(path, reach):
     with DemonstrationStore(path) as store:
         for _ in range(2):
-            store.add(reach([0.9, 0.1, 0.6]), Kind.INITIAL, DISHWASHER)
+            store.add(reach([0.9, 0.1, 0.6]), Purpose.INITIAL, DISHWASHER)
     _as_schema_2(path)
     with sqlite3.connect(path) as old:
         old.execute("UPDATE demonstrations SET scene = 'table' WHERE added = 2")

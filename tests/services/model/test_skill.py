@@ -5,7 +5,7 @@ import pytest
 
 from lfd.motion.demonstration import Demonstration
 from lfd.motion.trajectory import Trajectory
-from lfd.store.database import Binding, DemonstrationStore, Kind
+from lfd.store.database import Binding, DemonstrationStore, Purpose
 from services.model.skill import binding_of, open_store
 from services.process.config import ModelSection
 from services.process.exceptions import EnvironmentFault
@@ -23,7 +23,7 @@ def data(tmp_path, monkeypatch):
 def taught(store, scene):
     path = np.linspace((0.5, 0.0, 0.5), (0.8, 0.1, 0.6), 10)
     motion = Trajectory(path, np.tile((1.0, 0.0, 0.0, 0.0), (10, 1)), 5.0)
-    store.add(Demonstration.reaching(motion, path[-1]), Kind.INITIAL, binding_of(scene))
+    store.add(Demonstration.reaching(motion, path[-1]), Purpose.INITIAL, binding_of(scene))
 
 
 @pytest.mark.parametrize("other", [("robot1", TABLE), ("robot2", DISHWASHER), ("robot1", PARTICLE)])

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lfd.motion.demonstration import Demonstration
-from lfd.store.database import DemonstrationStore, Kind
+from lfd.store.database import DemonstrationStore, Purpose
 from services.cli import main
 from services.commands.map import Request, draw_map
 from services.model.learning import MODELS, learn_all
@@ -18,7 +18,7 @@ from services.model.skill import binding_of
 from services.offline.first_demonstrations import first_demonstrations
 from services.reproduction.models import BY_NAME, DEFAULT
 from services.reproduction.scripted import demonstrate
-from services.success_map.conditions import Condition, Outcome, Place, SuccessMap, Trial, grid, sample, stage_name
+from services.success_map.conditions import Condition, Ending, Setting, SuccessMap, Trial, grid, sample, stage_name
 from services.success_map.figure import figure
 from services.success_map.work import Tried, conditions
 from sim.tasks import DISHWASHER, REACHING, TABLE
@@ -33,7 +33,7 @@ def within(places, scene, spread):
 
 
 def mapped(*outcomes, corrections=(0, 1)):
-    places = [Place((0.8, 0.01 * i, 0.55), (0.001 * i, 0.0, 0.0)) for i in range(len(outcomes))]
+    places = [Setting((0.8, 0.01 * i, 0.55), (0.001 * i, 0.0, 0.0)) for i in range(len(outcomes))]
     tried = [Condition(p, tuple(Trial(one) for one in of)) for p, of in zip(places, outcomes, strict=True)]
     return SuccessMap("dishwasher", "b2", "adaptive", corrections, tuple(tried))
 
@@ -67,20 +67,20 @@ def test_random_places_are_the_same_for_the_same_seed_only(scene):
 
 
 def test_a_start_is_moved_from_the_scenes_and_not_turned():
-    start = Place(HOME, (0.01, -0.02, 0.03)).start(DISHWASHER)
+    start = Setting(HOME, (0.01, -0.02, 0.03)).start(DISHWASHER)
     np.testing.assert_allclose(start.position - DISHWASHER.start.position, [0.01, -0.02, 0.03])
     np.testing.assert_array_equal(start.orientation, DISHWASHER.start.orientation)
 
 
-R, C, U = Outcome.REACHED, Outcome.COLLISION, Outcome.UNREACHABLE
+R, C, U = Ending.REACHED, Ending.COLLISION, Ending.UNREACHABLE
 
 
 def test_a_summary_counts_among_what_is_reachable():
-    found = mapped((C, R), (C, R), (R, R), (Outcome.KICKED_OVER, Outcome.NOT_REACHED), (U, U))
+    found = mapped((C, R), (C, R), (R, R), (Ending.KICKED_OVER, Ending.NOT_REACHED), (U, U))
     assert found.reachable == 4
     assert found.summary() == "after 1 correction: 3 of 4 reachable conditions succeed (75.0 %); before: 1 (25.0 %)"
     for stage in (0, 1):
-        assert sum(found.count(stage, outcome) for outcome in Outcome) == len(found.conditions)
+        assert sum(found.count(stage, outcome) for outcome in Ending) == len(found.conditions)
 
 
 def test_a_summary_of_one_stage_and_of_nothing():
@@ -92,7 +92,7 @@ def test_a_summary_of_one_stage_and_of_nothing():
 
 
 @pytest.mark.sim
-@pytest.mark.parametrize("outcomes", [[(C, R), (Outcome.KICKED_OVER, Outcome.NOT_REACHED), (U, U)], [(R,), (U,)]])
+@pytest.mark.parametrize("outcomes", [[(C, R), (Ending.KICKED_OVER, Ending.NOT_REACHED), (U, U)], [(R,), (U,)]])
 def test_a_picture_shows_what_there_is(outcomes):
     found = mapped(*outcomes, corrections=tuple(range(len(outcomes[0]))))
     picture = matplotlib.image.imread(io.BytesIO(figure(DISHWASHER, found, DEFAULT).image))
@@ -121,7 +121,7 @@ def database(tmp_path):
         if condition is not None:
             shown = Demonstration(shown.trajectory, shown.origin, np.array(condition))
         with DemonstrationStore(path) as store:
-            for kind in [Kind.INITIAL] * initial + [Kind.UPDATE] * updates:
+            for kind in [Purpose.INITIAL] * initial + [Purpose.UPDATE] * updates:
                 store.add(shown, kind, binding_of(DISHWASHER))
         return str(path)
 
@@ -186,10 +186,10 @@ def test_a_model_that_began_with_its_updates_has_no_stage_before_all_of_them(dat
 def test_what_becomes_of_a_condition_is_the_models_doing_where_a_motion_can_succeed():
     demonstrations = first_demonstrations(DISHWASHER)
     model = DEFAULT.fit(demonstrations)
-    far, blocked = Place((1.3, 0.07, HOME[2])), Place(HOME, (0.09, 0.04, 0.01))
-    trained = conditions(Tried("dishwasher", "b1", (model,), (Place(HOME), far, blocked)), jobs=1)
+    far, blocked = Setting((1.3, 0.07, HOME[2])), Setting(HOME, (0.09, 0.04, 0.01))
+    trained = conditions(Tried("dishwasher", "b1", (model,), (Setting(HOME), far, blocked)), jobs=1)
     assert [one.trials[0].outcome for one in trained] == [R, U, R]
-    changed, impossible = conditions(Tried("dishwasher", "b2", (model, model), (Place(HOME), blocked)), jobs=1)
+    changed, impossible = conditions(Tried("dishwasher", "b2", (model, model), (Setting(HOME), blocked)), jobs=1)
     assert [trial.outcome for trial in impossible.trials] == [U, U]
     assert changed.trials[0] == changed.trials[1]
     assert changed.trials[0].outcome is C
@@ -210,10 +210,10 @@ def test_a_database_without_its_last_update_and_with_it(tmp_path, capsys):
     taught = first_demonstrations(DISHWASHER)
     with DemonstrationStore(database) as store:
         for demonstration in taught:
-            store.add(demonstration, Kind.INITIAL, binding_of(DISHWASHER))
+            store.add(demonstration, Purpose.INITIAL, binding_of(DISHWASHER))
         # The second basket position's way, as a correction would lead.
         for position in DISHWASHER.training_positions:
-            store.add(demonstrate(DISHWASHER, position, None, variant="b2"), Kind.UPDATE, binding_of(DISHWASHER))
+            store.add(demonstrate(DISHWASHER, position, None, variant="b2"), Purpose.UPDATE, binding_of(DISHWASHER))
         assert learn_all("adaptive", store.active()) is not None
     out, json = tmp_path / "map.png", tmp_path / "map.json"
     flags = ["--before", "2", "--grid", "1", "--spread", "0", "--jobs", "1", "--out", str(out), "--json", str(json)]
