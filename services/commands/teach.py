@@ -128,7 +128,7 @@ def teach_waypoints(configuration: Configuration, file: Path, object_position: V
     """
     # All that a person can have got wrong shows before the network is asked for anything.
     scene = find_scene(configuration.robot.scene)
-    if scene.name not in REACHING:
+    if not scene.has_object:
         raise CommandFailed(f"scene {scene.name} has no object that waypoints lead to: use {' or '.join(REACHING)}")
     target, reach = np.array(object_position), scene.robot.reach
     scene.check_place(target, scene.margin)

@@ -41,8 +41,9 @@ def test_a_forgetting_factor_outside_its_range_is_refused():
             welford(JointGaussian.fit(np.ones((2, 5))), np.ones(5), kept)
 
 
-def test_batch_covariance_is_the_unbiased_one(rng):
-    samples = rng.normal(size=(9, 4))
+@pytest.mark.parametrize("count", [2, 3, 9])
+def test_batch_covariance_is_the_unbiased_one(rng, count):
+    samples = rng.normal(size=(count, 4))
     np.testing.assert_allclose(JointGaussian.fit(samples).covariance, np.cov(samples.T), atol=1e-14)
 
 

@@ -87,3 +87,60 @@ def test_the_most_outdated_is_forgotten_first(none):
     assert len(kept) == 2
     np.testing.assert_allclose(change(kept, elsewhere), 0.1, atol=0.01)
     np.testing.assert_allclose(change(kept, here), 0.3, atol=0.01)
+
+
+@pytest.fixture
+def undecided(rng):
+    """Three points in the plane determine a trend and leave nothing over to judge it by."""
+    slope, conditions = rng.normal(size=(2, 4)), np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    regression = Regression(conditions, conditions @ slope, np.eye(4), 1.0, RegressionOptions())
+    return Corrections.none(regression, OPTIONS), slope
+
+
+def told(corrections, s, x):
+    return corrections.added(corrections.regression.at(s), x).tested()
+
+
+def test_corrections_that_agree_with_an_undecided_trend_make_it_believed_and_keep_what_they_said(undecided):
+    none, slope = undecided
+    s = np.array([-1.0, 0.5])
+    believed = told(none, s, s @ slope)
+    assert believed.regression.shrinkage < 1e-9 < none.regression.shrinkage
+    np.testing.assert_allclose(believed.vectors, [s @ slope], atol=1e-12)
+    np.testing.assert_allclose(change(believed, s), np.zeros(4), atol=1e-9)
+
+
+def test_a_trend_is_doubted_again_when_what_spoke_for_it_is_taken_back(undecided):
+    none, slope = undecided
+    s = np.array([-1.0, 0.5])
+    again = told(none, s, s @ slope).without(-1).tested()
+    assert again.regression.shrinkage == none.regression.shrinkage
+
+
+def test_only_the_first_corrections_test_a_trend(undecided, rng):
+    """Later ones tell of a world that has changed since."""
+    corrections, slope = undecided
+    for s in rng.uniform(-1.0, 1.0, size=(6, 2)):
+        corrections = told(corrections, s, s @ slope)
+    believed = corrections.regression
+    for s in rng.uniform(-1.0, 1.0, size=(3, 2)):
+        corrections = told(corrections, s, s @ slope + 5.0)
+    assert corrections.regression is believed
+
+
+def test_demonstrations_that_can_judge_their_trend_are_left_as_they_are(none):
+    corrected = correct(none, np.array([0.05, 0.1]), np.ones(4))
+    assert none.regression.determined
+    assert corrected.tested() is corrected
+
+
+@pytest.mark.parametrize("extent", [0.05, 0.5, 40.0])
+def test_the_slope_that_demonstrations_leave_open_is_that_of_a_bayesian_line(extent, rng):
+    """Prior slope_std, and at each condition a value known to mean_std of the extent."""
+    conditions = extent * rng.normal(size=(7, 2))
+    regression = Regression(conditions, rng.normal(size=(7, 4)), np.eye(4), extent, RegressionOptions())
+    deviations = conditions - conditions.mean(axis=0)
+    precision = np.eye(2) / OPTIONS.slope_std**2 + deviations.T @ deviations / (OPTIONS.mean_std * extent) ** 2
+    np.testing.assert_allclose(
+        Corrections.none(regression, OPTIONS).slope_covariance, np.linalg.inv(precision), rtol=1e-9, atol=1e-12
+    )
