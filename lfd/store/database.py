@@ -1,5 +1,6 @@
 """Durable demonstrations: one SQLite file, from which a model can always be built again."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
@@ -44,28 +45,34 @@ class Binding(NamedTuple):
         return f"scene {self.scene} with robot {self.robot}" if self.robot else f"scene {self.scene}"
 
 
-class Counts(NamedTuple):
-    """Of active demonstrations: what the model starts from, and what it learnt later."""
-
-    initial: int
-    updates: int
-
-
 @dataclass(frozen=True, eq=False)
 class StoredDemonstration:
     """A demonstration with its place in the history.
 
     Attributes:
         version: Model version that it created.
-        kind: Initial or update.
+        purpose: Initial or update.
         binding: Scene and robot that it was given with.
         demonstration: The motion.
     """
 
     version: int
-    kind: Purpose
+    purpose: Purpose
     binding: Binding
     demonstration: Demonstration
+
+
+class Counts(NamedTuple):
+    """Of active demonstrations: what the model starts from, and what it learnt later."""
+
+    initial: int
+    updates: int
+
+    @classmethod
+    def of(cls, stored: Sequence[StoredDemonstration]) -> Self:
+        """Of demonstrations that are all active."""
+        initial = sum(one.purpose is Purpose.INITIAL for one in stored)
+        return cls(initial, len(stored) - initial)
 
 
 class DemonstrationStore:

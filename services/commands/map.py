@@ -214,13 +214,13 @@ def _first(request: Request, scene: ReachingScene, variant: str, console: Consol
 
 def _stages(request: Request, stored: list[StoredDemonstration]) -> tuple[tuple[int, ...], tuple[MovementModel, ...]]:
     """How many corrections the model has learnt at each stage, and the model."""
-    updates = sum(one.kind is Purpose.UPDATE for one in stored)
+    updates = sum(one.purpose is Purpose.UPDATE for one in stored)
     before = min(1, updates) if request.before is None else request.before
     if before > updates:
         raise NothingToMap(f"--before {before} takes back more than the {updates} updates of {request.database}")
     taken = sorted({updates - before, updates})
-    newest_last = [one for one in stored if one.kind is Purpose.UPDATE]
-    initial = [one for one in stored if one.kind is Purpose.INITIAL]
+    newest_last = [one for one in stored if one.purpose is Purpose.UPDATE]
+    initial = [one for one in stored if one.purpose is Purpose.INITIAL]
     models = [learn_all(request.kind, [*initial, *newest_last[:n]]) for n in taken]
     if any(model is None for model in models):
         raise NothingToMap("the model knows no motion before its updates: give a smaller --before")

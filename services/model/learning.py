@@ -26,8 +26,8 @@ def learn_all(kind: str, stored: Sequence[StoredDemonstration]) -> MovementModel
     Returns:
         The model; None before the first demonstration.
     """
-    initial = [s.demonstration for s in stored if s.kind is Purpose.INITIAL]
-    updates = [s.demonstration for s in stored if s.kind is Purpose.UPDATE]
+    initial = [s.demonstration for s in stored if s.purpose is Purpose.INITIAL]
+    updates = [s.demonstration for s in stored if s.purpose is Purpose.UPDATE]
     if not initial:
         initial, updates = updates[:1], updates[1:]
     if not initial:

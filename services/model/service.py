@@ -13,7 +13,7 @@ from lfd.models.model import MovementModel
 from lfd.motion.demonstration import Demonstration, Situation
 from lfd.motion.refinement import refine
 from lfd.motion.trajectory import Trajectory
-from lfd.store.database import DemonstrationStore, Purpose, StoredDemonstration
+from lfd.store.database import Counts, DemonstrationStore, Purpose, StoredDemonstration
 from protocol import messages, queries, topics
 from protocol.queries import AddDemonstration, Learnt, Predict, Predicted, Refused, Undo
 from services.bus.arrays import motion_from_wire, motion_to_wire, to_wire
@@ -80,7 +80,9 @@ class ModelService:
         self._stands_in = bus.subscribe(topics.SCENE_STATE)
         self._schedule = Schedule()
         self._newest: messages.Prediction | None = None
-        log.info("%s: model version %d, %d demonstrations", self._binding, store.version, len(self._stored))
+        # Kept here: what is announced must not wait for a file that somebody holds.
+        self._state = self._state_in(store.version)
+        log.info("%s: model version %d, %d demonstrations", self._binding, self._state.version, len(self._stored))
 
     def step(self, now_ns: int) -> None:
         """Answer what was asked."""
@@ -89,7 +91,7 @@ class ModelService:
         _answer(self._undo, self._once(self._undone))
         _answer(self._describe, self._described)
         if self._schedule.due(topics.MODEL_STATE, now_ns):
-            self._bus.publish(topics.MODEL_STATE, self._state())
+            self._bus.publish(topics.MODEL_STATE, self._state)
             if self._newest is not None:
                 self._bus.publish(topics.PREDICTION, self._newest)
 
@@ -129,7 +131,7 @@ class ModelService:
             id=new_number(),
             motion=motion_to_wire(motion.positions, motion.orientations, motion.duration),
             deviations=to_wire(np.sqrt(np.maximum(variances, 0.0))),
-            model_version=self._store.version,
+            model_version=self._state.version,
             object_position=request.object_position,
         )
         self._bus.publish(topics.PREDICTION, self._newest)
@@ -143,37 +145,42 @@ class ModelService:
             )
         demonstration = _demonstration(request)
         check_demonstration(self._scene, demonstration)
-        kind = Purpose(request.kind.value)
-        candidate = self._extended(demonstration, kind)
-        self._store.add(demonstration, kind, self._binding, request.request)
-        self._model, self._stored = candidate, self._store.active()
-        return Learnt(self._state())
+        purpose = Purpose(request.kind.value)
+        candidate = self._extended(demonstration, purpose)
+        version = self._store.add(demonstration, purpose, self._binding, request.request)
+        added = StoredDemonstration(version, purpose, self._binding, demonstration)
+        return self._changed(candidate, [*self._stored, added], version)
 
-    def _extended(self, demonstration: Demonstration, kind: Purpose) -> MovementModel | None:
-        if kind is Purpose.UPDATE and self._model is not None:
+    def _extended(self, demonstration: Demonstration, purpose: Purpose) -> MovementModel | None:
+        if purpose is Purpose.UPDATE and self._model is not None:
             return self._model.updated(demonstration)
-        version = self._store.version + 1
-        return learn_all(self._kind, [*self._stored, StoredDemonstration(version, kind, self._binding, demonstration)])
+        added = StoredDemonstration(self._state.version + 1, purpose, self._binding, demonstration)
+        return learn_all(self._kind, [*self._stored, added])
 
     def _undone(self, request: Undo) -> Learnt | Refused:
-        kind = Purpose(request.kind.value)
-        if not any(s.kind is kind for s in self._stored):
-            known = "update" if kind is Purpose.UPDATE else "first demonstration"
+        purpose = Purpose(request.kind.value)
+        newest = next((one for one in reversed(self._stored) if one.purpose is purpose), None)
+        if newest is None:
+            known = "update" if purpose is Purpose.UPDATE else "first demonstration"
             return Refused(f"there is no {known} to take back")
-        self._store.undo(kind, request.request)
-        self._stored = self._store.active()
-        self._model = learn_all(self._kind, self._stored)
-        return Learnt(self._state())
+        left = [one for one in self._stored if one is not newest]
+        model = learn_all(self._kind, left)
+        return self._changed(model, left, self._store.undo(purpose, request.request))
+
+    def _changed(self, model: MovementModel | None, stored: list[StoredDemonstration], version: int) -> Learnt:
+        """Take over what is on disk by now; nothing here can fail."""
+        self._model, self._stored = model, stored
+        self._state = self._told(version, Counts.of(stored))
+        return Learnt(self._state)
 
     def _described(self, request: queries.Describe) -> Learnt:
         del request
-        return Learnt(self._state())
-
-    def _state(self) -> messages.ModelState:
-        return self._state_in(self._store.version)
+        return Learnt(self._state)
 
     def _state_in(self, version: int) -> messages.ModelState:
-        counts = self._store.counts(version)
+        return self._told(version, self._store.counts(version))
+
+    def _told(self, version: int, counts: Counts) -> messages.ModelState:
         return messages.ModelState(
             kind=self._kind,
             version=version,

@@ -30,7 +30,7 @@ def test_what_was_stored_is_read_back_bit_for_bit_and_in_order(path, reach):
     with DemonstrationStore(path) as store:
         stored = store.active()
         assert store.version == 3
-    assert [(s.version, s.kind, s.binding) for s in stored][2] == (3, Purpose.UPDATE, DISHWASHER)
+    assert [(s.version, s.purpose, s.binding) for s in stored][2] == (3, Purpose.UPDATE, DISHWASHER)
     for record, expected in zip(stored, given, strict=True):
         trajectory = record.demonstration.trajectory
         np.testing.assert_array_equal(trajectory.positions, expected.trajectory.positions)

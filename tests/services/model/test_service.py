@@ -1,10 +1,13 @@
 """The model process: what it has acknowledged is on disk, and what it cannot do it refuses."""
 
+import sqlite3
+
 import msgspec
 import numpy as np
 import pytest
 
 from lfd.exceptions import StorageError
+from lfd.store import connection
 from protocol import messages, queries, topics
 from protocol.messages import Pose
 from protocol.queries import AddDemonstration, Kind, Learnt, Predicted, Undo
@@ -261,3 +264,21 @@ def test_a_file_that_is_no_database_is_named_in_one_line(path):
     with pytest.raises(StorageError, match=r"model\.sqlite") as caught:
         Rig(path)
     assert "\n" not in str(caught.value)
+
+
+def test_a_database_that_somebody_writes_to_costs_the_change_only_and_the_next_one_succeeds(rig, path, monkeypatch):
+    monkeypatch.setattr(connection, "BUSY_TIMEOUT", 0.01)
+    rig.service.close()
+    rig = Rig(path)
+    learnt = rig.teach(Kind.INITIAL)
+    holder = sqlite3.connect(path, isolation_level=None)
+    holder.execute("BEGIN IMMEDIATE")
+    assert "another process holds it" in rig.teach(Kind.UPDATE, bend=0.1, request=7).reason
+    for _ in range(3):
+        rig.clock.advance(1.0)
+        assert isinstance(rig.predict(), Predicted)
+    assert rig.described() == learnt.state
+    holder.execute("ROLLBACK")
+    holder.close()
+    assert rig.teach(Kind.UPDATE, bend=0.1, request=8).state.updates == 1
+    rig.service.close()
