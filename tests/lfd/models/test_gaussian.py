@@ -83,3 +83,9 @@ def test_no_sample_and_no_noise_are_refused():
         JointGaussian.fit(np.empty((0, 5)))
     with pytest.raises(OutOfRange):
         condition(JointGaussian.fit(np.ones((2, 5))), np.zeros(2), 0.0)
+
+
+def test_what_a_condition_gives_cannot_be_written_to(rng):
+    given = condition(JointGaussian.fit(rng.normal(size=(9, 5))), np.zeros(2), 0.1)
+    for array in (given.mean, given.covariance):
+        assert not array.flags.writeable

@@ -117,15 +117,25 @@ def test_a_trend_is_doubted_again_when_what_spoke_for_it_is_taken_back(undecided
     assert again.regression.shrinkage == none.regression.shrinkage
 
 
-def test_only_the_first_corrections_test_a_trend(undecided, rng):
+@pytest.mark.parametrize(("agreeing", "doubted"), [(4, True), (5, False)])
+def test_the_first_five_corrections_test_a_trend(undecided, rng, agreeing, doubted):
     """Later ones tell of a world that has changed since."""
     corrections, slope = undecided
-    for s in rng.uniform(-1.0, 1.0, size=(6, 2)):
+    for s in rng.uniform(-1.0, 1.0, size=(agreeing, 2)):
         corrections = told(corrections, s, s @ slope)
-    believed = corrections.regression
-    for s in rng.uniform(-1.0, 1.0, size=(3, 2)):
-        corrections = told(corrections, s, s @ slope + 5.0)
-    assert corrections.regression is believed
+    s = np.array([0.7, -0.6])
+    corrections = told(corrections, s, s @ slope + 5.0)
+    assert (corrections.regression.shrinkage > 1e-3) == doubted
+
+
+@pytest.mark.parametrize("distance", [0.1, 0.5, 2.0])
+def test_a_great_surprise_fades_as_the_matern_kernel_of_its_reach(none, distance):
+    """Beside it, what the demonstrations left open is nothing."""
+    s, y = np.array([0.05, 0.1]), 1e6 * np.array([1.0, -1.0, 0.5, 0.0])
+    r = np.sqrt(3.0) * distance / (OPTIONS.reach * none.regression.extent)
+    expected = y * (1.0 + r) * np.exp(-r) / (1.0 + OPTIONS.noise)
+    away = s + distance * np.array([0.6, 0.8])
+    np.testing.assert_allclose(change(correct(none, s, y), away), expected, rtol=1e-6)
 
 
 def test_demonstrations_that_can_judge_their_trend_are_left_as_they_are(none):
