@@ -1,44 +1,28 @@
-"""A live view without its drawing: the viewer's own page, whose keys it hands over, on a server of its own."""
+"""The viewer's own page and server, without its drawing."""
 
-import http.server
-import threading
-from pathlib import Path
+import gzip
 
-SCRIPT = Path(__file__).parents[2] / "services" / "viewer" / "page" / "page.js"
+from services.process.config import ViewerSection
+from services.viewer.web import WebServer
+from services.viewer.web_files import FILES
 
-PAGE = b"""<!doctype html><title>live view</title>
-<input id="view"><p id="state"></p>
-<script>const wasm_bindgen = () => new Promise(() => {});</script>
-<script src="page.js"></script>"""
+SCRIPT = b"function wasm_bindgen() { return new Promise(() => {}); }"
 
 
 class Frame:
-    """Serves it on an address of this machine.
+    """A live view that is served.
 
     Args:
+        folder: for its files.
         host: that it listens on.
+        port: that is free there.
     """
 
-    def __init__(self, host="127.0.0.1"):
-        self.loads = 0
-        counted = self
-
-        class Handler(http.server.BaseHTTPRequestHandler):
-            def do_GET(self):
-                script = self.path == "/page.js"
-                counted.loads += not script
-                self.send_response(200)
-                self.send_header("Content-Type", "text/javascript" if script else "text/html")
-                self.end_headers()
-                self.wfile.write(SCRIPT.read_bytes() if script else PAGE)
-
-            def log_message(self, *arguments):
-                pass
-
-        self._server = http.server.ThreadingHTTPServer((host, 0), Handler)
-        self.url = f"http://{host}:{self._server.server_address[1]}/"
-        threading.Thread(target=self._server.serve_forever, daemon=True).start()
+    def __init__(self, folder, host, port):
+        for name in FILES:
+            (folder / f"{name}.gz").write_bytes(gzip.compress(SCRIPT))
+        self._server = WebServer(ViewerSection(host=host, web_port=port), folder)
+        self.url = self._server.url
 
     def close(self):
-        self._server.shutdown()
-        self._server.server_close()
+        self._server.close()

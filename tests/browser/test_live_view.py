@@ -12,14 +12,25 @@ from services.process.clock import SystemClock
 
 pytestmark = pytest.mark.browser
 
-SECOND_NAME = "127.0.0.2"
+
+@pytest.fixture
+def serve_frame(tmp_path, free_port):
+    """A function that serves a live view on an address of this machine."""
+    served = []
+
+    def serve(host):
+        served.append(Frame(tmp_path, host, free_port()))
+        return served[-1]
+
+    yield serve
+    for frame in served:
+        frame.close()
 
 
 @pytest.fixture
-def frame():
-    served = Frame()
-    yield served
-    served.close()
+def frame(serve_frame):
+    """A live view that is served to its own machine."""
+    return serve_frame("127.0.0.1")
 
 
 @pytest.fixture
@@ -96,7 +107,7 @@ def test_what_is_no_address_is_not_loaded(tab, station, recording):
     assert tab.page.locator("iframe").count() == 0
 
 
-def test_a_lost_link_neither_loads_the_page_anew_nor_the_view(open_seated, station, frame, recording, cable):
+def test_a_lost_link_neither_loads_the_page_anew_nor_the_view(open_seated, station, recording, cable):
     _, feed = station
     tab = open_seated(cable.url)
     feed.view = replace(feed.view, recording=recording)
@@ -110,42 +121,55 @@ def test_a_lost_link_neither_loads_the_page_anew_nor_the_view(open_seated, stati
     feed.view = replace(feed.view, notice="the link is back")
     tab.wait(".notice:text-is('the link is back')")
     assert tab.page.evaluate("window.loadedOnce")
-    assert frame.loads == 1
+    assert sum(url.endswith("/re_viewer.js") for url in tab.requests) == 1
 
 
 @pytest.fixture
-def open_station(station):
-    """A station that listens on every address, and its feed."""
+def open_station(free_port):
+    """A station that listens on every address: its port and its feed."""
     from harness import Feed, working_view
 
     from services.process.config import StationSection
     from services.station.page.page import Page
 
-    started = []
-
-    def start(port):
-        page = Page(StationSection(host="0.0.0.0", port=port), "robot1", SystemClock())
-        page.start()
-        feed = Feed(page, working_view())
-        feed.start()
-        started.extend((feed, page))
-        return feed
-
-    yield start
-    for part in started:
-        part.close()
+    port = free_port()
+    page = Page(StationSection(host="0.0.0.0", port=port), "robot1", SystemClock())
+    page.start()
+    feed = Feed(page, working_view())
+    feed.start()
+    yield port, feed
+    feed.close()
+    page.close()
 
 
-@pytest.mark.parametrize("host", ["0.0.0.0", SECOND_NAME])
-def test_it_is_seen_from_another_machine_by_the_name_that_the_browser_uses(
-    open_station, open_tab, free_port, recording, host
-):
-    served = Frame(host)
-    feed = open_station(port := free_port())
-    feed.view = replace(feed.view, recording=msgspec.structs.replace(recording, viewer_url=served.url))
-    tab = open_tab(f"http://{SECOND_NAME}:{port}/")
+@pytest.mark.parametrize("name", ["127.0.0.2", "tablet.localhost"])
+def test_it_is_seen_from_another_machine_by_the_name_that_its_browser_uses(open_station, open_tab, serve_frame, name):
+    port, feed = open_station
+    recording = Recording(path="a.rrd", viewer_url=serve_frame("0.0.0.0").url, recording_id="first")
+    feed.view = replace(feed.view, recording=recording)
+    tab = open_tab(f"http://{name}:{port}/")
     content = tab.page.wait_for_selector("iframe.viewer").content_frame()
     content.wait_for_selector("#view")
-    assert urlsplit(content.url).hostname in (SECOND_NAME, "localhost")
+    assert urlsplit(content.url).hostname == name
     assert tab.faults == []
-    served.close()
+    say_key(content, "keydown", code="KeyD", key="d")
+    tab.wait("[data-key=KeyD][data-held]")
+
+
+def test_it_is_seen_under_the_address_on_which_alone_it_is_served(open_station, open_tab, serve_frame):
+    port, feed = open_station
+    recording = Recording(path="a.rrd", viewer_url=serve_frame("127.0.0.2").url, recording_id="first")
+    feed.view = replace(feed.view, recording=recording)
+    tab = open_tab(f"http://tablet.localhost:{port}/")
+    content = tab.page.wait_for_selector("iframe.viewer").content_frame()
+    content.wait_for_selector("#view")
+    assert urlsplit(content.url).hostname == "127.0.0.2"
+    assert tab.faults == []
+
+
+def test_where_only_its_own_computer_can_see_it_the_page_says_so(open_station, open_tab, recording):
+    port, feed = open_station
+    feed.view = replace(feed.view, recording=recording)
+    tab = open_tab(f"http://tablet.localhost:{port}/")
+    tab.wait(".scene-empty-text:visible:has-text('[viewer] host')")
+    assert tab.page.locator("iframe").count() == 0

@@ -41,6 +41,7 @@ BUTTONS = (
     Button("ask", "Ask", "for the authority", "hand"),
     Button("take_over", "Take over", "the authority", "hand"),
 )
+"""In order; those for the authority are there only while somebody else may have it."""
 
 
 @dataclass(frozen=True)

@@ -57,7 +57,7 @@ def scene(shown: Shown) -> Values:
 def traffic_light(shown: Shown, standing: Standing) -> Values:
     """May the operator act? Said by colour, shape and word; below it what to do.
 
-    Where this tab's keys do not count yet the robot holds, whatever the workflow says.
+    Where this tab's keys do not count the workflow's green is not for it.
     """
     teaching = shown.view.teaching
     if teaching is None:
@@ -68,7 +68,7 @@ def traffic_light(shown: Shown, standing: Standing) -> Values:
     if light is Light.GREEN and not standing.armed:
         light, words = Light.RED, "Whoever has the input acts."
     elif light is Light.GREEN and teaching.phase == "executing" and standing.let_go:
-        light, words = Light.HOLD, "The robot holds until you steer again."
+        light, words = Light.HOLD, "Your keys do not count yet."
     return {
         "light@data-light": light.value,
         "light-word": "Stopped" if stopped else LIGHT_WORDS[light],

@@ -1,20 +1,83 @@
-"""What the page's regions say, as values that the browser shows."""
+"""What the page tells: the light, the header, the live view, the verdict."""
 
-from protocol.messages import Recording
-from services.station.page.panels import scene
-from services.station.page.view import PageView, Shown
+from dataclasses import replace
 
+import pytest
+from views import SEATED, shown, teaching
 
-def shown(fault=""):
-    recording = Recording(path="a.rrd", viewer_url="http://127.0.0.1:9090/", recording_id="first", fault=fault)
-    return Shown(PageView(recording=recording), 0.0)
+from protocol.messages import AuthorityState, Light, Recording, SafetyState, Verdict
+from services.station.page.panels import counters, header, scene, traffic_light, verdict
 
-
-def test_a_recording_that_broke_off_says_so_until_it_goes_on():
-    fault = "Nothing is recorded: no space left on device"
-    assert scene(shown(fault))["recording-fault"] == fault
-    assert scene(shown())["recording-fault"] == ""
+LOOKING_ON = replace(SEATED, armed=False)
+NOT_COUNTING = replace(SEATED, let_go=True)
 
 
-def test_without_a_viewer_nothing_is_said_about_a_recording():
-    assert scene(Shown(PageView(), 0.0))["recording-fault"] == ""
+@pytest.mark.parametrize(
+    ("light", "word"),
+    [(Light.RED, "Watch"), (Light.AMBER, "Wait"), (Light.HOLD, "Hold"), (Light.GREEN, "Act")],
+)
+def test_the_light_is_the_workflow_s_for_who_has_the_input(light, word):
+    values = traffic_light(shown(teaching=teaching(light)), SEATED)
+    assert (values["light@data-light"], values["light-word"]) == (light.value, word)
+    assert values["light-text"] == "so it is"
+
+
+def test_before_the_workflow_is_heard_the_light_is_off():
+    assert traffic_light(shown(), SEATED)["light@data-light"] == "off"
+
+
+def test_the_light_is_not_green_while_the_keys_do_not_count():
+    values = traffic_light(shown(teaching=teaching()), NOT_COUNTING)
+    assert (values["light@data-light"], values["light-text"]) == ("hold", "Your keys do not count yet.")
+
+
+@pytest.mark.parametrize(("light", "phase"), [(Light.GREEN, "deciding"), (Light.RED, "executing")])
+def test_keys_that_do_not_count_matter_only_where_they_would_steer(light, phase):
+    values = traffic_light(shown(teaching=teaching(light, phase)), NOT_COUNTING)
+    assert values["light@data-light"] == light.value
+
+
+def test_the_light_is_not_green_for_who_looks_on():
+    values = traffic_light(shown(teaching=teaching()), LOOKING_ON)
+    assert (values["light@data-light"], values["light-text"]) == ("red", "Whoever has the input acts.")
+
+
+def test_while_the_stop_is_latched_the_light_says_stopped():
+    view = shown(teaching=teaching(Light.RED), safety=SafetyState(emergency_stop=True))
+    assert traffic_light(view, SEATED)["light-word"] == "Stopped"
+
+
+@pytest.mark.parametrize(
+    ("mine", "standing", "words", "tone"),
+    [(True, SEATED, "yours", "good"), (True, LOOKING_ON, "station-1", "warn"), (False, SEATED, "station-1", "warn")],
+)
+def test_the_authority_is_the_reader_s_only_where_s_he_has_the_input(mine, standing, words, tone):
+    authority = AuthorityState(holder="station-1", epoch=1, expires_in=1.0)
+    values = header(shown(authority=authority, authority_is_mine=mine), standing)
+    assert (values["chip-authority-text"], values["chip-authority@data-tone"]) == (words, tone)
+
+
+def test_an_authority_that_nobody_holds_is_nobody_s():
+    assert header(shown(), SEATED)["chip-authority-text"] == "nobody"
+
+
+def test_the_live_view_is_told_with_its_recording_and_what_is_wrong_with_it():
+    recording = Recording(path="a", viewer_url="http://0.0.0.0:9/", recording_id="r", fault="The disk is full.")
+    values = scene(shown(recording=recording, robot_age_s=9.0))
+    assert (values["scene@data-address"], values["scene@data-recording"]) == ("http://0.0.0.0:9/", "r")
+    assert values["recording-fault"] == "The disk is full."
+    assert (values["scene@data-stale"], values["stale"]) == ("yes", "Robot data has not come yet")
+
+
+def test_the_counters_tell_used_and_allowed():
+    values = counters(shown(teaching=teaching(refinements=3, refinements_allowed=10, updates_allowed=0)))
+    assert (values["refinements"], values["refinements-bar@--used"]) == ("3 / 10", "3")
+    assert (values["updates"], values["updates-bar@--allowed"]) == ("0 / 0", "1")
+
+
+def test_the_verdict_is_told_criterion_by_criterion():
+    judged = Verdict(reached=True, kicked_over=True, collision=False, ellipsoid_value=0.5)
+    values = verdict(shown(verdict=judged))
+    tones = [values[f"{name}@data-tone"] for name in ("verdict", "reached", "kicked", "collision")]
+    assert tones == ["bad", "good", "bad", "good"]
+    assert values["reached-evidence"] == "0.50, at most 1"

@@ -1,0 +1,72 @@
+"""What is pressed on the page: keys, buttons, the emergency stop."""
+
+from dataclasses import replace
+
+import pytest
+from views import SEATED, shown, teaching
+
+from protocol.keys import PUSH_KEYS, TURN_KEYS
+from protocol.messages import SafetyState
+from services.station.page.controls import BUTTONS, KEYBOARDS, actions, emergency_stop
+from services.station.workflow.state import Action
+
+PRESSED = replace(SEATED, stop_pressed=True)
+LATCHED = SafetyState(emergency_stop=True, by="anna", reason="too fast", at="2026-11-25T10:00:05Z")
+STANDING = SafetyState(emergency_stop=True, by="anna", standing=True)
+RELEASED = SafetyState(emergency_stop=False, released_by="bert", at="2026-11-25T10:00:05Z", standing=True)
+
+
+def test_the_page_shows_the_very_keys_that_the_device_obeys():
+    pushing, turning = [[key for row in rows for key in row] for rows in KEYBOARDS]
+    assert {key.code for key in pushing} == set(PUSH_KEYS)
+    assert {key.code for key in turning} == set(TURN_KEYS)
+    for key in pushing:
+        axis, sign = PUSH_KEYS[key.code]
+        assert key.axis == ("+" if sign > 0 else "\N{MINUS SIGN}") + "xyz"[axis]
+
+
+def test_every_action_of_the_workflow_has_a_button():
+    in_the_stop_s_place = {Action.RELEASE_STOP.value}
+    assert {action.value for action in Action} <= {button.action for button in BUTTONS} | in_the_stop_s_place
+
+
+def test_a_button_can_be_pressed_where_the_workflow_offers_it():
+    values = actions(shown(teaching=teaching(actions=("finish", "undo"))))
+    assert {name for name, disabled in values.items() if not disabled} == {
+        "action-finish@disabled",
+        "action-undo@disabled",
+    }
+
+
+def test_before_the_workflow_is_heard_no_button_can_be_pressed():
+    assert all(actions(shown()).values())
+
+
+@pytest.mark.parametrize(
+    ("standing", "safety", "state"),
+    [
+        (SEATED, None, "ready"),
+        (SEATED, SafetyState(emergency_stop=False), "ready"),
+        (SEATED, RELEASED, "ready"),
+        (PRESSED, None, "unconfirmed"),
+        (PRESSED, SafetyState(emergency_stop=False, standing=True), "unconfirmed"),
+        (PRESSED, LATCHED, "moving"),
+        (SEATED, LATCHED, "moving"),
+        (PRESSED, STANDING, "stopped"),
+        (SEATED, STANDING, "stopped"),
+    ],
+)
+def test_a_stop_is_shown_as_far_as_the_robot_has_confirmed_it(standing, safety, state):
+    assert emergency_stop(shown(safety=safety), standing)["stop@data-stop"] == state
+
+
+def test_who_stopped_and_why_and_when_is_told():
+    values = emergency_stop(shown(safety=LATCHED), SEATED)
+    assert (values["stop-reason"], values["stop-reason@data-at"]) == ("anna: too fast", LATCHED.at)
+    assert values["stop-unconfirmed"] == "It is latched, but the arm still moves."
+    assert values["stop-released"] == ""
+
+
+def test_who_released_and_when_is_told():
+    values = emergency_stop(shown(safety=RELEASED), SEATED)
+    assert (values["stop-released"], values["stop-released@data-at"]) == ("released by bert", RELEASED.at)

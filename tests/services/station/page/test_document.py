@@ -1,0 +1,57 @@
+"""The page that is loaded, and what is told to it."""
+
+import re
+from dataclasses import replace
+
+from views import SEATED, shown
+
+from services.station.page.document import document, version
+from services.station.page.layout import values
+from services.station.page.seating import seating
+from services.station.page.values import Sent
+
+PAGE = document("robot1")
+
+
+def test_every_value_has_one_element_that_shows_it():
+    names = re.findall(r'data-value="([a-z_-]+)"', PAGE)
+    assert len(names) == len(set(names))
+    assert {name.partition("@")[0] for name in values(shown(), SEATED)} <= set(names)
+
+
+def test_a_name_stands_in_it_as_text():
+    assert "<title>Retouch: &lt;b&gt;</title>" in document("<b>")
+
+
+def test_nothing_in_it_is_run_or_styled_from_within():
+    assert not re.search(r"<script>|<style| style=| on[a-z]+=", PAGE)
+
+
+def test_it_names_the_version_of_its_files():
+    assert f'data-version="{version()}"' in PAGE
+
+
+def test_a_tab_is_told_what_is_new_to_it():
+    sent = Sent()
+    assert sent.news({"a": "1", "b": True}) == {"a": "1", "b": True}
+    assert sent.news({"a": "1", "b": False}) == {"b": False}
+    assert sent.news({"a": "2"}) == {"a": "2"}
+
+
+def test_a_tab_says_why_its_keys_do_not_count():
+    assert seating(SEATED)["let-go"] == ""
+    assert "Let go of all keys" in seating(replace(SEATED, let_go=True))["let-go"]
+    assert "Click into the page" in seating(replace(SEATED, let_go=True, focused=False))["let-go"]
+    assert seating(replace(SEATED, let_go=True, armed=False))["let-go"] == ""
+
+
+def test_whoever_is_asked_for_the_seat_is_told_how_long_it_is_kept():
+    asked = seating(replace(SEATED, asked_s=3.2))
+    assert (asked["asked@data-open"], "in 4 s" in asked["asked-text"]) == (True, True)
+    assert seating(SEATED)["asked@data-open"] is False
+
+
+def test_whoever_asks_for_the_seat_is_told_what_becomes_of_it():
+    assert "in 4 s" in seating(replace(SEATED, armed=False, asking_s=3.2))["view-only-text"]
+    assert "keeps it" in seating(replace(SEATED, armed=False, kept=True))["view-only-text"]
+    assert "only stop" in seating(replace(SEATED, armed=False))["view-only-text"]

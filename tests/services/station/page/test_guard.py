@@ -1,0 +1,56 @@
+"""Who may ask the page's server, and by which name."""
+
+import asyncio
+
+import pytest
+
+from services.station.page.guard import Guard
+
+
+def ask(host, *, listening="127.0.0.1", kind="http", origin=None):
+    """What the server answers: "served", or the status of a refusal."""
+    heard, said = [], []
+
+    async def app(scope, receive, send):
+        heard.append(scope)
+        await send({"type": "http.response.start", "status": 200, "headers": []})
+
+    async def send(message):
+        said.append(message)
+
+    async def receive():
+        return {"type": "http.request"}
+
+    headers = [(b"host", host.encode())] + ([(b"origin", origin.encode())] if origin else [])
+    scope = {"type": kind, "path": "/assets/a.js", "headers": headers}
+    asyncio.run(Guard(app, listening)(scope, receive, send))
+    return dict(said[0]["headers"]) if heard else said[0].get("status", 403)
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1:8080", "localhost:8080", "[::1]:8080"])
+def test_a_page_on_loopback_is_served_under_loopback_names(host):
+    assert b"content-security-policy" in ask(host)
+
+
+@pytest.mark.parametrize("host", ["evil.example:8080", "tablet.localhost:8080", ""])
+def test_a_page_on_loopback_is_served_under_no_other_name(host):
+    assert ask(host) == 403
+
+
+@pytest.mark.parametrize("host", ["192.168.1.5:8080", "desk.example", "[fe80::1]:8080"])
+def test_a_page_that_listens_on_every_address_is_served_under_any_name(host):
+    assert b"content-security-policy" in ask(host, listening="0.0.0.0")
+
+
+def test_the_link_is_opened_from_the_page_s_own_origin_only():
+    own = ask("desk:8080", listening="0.0.0.0", kind="websocket", origin="http://desk:8080")
+    assert b"content-security-policy" in own
+    for origin in ("http://evil.example", "http://desk:9090", None):
+        assert ask("desk:8080", listening="0.0.0.0", kind="websocket", origin=origin) == 403
+
+
+def test_no_other_server_and_no_frame_has_a_part_in_the_page():
+    policy = ask("localhost")[b"content-security-policy"].decode()
+    assert "default-src 'self'" in policy
+    assert "frame-ancestors 'none'" in policy
+    assert "unsafe" not in policy
