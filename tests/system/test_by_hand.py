@@ -39,8 +39,15 @@ class Person:
         self._correction = None
 
     def correct(self):
-        """One look, and the keys that it calls for."""
+        """One look, and what it calls for: the keys, or to let go of them, or to go on."""
         robot = self._witness.robot
+        if self._page.locator("body[data-let-go]").count():
+            self._hold(set())
+            return
+        if self._page.locator("[data-action=go_on]:enabled").count():
+            self._hold(set())
+            press(self._page, "go_on")
+            return
         if robot is None or robot.mode is not Mode.REFINE or robot.phase is not Phase.EXECUTE:
             self._hold(set())
             return
@@ -93,14 +100,14 @@ def test_one_correction_by_keyboard_is_learnt(tmp_path, page):
         up.until(lambda: witness.teaching, START_S, "the station is there")
         page.goto(f"http://{station.host}:{station.port}/")
 
-        eventually(lambda: decides(page, witness, 0), EPISODE_S, up.tail)
-        page.locator("[data-action=execute]").click()
+        press(page, "execute")
         eventually(lambda: decides(page, witness, 1), EPISODE_S, up.tail)
         assert witness.teaching.attempts[0].verdict.collision
-        page.locator("[data-action=refine]").click()
+        press(page, "refine")
         person = Person(page, witness)
         eventually(lambda: person.correct() or decides(page, witness, 2), EPISODE_S, up.tail)
-        page.locator("[data-action=execute]").click()
+        assert witness.teaching.updates == 1
+        press(page, "execute")
         eventually(lambda: decides(page, witness, 3), EPISODE_S, up.tail)
 
         _, refined, last = witness.teaching.attempts
@@ -109,6 +116,11 @@ def test_one_correction_by_keyboard_is_learnt(tmp_path, page):
         assert last.verdict.success
         assert not last.operator_input
         assert witness.teaching.loop_closed
+
+
+def press(page, action):
+    """Press a button of the page once it is offered."""
+    page.locator(f"[data-action={action}]:enabled").click(timeout=EPISODE_S * 1e3)
 
 
 def decides(page, witness, attempts):

@@ -129,6 +129,8 @@ class Page:
             log_config=None,
             access_log=False,
             lifespan="off",
+            loop="asyncio",
+            http="h11",
             ws="websockets-sansio",
             ws_max_size=65_536,
             ws_per_message_deflate=False,
