@@ -97,7 +97,9 @@ scenes = st.builds(
     ellipsoid_radii=vectors,
     kicked_over_thresholds=vectors,
     start=poses,
-    object_region=st.tuples(vectors, vectors),
+    object_region=st.tuples(vectors, vectors).map(
+        lambda corners: (tuple(map(min, *corners)), tuple(map(max, *corners)))
+    ),
 )
 images = st.builds(
     CameraImage,

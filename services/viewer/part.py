@@ -23,7 +23,7 @@ _HUNG_S = 5.0
 # As much as a file takes that holds nothing but what stays for the whole run.
 _LEAST = 2**20
 
-_PIECE = 2**16
+_PIPE = 2**16  # as much as a pipe holds
 _IDLE_S = 0.1
 _FILE_HEADER = 12
 _MESSAGE_HEADER = struct.Struct("<QQ")
@@ -47,7 +47,9 @@ class Part:
         self.path = path
         self._file = path.open("xb", buffering=0)
         self._cause = ""
+        # Nothing is left in the pipe of what was there when this was cleared.
         self._drained = threading.Event()
+        self._copied = self._enough = 0
         self._source, sink = os.pipe()
         self.stream = rr.RecordingStream(APPLICATION, recording_id=identity, batcher_config=_BATCHER)
         self.stream.set_sinks(rr.FileSink(f"/dev/fd/{sink}"))
@@ -66,11 +68,11 @@ class Part:
 
     def refusal(self) -> str:
         """Bring what was logged to the disk; why that fails, empty where it does not."""
-        self._drained.clear()
         try:
             self.stream.flush(timeout_sec=_HUNG_S)
         except (RuntimeError, ValueError):
             return self._cause or "the disk does not answer"
+        self._enough = self._copied + _PIPE
         self._drained.clear()
         if not self._drained.wait(_HUNG_S):
             return "the disk does not answer"
@@ -86,11 +88,14 @@ class Part:
             if not select.select([self._source], [], [], _IDLE_S)[0]:
                 self._drained.set()
                 continue
-            piece = os.read(self._source, _PIECE)
+            piece = os.read(self._source, _PIPE)
             if not piece:
                 break
             if not self._cause:
                 self._cause = self._write(piece)
+            self._copied += len(piece)
+            if self._copied >= self._enough:
+                self._drained.set()
         os.close(self._source)
         self._file.close()
 

@@ -5,6 +5,7 @@ import logging
 import os
 import shutil
 import subprocess
+import threading
 import warnings
 
 import pytest
@@ -160,6 +161,26 @@ def test_what_was_checked_survives_a_kill(tmp_path, record):
     parts.check()
     copied = shutil.copy(parts.path, tmp_path / "as_if_killed.rrd")
     assert numbers(copied) == [float(i) for i in range(10)]
+
+
+def test_a_disk_that_is_kept_busy_is_no_disk_that_does_not_answer(tmp_path, record):
+    parts = record(tmp_path)
+    stop = threading.Event()
+
+    def keep_busy():
+        n = 0
+        while not stop.is_set():
+            log(parts, n, count=1, size=2**17)
+            parts.stream.flush()
+            n += 1
+
+    busy = threading.Thread(target=keep_busy)
+    busy.start()
+    for _ in range(3):
+        parts.check()
+    stop.set()
+    busy.join()
+    assert parts.fault == ""
 
 
 def test_rows_of_a_second_lie_in_one_chunk(tmp_path, record):
