@@ -29,3 +29,6 @@ TURN_KEYS: Mapping[str, Way] = {
     "KeyH": (2, -1),
 }
 """Keys that rotate about one: the thesis' keys, which turn about the tool's axes there and about the base's here."""
+
+STEERING = frozenset({*PUSH_KEYS, *TURN_KEYS})
+"""What the device obeys: a key that does nothing never keeps the others waiting."""

@@ -11,7 +11,7 @@ import msgspec
 import numpy as np
 
 from protocol import messages, topics
-from protocol.keys import PUSH_KEYS, TURN_KEYS
+from protocol.keys import STEERING
 from protocol.messages import Figure, OperatorInput
 from services.bus.arrays import vector3
 from services.bus.bus import Bus, Pending
@@ -146,7 +146,7 @@ class StationService:
             now_s=now_ns / 1e9,
             number=1 + secrets.randbelow(NUMBERS - 1),
             present=held.present,
-            steering=any(key in PUSH_KEYS or key in TURN_KEYS for key in held.keys),
+            steering=not STEERING.isdisjoint(held.keys),
             stopping=self._stop.unconfirmed,
             robot=young(ears.robot.latest(), now_ns),
             authority=ears.authority.fresh(now_ns),

@@ -15,9 +15,11 @@ from protocol.topics import TOPICS
 from services.bus.identity import new_publisher
 from services.bus.outbox import Outbox
 from services.process.clock import SystemClock
+from services.process.config import load
 from services.process.processes import PROCESS_NAMES
 from tests.system import garbage
 from tests.system.harness import START_S, Command, Witness, configured, eventually, free_endpoint
+from tests.system.somebody import Somebody
 from tests.system.stranger import Stranger
 
 pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.sim]
@@ -56,19 +58,27 @@ class Network:
         self.send(topic, [encode(topic, stamped)])
 
 
+def decides(witness, attempts):
+    teaching = witness.teaching
+    return teaching is not None and teaching.phase == "deciding" and len(teaching.attempts) == attempts
+
+
 @pytest.fixture(scope="module")
 def network(tmp_path_factory):
     folder = tmp_path_factory.mktemp("garbage")
     endpoint = free_endpoint()
     configuration = configured(folder, endpoint, station="autonomous_s = 5.0")
+    station = load(configuration).station
     with (
         Command("up", "--fresh", "--no-browser", "--config", configuration, folder=folder) as up,
         Witness(endpoint) as witness,
         Stranger(endpoint) as stranger,
+        Somebody(station.host, station.port) as somebody,
     ):
         heard = stranger.listen("retouch/@v1/robot1/**", kept=20_000)
-        decided = lambda: witness.teaching and witness.teaching.phase == "deciding"  # noqa: E731
-        up.until(decided, START_S + EPISODE_S, "the first prediction is executed, and the operator is asked")
+        up.until(lambda: decides(witness, attempts=0), START_S, "the operator is asked")
+        somebody.press("execute")
+        up.until(lambda: decides(witness, attempts=1), EPISODE_S, "a prediction is executed, and the operator is asked")
         samples = {}
         for passing in list(heard):
             subject = "/".join(passing.key.split("/")[3:5])

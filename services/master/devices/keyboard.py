@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
-from protocol.keys import PUSH_KEYS, TURN_KEYS, Way
+from protocol.keys import PUSH_KEYS, STEERING, TURN_KEYS, Way
 from protocol.messages import Figure, OperatorInput, Phase, RobotState, Vector3
 from services.master.devices.device import ZERO, Moment, Sample
 from services.process.config import Keyboard
@@ -143,7 +143,7 @@ class KeyboardMaster:
 
 
 def _is_neutral(operator: OperatorInput) -> bool:
-    return not any(key in PUSH_KEYS or key in TURN_KEYS for key in operator.keys)
+    return STEERING.isdisjoint(operator.keys)
 
 
 def _velocity(before: Vector3, after: Vector3, dt: float) -> Vector3:

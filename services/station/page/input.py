@@ -12,7 +12,7 @@ from collections import deque
 from dataclasses import dataclass
 
 from protocol.exceptions import ProtocolError
-from protocol.keys import PUSH_KEYS, TURN_KEYS
+from protocol.keys import STEERING
 from protocol.messages import OperatorInput
 from services.bus.freshness import Freshness, Judgement
 from services.station.page.presses import STOP, Presses
@@ -33,9 +33,6 @@ SETTLED_NS = 1_000_000_000
 
 LATE_PRESS_NS = 1_000_000_000
 """Age at which a press is dropped: what was asked for a moment ago may be wrong by now."""
-
-STEERING = frozenset({*PUSH_KEYS, *TURN_KEYS})
-"""What the device obeys: a key that does nothing, or an axis that no device uses, never keeps the others waiting."""
 
 TAKE, GIVE, KEEP = "take_input", "give_input", "keep_input"
 
