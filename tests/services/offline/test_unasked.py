@@ -1,0 +1,183 @@
+"""Nothing moves unasked: robot, model, master and a person's station on one bus; the particle is the robot."""
+
+import pytest
+
+from protocol import queries
+from protocol.messages import EmergencyStop, OperatorInput, Phase
+from protocol.topics import EMERGENCY_STOP, ROBOT_STATE, SAFETY_STATE, TEACHING_STATE
+from services.bus.arrays import motion_to_wire, vector3
+from services.offline.first_demonstrations import first_demonstrations
+from services.offline.stage import Stage
+from services.process.config import Configuration, ModelSection, RobotSection
+from services.station.service import StationService
+from services.station.workflow.state import Settings
+from sim.tasks.particle import PARTICLE
+
+pytestmark = pytest.mark.sim
+
+MOVING = {Phase.RAMP, Phase.EXECUTE, Phase.HOLD}
+
+
+class Tab:
+    """A person's page: there, holding nothing, pressing what the test says."""
+
+    def __init__(self):
+        self.pressed, self.present = [], True
+
+    def take_actions(self):
+        taken, self.pressed = self.pressed, []
+        return taken
+
+    def take_input(self):
+        return OperatorInput(present=self.present, focused=True)
+
+    def show(self, view):
+        pass
+
+    def figures(self):
+        return ()
+
+    def close(self):
+        pass
+
+
+class Person(Stage):
+    """A stage with one person's station on it."""
+
+    def __init__(self, folder):
+        configuration = Configuration(
+            robot=RobotSection(scene="particle"), model=ModelSection(database=str(folder / "model.sqlite"))
+        )
+        super().__init__(configuration)
+        self.page = Tab()
+        settings = Settings("station-1", "operator", autonomous_s=4.0)
+        self.station = StationService(self.bus(), self._clock, settings, self.page, seed=0)
+        self.way_in = self.bus()
+        self.robot = self.way_in.subscribe(ROBOT_STATE)
+        self.safety = self.way_in.subscribe(SAFETY_STATE)
+        self.teaching = self.way_in.subscribe(TEACHING_STATE)
+        self.teach_first()
+        self._turns.append(self._turn(self.station))
+
+    def teach_first(self):
+        for shown in first_demonstrations(PARTICLE):
+            way = shown.trajectory
+            motion = motion_to_wire(way.positions, way.orientations, way.duration)
+            condition = tuple(shown.condition.tolist())
+            request = queries.AddDemonstration(
+                queries.Kind.INITIAL, motion, vector3(shown.origin), "particle", condition
+            )
+            pending = self.way_in.ask(queries.ADD_DEMONSTRATION, request)
+            self.run(lambda pending=pending: pending.poll() is not None)
+
+    def phases(self, seconds):
+        """What the robot does in so much time."""
+        seen = set()
+        end_ns = self._clock.now_ns() + round(seconds * 1e9)
+
+        def over():
+            state = self.robot.latest()
+            if state is not None:
+                seen.add(state.message.phase)
+            return self._clock.now_ns() >= end_ns
+
+        self.run(over)
+        return seen
+
+    def until(self, phase):
+        end_ns = self._clock.now_ns() + round(60e9)
+
+        def there():
+            told = self.teaching.latest()
+            assert self._clock.now_ns() < end_ns, told
+            return told is not None and told.message.phase == phase
+
+        self.run(there)
+
+    def actions(self):
+        return set(self.teaching.latest().message.actions)
+
+
+@pytest.fixture
+def person(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    opened = Person(tmp_path)
+    yield opened
+    opened.close()
+
+
+def test_nothing_moves_before_a_press_and_each_press_is_one_episode(person):
+    assert person.phases(30.0) == {Phase.IDLE}
+    person.page.pressed = ["execute"]
+    person.until("executing")
+    person.until("deciding")
+    assert person.phases(30.0) == {Phase.IDLE}
+
+
+def test_after_a_stop_and_its_release_from_elsewhere_nothing_moves(person):
+    person.until("deciding")
+    person.page.pressed = ["execute"]
+    person.until("executing")
+    person.phases(2.0)
+    person.way_in.publish(EMERGENCY_STOP, EmergencyStop(pressed=True, by="bob"))
+    person.until("stopped")
+    assert person.phases(5.0) == {Phase.STOPPED}
+    pending = person.way_in.ask(queries.RELEASE_STOP, queries.ReleaseStop("bob"))
+    person.run(lambda: pending.poll() is not None)
+    person.until("deciding")
+    assert not MOVING & person.phases(30.0)
+
+
+def test_a_stop_of_the_page_is_confirmed_and_released_by_its_person(person):
+    person.until("deciding")
+    person.page.pressed = ["execute"]
+    person.until("executing")
+    person.phases(2.0)
+    person.page.pressed = ["stop"]
+    person.until("stopped")
+    person.phases(1.0)
+    assert person.safety.latest().message.by == "operator"
+    assert person.actions() == {"release_stop"}
+    person.page.pressed = ["release_stop"]
+    person.until("deciding")
+    assert not MOVING & person.phases(30.0)
+
+
+@pytest.mark.parametrize("absence", [0.8, 5.0])
+def test_after_an_absence_the_motion_waits_and_goes_on_upon_a_press(person, absence):
+    """Shorter than the lease, and longer."""
+    person.until("deciding")
+    person.page.pressed = ["execute"]
+    person.until("executing")
+    person.phases(2.0)
+    person.page.present = False
+    person.phases(absence)
+    person.page.present = True
+    person.phases(2.0)
+    assert person.phases(10.0) == {Phase.HOLD}
+    assert person.actions() == {"finish", "go_on"}
+    person.page.pressed = ["go_on"]
+    person.until("deciding")
+
+
+def test_a_station_that_was_taken_over_moves_nothing_after_the_other_has_gone(person):
+    person.until("deciding")
+    pending = person.way_in.ask(queries.ACQUIRE, queries.AcquireAuthority("station-2", "bob", take_over=True))
+    person.run(lambda: pending.poll() is not None)
+    person.until("watching")
+    assert person.phases(30.0) == {Phase.IDLE}
+    assert person.actions() == {"ask", "take_over"}
+    person.page.pressed = ["ask"]
+    person.until("deciding")
+    assert person.phases(10.0) == {Phase.IDLE}
+
+
+def test_a_refinement_that_its_operator_finished_says_so(person):
+    """By these words the station tells it from one that was stopped."""
+    person.until("deciding")
+    person.page.pressed = ["refine"]
+    person.until("executing")
+    person.phases(2.0)
+    person.page.pressed = ["finish"]
+    person.until("deciding")
+    assert "It did not run to its end: finished by" in person.teaching.latest().message.text
