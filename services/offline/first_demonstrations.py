@@ -6,12 +6,14 @@ teaches, in the same format as a model's own database.
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import logging
-from functools import partial
+from functools import cached_property
 from pathlib import Path
 
 import sim
+from lfd.exceptions import StorageUnavailable
 from lfd.motion.demonstration import Demonstration
 from lfd.store.database import Binding, DemonstrationStore, Purpose
 from services import offline, robot
@@ -33,20 +35,34 @@ def first_demonstrations(scene: AnyScene, cache: Path | None = None) -> list[Dem
         CacheUnusable: there is no place to keep them.
         StorageError: what is kept cannot be read.
     """
-    path = kept(f"first-{scene.name}-{_key()}.sqlite", partial(_teach, scene), cache)
+    path = kept(f"first-{scene.name}-{_key()}.sqlite", _Teaching(scene), cache)
     with DemonstrationStore(path) as store:
         return [stored.demonstration for stored in store.active()]
 
 
-def _teach(scene: AnyScene, part: Path, target: Path) -> None:
-    del target
-    log.info("teaching the first demonstrations of %s in the simulator (once)", scene.name)
-    # Imported here: who finds them kept needs no simulator.
-    from services.offline.demonstrations import demonstrations  # noqa: PLC0415
+class _Teaching:
+    """Teaches once, and writes wherever there is a place."""
 
-    with DemonstrationStore(part) as store:
-        for demonstration in demonstrations(scene):
-            store.add(demonstration, Purpose.INITIAL, Binding(scene.name, scene.robot.kind))
+    def __init__(self, scene: AnyScene) -> None:
+        self._scene = scene
+
+    def __call__(self, part: Path, target: Path) -> None:
+        del target
+        binding = Binding(self._scene.name, self._scene.robot.kind)
+        try:
+            with DemonstrationStore(part) as store:
+                for demonstration in self._taught:
+                    store.add(demonstration, Purpose.INITIAL, binding)
+        except StorageUnavailable as error:
+            raise OSError(errno.EIO, error.reason, str(part.parent)) from None
+
+    @cached_property
+    def _taught(self) -> list[Demonstration]:
+        log.info("teaching the first demonstrations of %s in the simulator (once)", self._scene.name)
+        # Imported here: who finds them kept needs no simulator.
+        from services.offline.demonstrations import demonstrations  # noqa: PLC0415
+
+        return demonstrations(self._scene)
 
 
 def _key() -> str:

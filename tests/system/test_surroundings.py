@@ -43,6 +43,13 @@ def test_other_projects_modules_are_not_run(tmp_path, foreign):
     assert "starts again" not in up.out
 
 
+def test_other_projects_modules_are_not_run_in_the_processes_of_a_pool(tmp_path, foreign):
+    arguments = ("reproduce", "factor-ten", "welford", "--jobs", "2", "--out", tmp_path / "out")
+    with Command(*arguments, folder=tmp_path, environment=foreign) as reproduce:
+        assert reproduce.ended(START_S) == Exit.DONE, reproduce.tail()
+    assert "foreign ran" not in reproduce.out + reproduce.err
+
+
 @pytest.mark.parametrize(
     ("variable", "process"), [("XDG_DATA_HOME", "model"), ("XDG_STATE_HOME", "robot")], ids=["data", "state"]
 )
