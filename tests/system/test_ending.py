@@ -43,6 +43,10 @@ class Router(Command):
         super().__init__("router", "--listen", self.endpoint, folder=folder)
         self.until(lambda: reachable(self.endpoint), START_S, "the router listens")
 
+    def __exit__(self, *_):
+        self.die()  # one that hangs would not hear anything else
+        super().__exit__()
+
     def hang(self):
         """It lives, and does nothing any more; its links fill up."""
         self.process.send_signal(signal.SIGSTOP)
