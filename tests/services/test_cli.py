@@ -12,7 +12,6 @@ from services.commands.command import Command
 from services.commands.table import COMMANDS
 from services.process.exceptions import CommandFailed, PortInUse, RoomMissing
 from services.process.exit_codes import Exit
-from services.process.isolation import retouch_command
 from sim.exceptions import DrawingLibraryMissing, UnknownScene
 
 SLOW = ("rich", "msgspec.toml", "numpy", "zenoh", "scipy", "mujoco")
@@ -95,9 +94,3 @@ def test_every_command_has_a_module_that_says_its_flags_and_runs(command):
     action = command.action()
     assert callable(action.add_arguments)
     assert callable(action.run)
-
-
-def test_a_child_is_started_blind_to_the_working_folder_and_pythons_variables():
-    command = retouch_command(("robot",))
-    assert command[1:4] == ["-I", "-X", "utf8"]
-    assert command[-1] == "robot"
