@@ -64,7 +64,7 @@ def test_an_answer_to_another_question_is_not_taken():
     site.instead[queries.ACQUIRE.name] = UNANSWERED
     site.run_to(Phase.ACQUIRING)
     site.step()
-    site.stay(answer=Answer(site.state.question + 100, queries.AuthorityGranted(99, 1.0)))
+    site.step(answer=Answer(site.state.question + 100, queries.AuthorityGranted(99, 1.0)))
     assert site.state.phase is Phase.ACQUIRING
     site.stay(answer=None)
     assert site.state.phase is Phase.ACQUIRING

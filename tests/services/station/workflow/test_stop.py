@@ -168,7 +168,7 @@ def test_a_result_that_completed_just_before_the_stop_is_not_learnt_either():
     site.press(Action.REFINE, Phase.EXECUTING)
     site.end(REACHED)
     site.step(safety=STOPPED)
-    assert site.state.taught is None
+    assert (site.state.taught, site.state.owed) == (None, None)
 
 
 def test_a_finished_refinement_that_could_still_be_taught_is_dropped_by_a_stop():
