@@ -133,7 +133,7 @@ class StationService:
 
     def _press_stop(self, now_ns: int, pressed: list[str]) -> None:
         if Action.RELEASE_STOP.value in pressed:
-            self._stop.let_go()
+            self._stop.let_go(now_ns)
         if STOP in pressed:
             self._stop.press(now_ns)
         self._stop.step(now_ns)

@@ -36,9 +36,11 @@ class StopButton:
         """Say it in this step and on."""
         self._pressed_ns = self._due_ns = now_ns
 
-    def let_go(self) -> None:
-        """Whoever asks for the release presses no longer."""
-        self._pressed_ns = None
+    def let_go(self, now_ns: int) -> None:
+        """Whoever asks for the release of a latched stop presses no longer; what is not latched yet is said on."""
+        safety = self._safety.fresh(now_ns)
+        if safety is not None and safety.emergency_stop:
+            self._pressed_ns = None
 
     def step(self, now_ns: int) -> None:
         """Say it where it is due, unless the robot stands."""

@@ -90,11 +90,23 @@ def test_what_the_robot_said_before_the_press_confirms_nothing(ago):
     assert len(site.run(1.0)) == 10
 
 
+@pytest.mark.parametrize("heard", [True, False])
+def test_a_release_that_is_asked_for_before_the_stop_has_latched_does_not_take_it_back(heard):
+    site = Site()
+    site.press()
+    site.run(PERIOD)
+    if heard:
+        site.says(emergency_stop=False)
+    site.button.let_go(site.clock.now_ns())
+    assert len(site.run(1.0)) == 10
+
+
 def test_whoever_asks_for_the_release_presses_no_longer():
     site = Site()
     site.press()
     site.run(PERIOD)
-    site.button.let_go()
+    site.says(emergency_stop=True, standing=False)
+    site.button.let_go(site.clock.now_ns())
     assert site.run(1.0) == []
     site.press()
     assert len(site.run(PERIOD)) == 1
