@@ -203,3 +203,42 @@ def test_it_takes_as_long_as_said_to_learn_a_jump():
     link.offset_ns += 3600 * SECOND
     ages = link.run(2.0)
     assert timely(ages).index(True) == RELEARN_NS // PERIOD
+
+
+@pytest.mark.parametrize(("silence_s", "at_once"), [(90, False), (110, True)])
+def test_only_after_a_long_silence_is_a_much_faster_sample_believed_at_once(silence_s, at_once):
+    link = Link(jitter_ns=0)
+    link.run(1.0)
+    link.now_ns += silence_s * SECOND
+    age = link.sample(late_ns=-150 * MS)
+    assert age == 0 if at_once else age < -NEAR_NS
+
+
+@pytest.mark.parametrize(("between", "agree"), [(10, True), (20, False)])
+def test_samples_agree_that_are_among_the_newest_ones(between, agree):
+    link = Link(jitter_ns=0)
+    link.run(1.0)
+    for _ in range(AGREEING):
+        age = link.sample(late_ns=-30 * MS)
+        for _ in range(between):
+            link.sample()
+    age = link.sample(late_ns=-30 * MS)
+    assert (abs(age) < MS) is agree
+
+
+def test_a_queue_that_drains_and_stands_is_no_clock_and_a_clock_that_settles_is_one():
+    link = Link(jitter_ns=0)
+    link.run(1.0)
+    link.offset_ns += 3600 * SECOND
+    link.now_ns += 5 * SECOND
+    for late in (900, 700, 500, 300):  # what piled up first
+        link.sample(late_ns=late * MS)
+    assert all(timely(link.run(3.0)[200:]))
+
+
+def test_samples_that_grow_late_and_then_stand_are_not_taken_for_a_clock():
+    link = Link(jitter_ns=0)
+    link.run(1.0)
+    for late in range(0, 4000, 40):
+        link.sample(late_ns=late * MS)
+    assert not any(timely(link.run(5.0, late_ns=4000 * MS)))
