@@ -58,6 +58,7 @@ def turning(speed, n=75, duration=10.0):
         (line(), 0.5),
         (line(length=0.05), 120.0),
         (line(length=1.0 - 1e-9), 1.0),
+        (line(n=2, length=0.5), 0.5),
         (turning(3.0 - 1e-9), 10.0),
         (line(start=1.0), 10.0),
         (line(start=0.0), 10.0),
