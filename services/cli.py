@@ -102,4 +102,4 @@ def _ending(error: Exception) -> tuple[str, Exit]:
 
 
 def _passes(error: Exception) -> bool:
-    return isinstance(error, EnvironmentFault) and error.passes
+    return isinstance(error, EnvironmentFault | StorageUnavailable) and error.passes

@@ -4,9 +4,11 @@ import errno
 import subprocess
 import sys
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
+from lfd.exceptions import StorageUnavailable
 from services import cli
 from services.commands.command import Command
 from services.commands.table import COMMANDS
@@ -66,6 +68,9 @@ def test_the_exit_code_tells_the_cause_and_the_line_is_one(failing, capsys, erro
 
 def test_a_supervisor_is_told_whether_waiting_may_help(failing):
     assert failing(PORT, "--supervised", "1") == Exit.TRY_AGAIN
+    locked = StorageUnavailable(Path("model.sqlite"), "locked", "end what holds it", passes=True)
+    assert failing(locked, "--supervised", "1") == Exit.TRY_AGAIN
+    assert failing(locked) == Exit.ENVIRONMENT
     assert failing(RoomMissing("robot", "mujoco"), "--supervised", "1") == Exit.ENVIRONMENT
 
 
