@@ -162,6 +162,21 @@ def test_a_refusal_that_passes_is_only_a_delay(query):
     site.fail(query, queries.Refused("not yet"))
     site.press(Action.EXECUTE, Phase.EXECUTING)
     assert site.names().count(query.name) == 2
+    assert site.names().count("model/predict") == (1 if query is queries.RESET else 2)
+    assert site.names().count("authority/acquire") == 1
+
+
+def test_refusals_count_from_each_press_anew():
+    site = Site(BY_HAND)
+    for _ in range(3):
+        site.run_to(Phase.DECIDING)
+        site.step(Action.EXECUTE)
+        for _ in range(3):
+            site.fail(queries.RESET, queries.Refused("not yet"))
+            while queries.RESET.name in site.instead:
+                site.step()
+        site.run_to(Phase.EXECUTING)
+        site.end(COLLIDED)
 
 
 def test_an_episode_that_still_runs_is_ended_before_the_reset():

@@ -60,6 +60,7 @@ def test_an_object_that_is_not_seen_after_the_reset_ends_the_press():
     site.press(Action.EXECUTE, Phase.LOOKING)
     site.stay(round(UNSEEN_AFTER_RESET_S), seen=None)
     assert site.state.phase is Phase.DECIDING
+    assert not site.state.pressed
     assert site.stay() == []
 
 
@@ -140,6 +141,7 @@ def test_a_scripts_episode_that_never_ends_is_repeated():
 def test_a_held_motion_offers_to_go_on_and_does_so_upon_a_press():
     site = executing()
     site.step(Action.GO_ON)
+    site.step(Action.GO_ON, robot=None)
     assert site.state.offered == {Action.FINISH}
     site.robot(phase=HOLD, waiting=True)
     assert site.stay() == []
@@ -171,6 +173,7 @@ def test_going_on_that_is_refused_is_told_and_offered_again():
     site.robot(phase=HOLD, waiting=True)
     site.fail(queries.RESUME, queries.Refused("nobody is present"))
     site.step(Action.GO_ON)
+    site.step(robot=msgspec.structs.replace(site.view.robot, phase=IDLE, waiting=False))
     assert site.stay() == []
     assert "nobody is present" in site.state.notice
     assert Action.GO_ON in site.state.offered

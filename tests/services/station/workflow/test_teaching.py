@@ -147,6 +147,12 @@ def test_a_condition_of_the_scenes_own_is_set_predicted_from_and_learnt():
     assert {a.condition for a in site.state.attempts} == {CONDITION}
 
 
+def test_without_a_press_the_condition_that_the_robot_said_last_will_do():
+    site = ConditionSite(replace(SCRIPTED, scripted=False))
+    site.stay(10, scene_s=0.0)
+    assert site.state.phase is Phase.DECIDING
+
+
 def test_what_the_robot_said_of_its_condition_before_the_reset_does_not_count():
     site = ConditionSite(SCRIPTED)
     site.run_to(Phase.RESETTING)

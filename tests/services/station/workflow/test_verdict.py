@@ -60,7 +60,9 @@ def test_a_success_that_was_offered_and_not_taught_is_dropped_by_the_next_episod
     site = refining()
     site.step(Action.FINISH)
     ended(site, REACHED, **FINISHED)
-    site.press(Action.EXECUTE, Phase.EXECUTING)
+    site.step(Action.EXECUTE)
+    assert site.state.taught is None
+    site.run_to(Phase.EXECUTING)
     ended(site, MISSED)
     assert Action.TEACH not in site.state.offered
     assert LEARN not in site.names()

@@ -1,0 +1,57 @@
+"""What the model is told: after its answer, whatever it is, the operator is asked and nothing moves."""
+
+import pytest
+
+from protocol import queries
+from services.station.workflow.state import Action, Phase
+from tests.services.station.workflow.site import BY_HAND, COLLIDED, REACHED, Site
+
+
+def taught():
+    site = Site(BY_HAND, [COLLIDED, REACHED])
+    site.press(Action.EXECUTE, Phase.EXECUTING)
+    site.press(Action.REFINE, Phase.LEARNING)
+    return site
+
+
+@pytest.mark.parametrize("outcome", [None, queries.Refused("the disk is full")], ids=["learnt", "refused"])
+def test_after_a_lesson_the_robot_stands_and_the_operator_is_asked(outcome):
+    site = taught()
+    if outcome is not None:
+        site.fail(queries.ADD_DEMONSTRATION, outcome)
+    asked = len(site.asked)
+    while site.state.phase is Phase.LEARNING:
+        site.step()
+    assert site.state.phase is Phase.DECIDING
+    site.stay()
+    assert site.names()[asked:] == ["model/add_demonstration"]
+    assert site.state.owed is None
+
+
+@pytest.mark.parametrize("outcome", [None, queries.Refused("there is none")], ids=["undone", "refused"])
+def test_after_an_undo_the_robot_stands_and_the_operator_is_asked(outcome):
+    site = taught()
+    site.run_to(Phase.DECIDING)
+    if outcome is not None:
+        site.fail(queries.UNDO, outcome)
+    site.step(Action.UNDO)
+    asked = len(site.asked)
+    while site.state.phase is Phase.UNDOING:
+        site.step()
+    assert site.state.phase is Phase.DECIDING
+    site.stay()
+    assert site.names()[asked:] == ["model/undo"]
+    assert site.state.owed is None
+    assert ("was taken back" if outcome is None else "there is none") in site.state.event
+
+
+def test_after_an_undo_what_was_reached_before_says_nothing():
+    site = taught()
+    site.run_to(Phase.DECIDING)
+    site.verdicts = [REACHED]
+    site.press(Action.EXECUTE, Phase.EXECUTING)
+    site.run_to(Phase.DECIDING)
+    assert site.state.last == REACHED
+    site.step(Action.UNDO)
+    site.run_to(Phase.DECIDING)
+    assert site.state.last is None
