@@ -3,9 +3,6 @@
 They hold a model of their own, so that drawing can never disturb control.
 """
 
-from types import TracebackType
-from typing import Self
-
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +21,7 @@ _OPTICAL = np.diag([1.0, -1.0, -1.0])  # MuJoCo's camera axes to optical ones: h
 
 
 class Cameras:
-    """Head and wrist camera of the robot in a scene; a context manager, used by one thread.
+    """Head and wrist camera of the robot in a scene; used by one thread, and closed at the end.
 
     Args:
         scene: What stands around the robot.
@@ -116,14 +113,6 @@ class Cameras:
     def close(self) -> None:
         """Give the drawing library's resources back."""
         self._canvas.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()
 
     def _place(self, qpos: Array) -> None:
         self._data.qpos[:] = qpos

@@ -7,8 +7,7 @@ what other projects have put into the environment for theirs is passed over.
 
 import ctypes
 import os
-from types import TracebackType
-from typing import Protocol, Self
+from typing import Protocol
 
 import mujoco
 import numpy as np
@@ -35,7 +34,7 @@ class GraphicsContext(Protocol):
 
 
 class Canvas:
-    """A place to draw one model in; a context manager, used by one thread.
+    """A place to draw one model in; used by one thread, and closed at the end.
 
     Args:
         model: What to draw.
@@ -81,14 +80,6 @@ class Canvas:
         self._graphics.make_current()
         self._context.free()
         self._graphics.free()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()
 
 
 def open_graphics(width: int, height: int) -> GraphicsContext:

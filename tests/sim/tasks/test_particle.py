@@ -1,6 +1,7 @@
 """The thesis' 2D example: what it promises of via-points, obstacle and ways, and how it is drawn."""
 
 import itertools
+from contextlib import closing
 
 import numpy as np
 import pytest
@@ -113,7 +114,7 @@ def test_the_rings_are_as_wide_as_the_tolerance_and_stand_where_the_condition_sa
 @pytest.mark.sim
 def test_the_head_camera_draws_the_plane_with_x_to_the_right_and_y_up(description: RobotDescription) -> None:
     """The particle is the only thing that is red, and is where the pinhole says."""
-    with Cameras(PARTICLE, description) as cameras:
+    with closing(Cameras(PARTICLE, description)) as cameras:
         for x, y in ((0.0, 0.0), (0.4, 0.2), (0.1, -0.2)):
             state = np.array([x, y, 0.0, 0.1, -0.1])
             picture = cameras.render("head", state).astype(int)
@@ -129,7 +130,7 @@ def test_the_head_camera_draws_the_plane_with_x_to_the_right_and_y_up(descriptio
 
 @pytest.mark.sim
 def test_via_points_and_obstacle_are_drawn_where_the_state_says(description: RobotDescription) -> None:
-    with Cameras(PARTICLE, description) as cameras:
+    with closing(Cameras(PARTICLE, description)) as cameras:
         before = cameras.render("head", np.zeros(5))
         moved = cameras.render("head", np.array([0.0, 0.0, 0.0, 0.1, -0.1]))
         assert np.any(before != moved)

@@ -1,3 +1,5 @@
+from contextlib import closing
+
 import cv2
 import numpy as np
 import pytest
@@ -40,7 +42,7 @@ def test_the_head_sees_the_tag_from_the_start_wherever_the_object_stands(
     world = World(place, place.variants[0], description)
     tag_rotation = Rotation.from_quat(TAG_IN_OBJECT.orientation, scalar_first=True)
     lower, upper = place.region.lower, place.region.upper
-    with Cameras(place, description) as cameras:
+    with closing(Cameras(place, description)) as cameras:
         for x in np.linspace(lower[0], upper[0], 3):
             for y in np.linspace(lower[1], upper[1], 4):
                 world.reset(np.array([x, y, lower[2]]))
@@ -58,7 +60,7 @@ def test_the_head_sees_the_tag_from_the_start_wherever_the_object_stands(
 def test_the_changed_variant_looks_different(description: RobotDescription) -> None:
     place = scene("dishwasher")
     world = World(place, "b1", description)
-    with Cameras(place, description) as cameras:
+    with closing(Cameras(place, description)) as cameras:
         before = cameras.render("head", world.state)
         cameras.show("b2")
         assert np.mean(before != cameras.render("head", world.state)) > 0.1
@@ -67,7 +69,7 @@ def test_the_changed_variant_looks_different(description: RobotDescription) -> N
 def test_pictures_have_the_size_that_was_asked_for(description: RobotDescription) -> None:
     place = scene("table")
     world = World(place, "clear", description)
-    with Cameras(place, description, width=64, height=48) as cameras:
+    with closing(Cameras(place, description, width=64, height=48)) as cameras:
         for name in CAMERAS:
             picture = cameras.render(name, world.state)
             assert picture.shape == (48, 64, 3)
