@@ -6,11 +6,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from protocol.messages import OperatorInput
-from services.station.page.input import BEATS, DEAD_MAN_NS, HEARD_NS, LATE_PRESS_NS, SETTLED_NS, Desk
+from services.station.page.input import Desk
 from services.station.page.presses import ACTIONS_KEPT
 from services.station.page.said import MAX_BYTES
 
-DEAD_MAN_MS = DEAD_MAN_NS // MS
+DEAD_MAN_MS = 150
+HEARD_MS = 1_000
+SETTLED_S = 1.0
+LATE_PRESS_MS = 1_000
+BEATS = 3
 NOTHING = OperatorInput()
 
 
@@ -20,6 +24,13 @@ def browser():
     tab = BrowserTab(Desk())
     tab.hold()
     return tab
+
+
+def test_at_a_desk_where_nobody_sits_nothing_is_held_and_nobody_is_present():
+    desk = Desk()
+    assert desk.take_input(5_000 * MS) == NOTHING
+    standing = desk.standing(1, 5_000 * MS)
+    assert (standing.armed, standing.let_go, standing.focused, standing.accepted) == (False, True, False, ())
 
 
 def test_the_full_state_arrives(browser):
@@ -44,6 +55,8 @@ def test_after_silence_nobody_is_at_the_keys_until_they_were_let_go(browser):
     browser.hold("KeyE", later_ms=DEAD_MAN_MS + 1)
     assert browser.input() == NOTHING
     assert browser.standing().let_go
+    assert browser.standing().focused
+    assert not browser.standing(DEAD_MAN_MS + 1).focused
     browser.hold()
     assert browser.input() == OperatorInput(focused=True)
     assert not browser.standing().let_go
@@ -106,7 +119,7 @@ def test_a_repeated_sample_does_not_keep_the_input_alive(browser):
 
 
 def test_a_page_that_is_seen_and_heard_for_a_second_has_somebody_present(browser):
-    browser.keep_on(SETTLED_NS / 1e9 - 0.04)
+    browser.keep_on(SETTLED_S - 0.04)
     assert not browser.input().present
     browser.keep_on(0.04)
     assert browser.input().present
@@ -115,8 +128,8 @@ def test_a_page_that_is_seen_and_heard_for_a_second_has_somebody_present(browser
 def test_nobody_is_present_once_the_page_was_not_heard_for_a_second(browser):
     browser.keep_on(2.0)
     since_the_beats_ms = 20 * (BEATS - 1)
-    assert browser.input(HEARD_NS // MS - since_the_beats_ms).present
-    assert not browser.input(HEARD_NS // MS - since_the_beats_ms + 1).present
+    assert browser.input(HEARD_MS - since_the_beats_ms).present
+    assert not browser.input(HEARD_MS - since_the_beats_ms + 1).present
 
 
 def test_nobody_is_present_at_a_page_that_is_not_seen(browser):
@@ -159,7 +172,7 @@ def test_a_page_that_comes_back_resumes_nothing(browser):
     browser.keep_on(2.0)
     browser.leave()
     again = BrowserTab(browser.desk, tab=2, now_ms=browser.now_ms + 300, token="seat-0001")
-    again.keep_on(SETTLED_NS / 1e9 - 0.02)
+    again.keep_on(SETTLED_S - 0.02)
     assert again.standing().armed
     assert not again.input().present
     again.keep_on(0.04)
@@ -230,6 +243,14 @@ def test_a_press_is_known_again_on_another_connection(browser):
     assert again.standing().accepted == (7,)
 
 
+def test_a_tab_that_has_gone_is_forgotten(browser):
+    browser.press("execute")
+    browser.leave()
+    assert browser.standing().accepted == ()
+    browser.press("undo")
+    assert browser.desk.take_actions() == ["execute"]
+
+
 def test_the_presses_of_a_page_that_was_loaded_anew_are_new_ones(browser):
     browser.press("execute", number=1)
     browser.leave()
@@ -241,8 +262,8 @@ def test_the_presses_of_a_page_that_was_loaded_anew_are_new_ones(browser):
 
 def test_a_press_that_comes_late_is_refused_and_said_to_be(browser):
     browser.keep_on(2.0)
-    browser.press("execute", age_ms=LATE_PRESS_NS // MS)
-    browser.press("refine", age_ms=LATE_PRESS_NS // MS + 1)
+    browser.press("execute", age_ms=LATE_PRESS_MS)
+    browser.press("refine", age_ms=LATE_PRESS_MS + 1)
     assert browser.desk.take_actions() == ["execute"]
     assert (browser.standing().accepted, browser.standing().refused) == ((1,), (2,))
     assert browser.desk.late == 1

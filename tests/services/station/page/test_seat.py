@@ -49,6 +49,7 @@ def test_a_tab_that_looks_on_may_stop_the_robot_and_nothing_else(first, second):
         second.press(action)
     assert first.desk.take_actions() == ["stop"]
     assert second.standing().refused == (1, 3)
+    assert first.desk.dropped == 2
     assert first.standing().armed
 
 
@@ -103,6 +104,7 @@ def test_silence_gives_the_input(first, second):
     silence(second, first, 60)
     assert second.standing().armed
     assert not first.standing().armed
+    assert not second.input().present
 
 
 def test_whoever_asked_and_left_gets_nothing(first, second):
