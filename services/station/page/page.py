@@ -26,7 +26,7 @@ from services.station.page.view import Board, PageView
 
 log = logging.getLogger(__name__)
 
-START_WITHIN_S = 15.0
+START_WITHIN_S = 60.0
 STOP_POLITELY_S = 0.7
 STOP_AT_ONCE_S = 0.3
 
