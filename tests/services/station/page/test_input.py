@@ -119,7 +119,7 @@ def test_a_repeated_sample_does_not_keep_the_input_alive(browser):
 
 
 def test_a_page_that_is_seen_and_heard_for_a_second_has_somebody_present(browser):
-    browser.keep_on(SETTLED_S - 0.04)
+    browser.keep_on(SETTLED_S - 0.06)
     assert not browser.input().present
     browser.keep_on(0.04)
     assert browser.input().present

@@ -65,6 +65,7 @@ def test_who_sits_is_asked_before_another_takes_the_input(first, second):
 def test_whoever_keeps_the_input_is_asked_no_more_and_the_other_is_told(first, second):
     second.press("take_input")
     first.press("keep_input")
+    assert first.standing().accepted == (1,)
     silence(second, first, ASKED_MS + 100)
     assert first.standing().armed
     assert first.standing().asked_s == second.standing().asking_s == 0.0
@@ -171,6 +172,8 @@ def test_the_seat_of_a_tab_that_has_gone_for_good_is_taken_by_a_press(first, sec
     second.hold()
     second.press("take_input")
     assert second.standing().armed
+    second.keep_on(0.2)
+    assert not second.input().present
 
 
 def test_the_tab_that_sits_has_nobody_to_ask(first):
