@@ -116,8 +116,10 @@ class Child:
             encoding="utf-8",
             errors="replace",
             env={**os.environ, **_ONE_THREAD},
-            # What a terminal sends to all of its processes reaches the supervisor alone, which stops them in order.
-            start_new_session=True,
+            # What a terminal sends to its foreground reaches the supervisor alone, which stops them in order. A group,
+            # not a session of its own: Linux shares the processor out among sessions, so that between two of them
+            # niceness means nothing, and drawing would weigh as much as control.
+            process_group=0,
         )
         self._reader = threading.Thread(target=self._forward, args=(self._process,), daemon=True)
         self._reader.start()
