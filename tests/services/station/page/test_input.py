@@ -7,13 +7,11 @@ from hypothesis import strategies as st
 
 from protocol.messages import OperatorInput
 from services.station.page.input import Desk
-from services.station.page.presses import ACTIONS_KEPT
 from services.station.page.said import MAX_BYTES
 
 DEAD_MAN_MS = 150
 HEARD_MS = 1_000
 SETTLED_S = 1.0
-LATE_PRESS_MS = 1_000
 BEATS = 3
 NOTHING = OperatorInput()
 
@@ -217,85 +215,3 @@ def test_no_bytes_break_the_desk(payload):
     desk = Desk()
     assert desk.receive(1, payload, 0) is None
     assert desk.dropped == 1
-
-
-def test_buttons_arrive_once_and_in_order(browser):
-    for action in ("execute", "undo"):
-        browser.press(action)
-    assert browser.desk.take_actions() == ["execute", "undo"]
-    assert browser.desk.take_actions() == []
-
-
-def test_a_press_that_is_said_twice_is_done_once_and_acknowledged(browser):
-    browser.press("execute", number=7)
-    browser.press("execute", number=7)
-    assert browser.desk.take_actions() == ["execute"]
-    assert browser.standing().accepted == (7,)
-
-
-def test_a_press_is_known_again_on_another_connection(browser):
-    browser.press("execute", number=7)
-    browser.leave()
-    again = BrowserTab(browser.desk, tab=2, now_ms=browser.now_ms, token="seat-0001", load=browser.load)
-    again.hold()
-    again.press("execute", number=7)
-    assert browser.desk.take_actions() == ["execute"]
-    assert again.standing().accepted == (7,)
-
-
-def test_a_tab_that_has_gone_is_forgotten(browser):
-    browser.press("execute")
-    browser.leave()
-    assert browser.standing().accepted == ()
-    browser.press("undo")
-    assert browser.desk.take_actions() == ["execute"]
-
-
-def test_the_presses_of_a_page_that_was_loaded_anew_are_new_ones(browser):
-    browser.press("execute", number=1)
-    browser.leave()
-    again = BrowserTab(browser.desk, tab=2, now_ms=browser.now_ms, token="seat-0001")
-    again.hold()
-    again.press("execute", number=1)
-    assert browser.desk.take_actions() == ["execute", "execute"]
-
-
-def test_a_press_that_comes_late_is_refused_and_said_to_be(browser):
-    browser.keep_on(2.0)
-    browser.press("execute", age_ms=LATE_PRESS_MS)
-    browser.press("refine", age_ms=LATE_PRESS_MS + 1)
-    assert browser.desk.take_actions() == ["execute"]
-    assert (browser.standing().accepted, browser.standing().refused) == ((1,), (2,))
-    assert browser.desk.late == 1
-
-
-def test_a_stop_is_never_late_and_comes_before_everything_else(browser):
-    browser.keep_on(2.0)
-    browser.press("execute")
-    browser.press("stop", age_ms=2_500)
-    assert browser.desk.take_actions() == ["stop", "execute"]
-    assert browser.standing().accepted == (1, 2)
-
-
-def test_a_stop_counts_even_before_the_tab_said_who_it_is():
-    desk = Desk()
-    desk.receive(9, b'{"kind":"pressed","sequence":1,"stamp_ms":9,"number":1,"action":"stop"}', 0)
-    assert desk.take_actions() == ["stop"]
-
-
-def test_a_stop_gets_through_where_too_many_buttons_wait(browser):
-    for _ in range(ACTIONS_KEPT + 1):
-        browser.press("execute")
-    browser.press("stop")
-    assert browser.standing().refused == (ACTIONS_KEPT + 1,)
-    assert browser.desk.take_actions() == ["stop"] + ["execute"] * ACTIONS_KEPT
-
-
-def test_a_stop_is_unconfirmed_in_every_tab_until_the_robot_confirms_it(browser):
-    other = BrowserTab(browser.desk, tab=2, now_ms=browser.now_ms)
-    assert not browser.standing().stop_pressed
-    other.press("stop")
-    assert browser.standing().stop_pressed
-    assert other.standing().stop_pressed
-    browser.desk.confirm_stop()
-    assert not browser.standing().stop_pressed
