@@ -242,3 +242,29 @@ def test_samples_that_grow_late_and_then_stand_are_not_taken_for_a_clock():
     for late in range(0, 4000, 40):
         link.sample(late_ns=late * MS)
     assert not any(timely(link.run(5.0, late_ns=4000 * MS)))
+
+
+def test_what_is_learnt_anew_is_the_fastest_of_the_samples_that_were_away():
+    link = Link(jitter_ns=0)
+    link.run(1.0)
+    link.offset_ns += 3600 * SECOND
+    link.sample(late_ns=80 * MS)
+    link.run(2.0)
+    assert link.sample() == pytest.approx(0, abs=MS)
+    assert link.sample(late_ns=120 * MS) == pytest.approx(120 * MS, abs=2 * MS)
+
+
+def test_the_first_sample_is_one_of_those_that_agree():
+    link = Link(jitter_ns=0)
+    link.sample()
+    link.sample(late_ns=-30 * MS)
+    assert link.sample(late_ns=-50 * MS) == pytest.approx(-50 * MS, abs=MS), "two of three are slower"
+    assert link.sample(late_ns=-30 * MS) == pytest.approx(0, abs=MS)
+
+
+@pytest.mark.parametrize(("off_ns", "near"), [(0, True), (1, False)])
+def test_how_near_a_sample_has_to_be_to_teach_the_baseline(off_ns, near):
+    clocks = Clocks(OWN)
+    clocks.age_ns(OTHER_MACHINE, START, START)
+    ages = [clocks.age_ns(OTHER_MACHINE, START + NEAR_NS + off_ns, START) for _ in range(AGREEING)]
+    assert ages[-1] == (0 if near else -NEAR_NS - off_ns)
