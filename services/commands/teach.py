@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import threading
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -24,9 +25,9 @@ from services.commands.arguments import add_network, add_scene, position, within
 from services.commands.settings import configuration as configured
 from services.model.skill import binding_of
 from services.offline.first_demonstrations import first_demonstrations
-from services.process.clock import SystemClock
+from services.process.clock import Clock, SystemClock
 from services.process.config import Configuration
-from services.process.exceptions import CommandFailed
+from services.process.exceptions import CommandFailed, NoAnswer
 from services.process.runner import stop_on_signals
 from sim.tasks import REACHING, AnyScene
 from sim.tasks import scene as find_scene
@@ -37,7 +38,8 @@ Req = TypeVar("Req", queries.Describe, AddDemonstration, Undo)
 
 ANSWER_S = 10.0
 MODEL_WITHIN_S = 60.0
-
+POLL_NS = 10_000_000
+AGAIN_NS = 200_000_000
 
 TAUGHT_S = 10.0
 """Duration of a motion through waypoints, unless told otherwise: the thesis' time of an autonomous execution."""
@@ -162,15 +164,30 @@ def _holds(state: ModelState) -> str:
     return f"the model has {state.demonstrations} demonstrations and {state.updates} updates"
 
 
-class _Model:
-    """The model process, asked until it answers."""
+class ModelProcess:
+    """The model process, asked until it answers.
 
-    def __init__(self, bus: Bus) -> None:
+    Args:
+        bus: to it.
+        robot: whose it is.
+        clock: that patience ends by.
+        stop: ends the asking.
+    """
+
+    def __init__(self, bus: Bus, robot: str, clock: Clock, stop: threading.Event) -> None:
         self._bus = bus
-        self._stop = stop_on_signals()
+        self._robot = robot
+        self._clock = clock
+        self._stop = stop
 
     def state(self, scene: AnyScene, within_s: float = ANSWER_S) -> ModelState:
-        """What the model holds; CommandFailed where it is for another scene or robot than `scene`."""
+        """What the model holds.
+
+        Raises:
+            CommandFailed: it is for another scene or robot than `scene`.
+            NoAnswer: it did not answer in time.
+            KeyboardInterrupt: somebody ended the command.
+        """
         state = self._answered(queries.DESCRIBE, queries.Describe(), within_s)
         wanted = binding_of(scene)
         if (state.scene, state.robot_kind) != wanted:
@@ -181,36 +198,44 @@ class _Model:
         return state
 
     def add(self, request: AddDemonstration) -> ModelState:
-        """What the model holds once it has learnt."""
+        """What the model holds once it has learnt; raises as `state`."""
         return self._answered(queries.ADD_DEMONSTRATION, request)
 
     def undo(self, request: Undo) -> ModelState:
-        """What the model holds once it has forgotten."""
+        """What the model holds once it has forgotten; raises as `state`."""
         return self._answered(queries.UNDO, request)
 
     def _answered(self, query: Query[Req, Learnt], request: Req, within_s: float = ANSWER_S) -> ModelState:
         """The answer. Where there is none the same request is sent again: by its number it is known, and done once."""
-        clock = SystemClock()
-        deadline = clock.now_ns() + round(within_s * 1e9)
-        reason = "no answer"
-        while clock.now_ns() < deadline and not self._stop.is_set():
-            pending = self._bus.ask(query, request, ANSWER_S)
-            while (outcome := pending.poll()) is None and not self._stop.wait(0.01):
-                pass
-            match outcome:
-                case queries.Refused(reason):
-                    break
-                case Failed(reason):
-                    self._stop.wait(0.2)
+        deadline_ns = self._clock.now_ns() + round(within_s * 1e9)
+        reason = "nothing came back"
+        while self._clock.now_ns() < deadline_ns:
+            match self._asked(query, request):
                 case Learnt(state):
                     return state
-        raise CommandFailed(f"could not teach the model: {reason}")
+                case queries.Refused(reason):
+                    raise CommandFailed(f"could not teach the model: {reason}")
+                case Failed(reason):
+                    self._wait(AGAIN_NS)
+        raise NoAnswer(query.server, self._robot, within_s, reason)
+
+    def _asked(self, query: Query[Req, Learnt], request: Req) -> Learnt | queries.Refused | Failed:
+        pending = self._bus.ask(query, request, ANSWER_S)
+        while (outcome := pending.poll()) is None:
+            self._wait(POLL_NS)
+        return outcome
+
+    def _wait(self, ns: int) -> None:
+        self._clock.sleep_until(self._clock.now_ns() + ns, self._stop)
+        if self._stop.is_set():
+            raise KeyboardInterrupt
 
 
 @contextmanager
-def _model(configuration: Configuration) -> Iterator[_Model]:
-    bus = connect(configuration.connect, configuration.name, "teach", SystemClock())
+def _model(configuration: Configuration) -> Iterator[ModelProcess]:
+    clock = SystemClock()
+    bus = connect(configuration.connect, configuration.name, "teach", clock)
     try:
-        yield _Model(bus)
+        yield ModelProcess(bus, configuration.name, clock, stop_on_signals())
     finally:
         bus.close()

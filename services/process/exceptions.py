@@ -13,6 +13,7 @@ ServiceError
 │   ├── FolderUnusable       a folder of the user's that cannot be made or written
 │   ├── CannotWrite          a file that cannot be written: a full disk, no rights
 │   ├── NotConfirmed         a robot did not confirm its stop, or the stop's release
+│   ├── NoAnswer             a process that was asked and did not answer
 │   └── KeepsFailing         a process that ends again and again, for a reason that does not go away
 ├── BusError                 the network cannot be opened or used
 │   └── BadEndpoint          no endpoint, or one of a host that nobody knows
@@ -166,6 +167,16 @@ class NotConfirmed(EnvironmentFault):
         super().__init__(
             f"robot {robot!r} did not confirm the {what} in {within_s:g} s: {reason}; use its own emergency stop"
         )
+
+
+class NoAnswer(EnvironmentFault):
+    """A process was asked again and again, and did not answer."""
+
+    def __init__(self, process: str, robot: str, within_s: float, reason: str) -> None:
+        self.process = process
+        self.robot = robot
+        self.reason = reason
+        super().__init__(f"the {process} of robot {robot!r} did not answer in {within_s:g} s: {reason}")
 
 
 class KeepsFailing(EnvironmentFault):

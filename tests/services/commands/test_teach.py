@@ -1,8 +1,16 @@
 """`retouch teach`: what a person can have got wrong is one line before anything is asked of the network."""
 
+import threading
+
 import pytest
 
+from protocol import queries
+from services.bus.memory import MemoryNetwork
 from services.cli import main, parser
+from services.commands.teach import ModelProcess
+from services.process.clock import ManualClock
+from services.process.exceptions import EnvironmentFault, NoAnswer
+from sim.tasks import scene
 
 
 @pytest.mark.parametrize("text", ["0.8,-0.1,0.5", " 0.8, -0.1, 5e-1"])
@@ -54,3 +62,26 @@ def test_what_does_not_fit_the_scene_is_one_line(capsys, file, flags, said):
 def test_taking_back_and_teaching_are_not_one_command(capsys, file):
     assert main(["teach", "--undo", "--waypoints", file]) == 2
     assert "--undo" in capsys.readouterr().err
+
+
+@pytest.fixture
+def network():
+    return MemoryNetwork(ManualClock())
+
+
+def asked(network, stop):
+    return ModelProcess(network.bus("teach"), network.robot, network.clock, stop).state(scene("dishwasher"))
+
+
+def test_a_model_that_is_not_there_is_the_networks_fault_and_no_wrong_input(network):
+    with pytest.raises(NoAnswer, match="the model of robot 'robot1' did not answer in 10 s: nobody answers") as caught:
+        asked(network, threading.Event())
+    assert isinstance(caught.value, EnvironmentFault)
+
+
+def test_whoever_ends_the_waiting_for_an_answer_has_interrupted_it(network):
+    network.bus("model").serve(queries.DESCRIBE)
+    stop = threading.Event()
+    stop.set()
+    with pytest.raises(KeyboardInterrupt):
+        asked(network, stop)
