@@ -13,6 +13,7 @@ from protocol.messages.model import ModelState, Prediction
 from protocol.messages.safety import EmergencyStop, SafetyState
 from protocol.messages.state import (
     Box,
+    Cut,
     EpisodeResult,
     ExecutionState,
     Mode,
@@ -51,6 +52,7 @@ __all__ = [
     "CameraImage",
     "Condition",
     "Count",
+    "Cut",
     "Duration",
     "EmergencyStop",
     "EpisodeResult",

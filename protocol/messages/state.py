@@ -45,6 +45,14 @@ class Mode(enum.Enum):
     REFINE = "refine"
 
 
+class Cut(enum.Enum):
+    """What cut an episode short: its operator's Finish, another holder of the authority, a stop or a fault."""
+
+    FINISHED = "finished"
+    TAKEN_OVER = "taken_over"
+    STOPPED = "stopped"
+
+
 class RobotState(Message, frozen=True, kw_only=True):
     """The robot as measured, beside what it was told.
 
@@ -207,6 +215,7 @@ class EpisodeResult(Message, frozen=True, kw_only=True):
         clamped: ticks in which something was clamped.
         held: time spent holding [s].
         duration: from the first motion to the verdict [s].
+        cut: what cut it short; None where it completed.
     """
 
     episode: Count
@@ -223,6 +232,7 @@ class EpisodeResult(Message, frozen=True, kw_only=True):
     clamped: Count
     held: Real
     duration: Real
+    cut: Cut | None = None
 
 
 class ObjectPose(Message, frozen=True, kw_only=True):

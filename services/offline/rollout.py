@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lfd.motion.trajectory import Trajectory
+from protocol.messages import Cut
 from services.robot.arm import Arm, Tick
 from services.robot.backends.backend import CONTROL_PERIOD
 from services.robot.correction import UNCORRECTED, Correction
@@ -76,7 +77,7 @@ def rollout(
             execution = arm.episode.execution
             wanted = operator(RolloutView(time, execution.progress, execution.nominal, execution.correction, tick))
         if to_collision and tick.verdict.collision is not None:
-            arm.finish("it collided")
+            arm.finish(Cut.STOPPED, "it collided")
         tick = arm.tick(wanted)
         time += CONTROL_PERIOD
     return tick.outcome

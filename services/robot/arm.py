@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lfd.motion.trajectory import Trajectory
-from protocol.messages import Phase
+from protocol.messages import Cut, Phase
 from services.robot import safety
 from services.robot.backends.backend import CONTROL_PERIOD, Backend, Blocked, Observation
 from services.robot.correction import UNCORRECTED, Correction
@@ -156,10 +156,10 @@ class Arm:
         self._stand()
         self._episode = Episode(prediction, self.measured, look_ahead, CONTROL_PERIOD)
 
-    def finish(self, reason: str) -> None:
+    def finish(self, cut: Cut, reason: str) -> None:
         """Let the running episode end here; its outcome follows when the arm has settled."""
         if self._episode is not None:
-            self._episode.cut_short(reason, self.measured)
+            self._episode.cut_short(cut, reason, self.measured)
 
     def stop(self, reason: str = "") -> EpisodeOutcome | None:
         """Stand still where the arm is measured to be, at once.

@@ -24,6 +24,11 @@ class Lease:
         self._expires_ns = 0
         self._renewed_ns: int | None = None
 
+    @property
+    def who(self) -> str:
+        """Holds it, for people: the person, or the station of one who gave no name; empty for nobody."""
+        return self.operator or self.holder
+
     def acquire(self, holder: str, now_ns: int, *, operator: str = "", take_over: bool = False) -> int:
         """Give the authority to a holder; its new epoch.
 
@@ -34,7 +39,7 @@ class Lease:
         if holder == NOBODY:
             raise Refusal("the authority needs a holder's name: give one")
         if self.holder not in (NOBODY, holder) and not take_over:
-            raise Refusal(f"{self.holder} holds the authority: wait until it is released, or take over")
+            raise Refusal(f"{self.who} holds the authority: wait until it is released, or take over")
         self._change(holder, operator)
         self._expires_ns = now_ns + self._duration_ns
         return self.epoch
@@ -60,7 +65,7 @@ class Lease:
             Refusal: it is not this holder's, or not of this epoch.
         """
         if self.holder != holder:
-            raise Refusal(f"{holder!r} does not hold the authority: {self.holder or 'nobody'} does")
+            raise Refusal(f"{holder!r} does not hold the authority: {self.who or 'nobody'} does")
         self.check(epoch)
         self._change(NOBODY)
 
@@ -82,7 +87,7 @@ class Lease:
         if self.holder == NOBODY:
             raise Refusal("nobody holds the authority: acquire it first")
         if epoch != self.epoch:
-            raise Refusal(f"the command is of epoch {epoch}, the authority of epoch {self.epoch} is {self.holder}'s")
+            raise Refusal(f"the command is of epoch {epoch}, the authority of epoch {self.epoch} is {self.who}'s")
 
     def expires_in_s(self, now_ns: int) -> float:
         """Until the lease runs out [s]; 0 where nobody holds it."""

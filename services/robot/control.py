@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from protocol import messages
-from protocol.messages import MasterState, Mode, Motion, Phase
+from protocol.messages import Cut, MasterState, Mode, Motion, Phase
 from protocol.queries import AcquireAuthority, Adapt, Execute, Finish, ReleaseAuthority, ReleaseStop, Reset, Resume
 from services.bus.arrays import motion_from_wire
 from services.bus.subscription import Received
@@ -44,11 +44,13 @@ class Order:
         episode: counted since the process started.
         execute: the request.
         holder: of the authority who asked.
+        who: the same for people.
     """
 
     episode: int
     execute: Execute
     holder: str
+    who: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +107,7 @@ class Control:
         self._check_stop()
         epoch = self.lease.acquire(request.holder, now_ns, operator=request.operator, take_over=request.take_over)
         if self.order is not None and self.order.holder != request.holder:
-            self.arm.finish(f"{request.holder} took the authority over from {self.order.holder}")
+            self.arm.finish(Cut.TAKEN_OVER, f"{self.lease.who} took the authority over from {self.order.who}")
         return epoch
 
     def release(self, request: ReleaseAuthority) -> None:
@@ -127,11 +129,12 @@ class Control:
         except ServiceError as error:
             raise Refusal(f"the prediction cannot be executed: {error}") from error
         prediction = admit_prediction(positions, orientations, request.duration, self.arm.measured)
-        self.order = Order(self.order.episode + 1 if self.order is not None else 1, request, self.lease.holder)
+        number = self.order.episode + 1 if self.order is not None else 1
+        self.order = Order(number, request, self.lease.holder, self.lease.who)
         self.finished = None
         self._hold.ask(request.epoch)
         self.arm.begin(prediction, look_ahead(prediction) if request.adapt is Adapt.NEXT else 0.0)
-        return self.order.episode
+        return number
 
     def finish(self, request: Finish) -> None:
         """End the running episode here."""
@@ -139,7 +142,7 @@ class Control:
         if self.arm.episode is None:
             raise Refusal("no episode is running: nothing to finish")
         share = self.arm.episode.execution.progress
-        self.arm.finish(f"finished by {self.lease.holder} at {share:.0%}")
+        self.arm.finish(Cut.FINISHED, f"finished by {self.lease.who} at {share:.0%}")
 
     def resume(self, request: Resume) -> None:
         """Let an episode go on that waits to be asked."""

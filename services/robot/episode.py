@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lfd.motion.trajectory import Trajectory
+from protocol.messages import Cut
 from services.robot.correction import Correction
 from services.robot.execution import Execution
 from services.robot.hold import LONG_HOLD_S
@@ -32,8 +33,8 @@ class EpisodeOutcome:
         commanded: what the joints were told, as poses of the grasping frame.
         measured: what the arm did.
         verdict: at the end.
-        completed: it ran to the prediction's end.
-        reason: why not, empty where it did.
+        cut: what cut it short; None where it ran to the prediction's end.
+        reason: the same for people, empty where it did.
         operator_input: a correction of the operator's took part in it.
         clamped: control periods in which something was clamped.
         held: time spent holding [s].
@@ -45,12 +46,17 @@ class EpisodeOutcome:
     commanded: Trajectory
     measured: Trajectory
     verdict: Verdict
-    completed: bool
+    cut: Cut | None
     reason: str
     operator_input: bool
     clamped: int
     held: float
     duration: float
+
+    @property
+    def completed(self) -> bool:
+        """It ran to the prediction's end."""
+        return self.cut is None
 
 
 class Episode:
@@ -69,7 +75,8 @@ class Episode:
         self.recording = Recording()
         self.holding = False
         self._period = period
-        self._cut_short = ""
+        self._cut: Cut | None = None
+        self._reason = ""
         self._settled = 0
         self._ticks = 0
         self._held = 0
@@ -81,22 +88,23 @@ class Episode:
     @property
     def settling(self) -> bool:
         """The reference stands still until the verdict."""
-        return bool(self._cut_short) or self.execution.finished
+        return self._cut is not None or self.execution.finished
 
     @property
     def over(self) -> bool:
         """Time for the verdict."""
         return self._settled * self._period >= SETTLE_S
 
-    def cut_short(self, reason: str, measured: Pose) -> None:
+    def cut_short(self, cut: Cut, reason: str, measured: Pose) -> None:
         """Let the reference stand from now on; the verdict follows when the arm has settled.
 
         Args:
-            reason: why.
+            cut: what cuts it short.
+            reason: the same for people.
             measured: pose of the grasping frame now, where an arm that holds stays.
         """
         if not self.settling:
-            self._cut_short = reason
+            self._cut, self._reason = cut, reason
             self._standing = measured if self.holding else self.execution.reference
 
     def hold(self) -> None:
@@ -144,7 +152,7 @@ class Episode:
             measured: pose of the grasping frame now.
             stopped: why the arm was stopped before its end, empty where it was not.
         """
-        reason = stopped or self._cut_short
+        cut, reason = (Cut.STOPPED, stopped) if stopped else (self._cut, self._reason)
         motions = self.recording.motions(self.prediction.n_points, measured, self._period)
         return EpisodeOutcome(
             prediction=self.prediction,
@@ -152,7 +160,7 @@ class Episode:
             commanded=motions.commanded,
             measured=motions.measured,
             verdict=verdict,
-            completed=not reason,
+            cut=cut,
             reason=reason,
             operator_input=self._input,
             clamped=self._clamped,

@@ -60,6 +60,7 @@ def episode_result(finished: Finished) -> messages.EpisodeResult:
         clamped=outcome.clamped,
         held=outcome.held,
         duration=outcome.duration,
+        cut=outcome.cut,
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from protocol.messages import Attempt, EpisodeResult, Mode, Motion, Outcome
+from protocol.messages import Attempt, Cut, EpisodeResult, Mode, Motion, Outcome
 from services.station.workflow.asking import to
 from services.station.workflow.episode import ORIGIN
 from services.station.workflow.state import Episode, Phase, Workflow
@@ -64,5 +64,5 @@ def _learnable(result: EpisodeResult, outcome: Outcome, episode: Episode) -> Mot
     """
     if result.mode is not Mode.REFINE or not outcome.success:
         return None
-    finished = episode.finishing and result.reason.startswith("finished by ")
+    finished = episode.finishing and result.cut is Cut.FINISHED
     return result.commanded if result.completed or finished else None

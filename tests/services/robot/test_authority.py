@@ -53,6 +53,18 @@ def test_the_lease_lives_as_long_as_it_is_renewed():
         lease.check(epoch)
 
 
+def test_a_refusal_names_the_person_and_not_the_station():
+    lease = Lease(1.0)
+    epoch = lease.acquire("station-1f3a", 0, operator="ann")
+    for refused in (
+        lambda: lease.acquire("station-77b0", 0, operator="bob"),
+        lambda: lease.check(epoch + 1),
+        lambda: lease.release("station-77b0", epoch),
+    ):
+        with pytest.raises(Refusal, match="ann"):
+            refused()
+
+
 def test_only_the_holder_releases():
     lease = Lease(1.0)
     epoch = lease.acquire("ann", 0)

@@ -3,7 +3,7 @@
 import pytest
 
 from protocol import messages, queries
-from protocol.messages import Mode, Phase
+from protocol.messages import Cut, Mode, Phase
 from protocol.queries import Accepted, Adapt, EpisodeStarted, Refused
 from tests.services.predictions import announce
 from tests.services.robot.site import OBSTACLE, Site, straight
@@ -58,6 +58,7 @@ def test_a_finish_is_of_the_present_authority_and_of_something(site):
     site.run(0.6)
     assert site.result.reason.startswith("finished by ann at ")
     assert site.result.reason.endswith("%")
+    assert site.result.cut is Cut.FINISHED
 
 
 def test_episodes_are_counted_and_a_result_is_repeated_until_the_next_one(site):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from protocol import messages, queries, topics
-from protocol.messages import Phase
+from protocol.messages import Cut, Phase
 from protocol.queries import Accepted, EpisodeStarted, Refused
 from services.bus.arrays import from_wire
 from tests.services.robot.arm_site import DURATION, Site
@@ -29,6 +29,7 @@ def test_an_autonomous_episode_runs_to_its_end_and_is_reported_until_the_next_on
     site.run(2.0)
     results = site.take_results()
     assert (results[0].episode, results[0].request, results[0].completed) == (1, 42, True)
+    assert results[0].cut is None
     assert results[0].prediction == site.identity
     assert not results[0].operator_input
     assert results[0].verdict.collision is False
@@ -53,6 +54,7 @@ def test_an_episode_does_not_go_on_under_another_operator(site):
     site.run(1.0, renew=False)
     result = site.take_results()[0]
     assert not result.completed
+    assert result.cut is Cut.TAKEN_OVER
     assert "bob took the authority over from ann" in result.reason
     assert site.state.phase is Phase.IDLE
 

@@ -5,7 +5,7 @@ from datetime import timedelta
 import pytest
 
 from protocol import messages, queries, topics
-from protocol.messages import Mode, Phase
+from protocol.messages import Cut, Mode, Phase
 from protocol.queries import Accepted, EpisodeStarted, Refused
 from services.robot.memory import SafetyFile
 from tests.services.robot.site import MORNING, AtOnce, Later, Site, straight
@@ -53,6 +53,7 @@ def test_a_stopped_episode_is_not_completed():
     site.run(1.0)
     site.press("bob", "smoke")
     assert (site.result.completed, site.result.reason) == (False, "emergency stop by bob: smoke")
+    assert site.result.cut is Cut.STOPPED
 
 
 def test_a_stop_while_a_success_settles_is_a_stop():
@@ -65,6 +66,7 @@ def test_a_stop_while_a_success_settles_is_a_stop():
     site.press("bob", "smoke")
     assert site.result.verdict.reached
     assert (site.result.completed, site.result.reason) == (False, "emergency stop by bob: smoke")
+    assert site.result.cut is Cut.STOPPED
 
 
 def test_nothing_is_carried_out_while_the_stop_is_latched():

@@ -3,6 +3,7 @@
 import pytest
 
 from protocol import queries
+from protocol.messages import Cut
 from services.station.workflow.state import Action, Phase
 from services.station.workflow.stop import RELEASED_S
 from tests.services.station.workflow.site import (
@@ -176,7 +177,7 @@ def test_a_finished_refinement_that_could_still_be_taught_is_dropped_by_a_stop()
     site.press(Action.EXECUTE, Phase.EXECUTING)
     site.press(Action.REFINE, Phase.EXECUTING)
     site.step(Action.FINISH)
-    site.end(REACHED, completed=False, reason="finished by ann at 80%")
+    site.end(REACHED, completed=False, reason="finished by ann at 80%", cut=Cut.FINISHED)
     site.run_to(Phase.DECIDING)
     stop(site)
     assert site.state.taught is None

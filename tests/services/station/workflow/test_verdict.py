@@ -6,13 +6,13 @@ import msgspec
 import pytest
 
 from protocol import queries
-from protocol.messages import Mode
+from protocol.messages import Cut, Mode
 from services.station.workflow.state import Action, Phase
 from services.station.workflow.verdict import ATTEMPTS_KEPT
 from services.station.workflow.words import teaching_state
 from tests.services.station.workflow.site import BY_HAND, COLLIDED, MISSED, REACHED, SCRIPTED, Site, lose_authority
 
-FINISHED = {"completed": False, "reason": "finished by ann at 80%"}
+FINISHED = {"completed": False, "reason": "finished by ann at 80%", "cut": Cut.FINISHED}
 LEARN = "model/add_demonstration"
 
 
@@ -92,14 +92,20 @@ def test_a_script_teaches_a_success_whose_result_came_while_the_authority_was_lo
 
 
 @pytest.mark.parametrize(
-    "reason", ["emergency stop by bob", "bob took the authority over from ann", "the robot comes within 3 mm of itself"]
+    ("cut", "reason"),
+    [
+        (Cut.STOPPED, "emergency stop by bob"),
+        (Cut.STOPPED, "the robot comes within 3 mm of itself"),
+        (Cut.STOPPED, "finished by a wall"),
+        (Cut.TAKEN_OVER, "bob took the authority over from ann"),
+    ],
 )
 @pytest.mark.parametrize("finishing", [False, True])
-def test_a_success_that_anything_else_cut_short_is_neither_learnt_nor_offered(reason, finishing):
+def test_a_success_that_anything_else_cut_short_is_neither_learnt_nor_offered(cut, reason, finishing):
     site = refining()
     if finishing:
         site.step(Action.FINISH)
-    ended(site, REACHED, completed=False, reason=reason)
+    ended(site, REACHED, completed=False, cut=cut, reason=reason)
     assert LEARN not in site.names()
     assert Action.TEACH not in site.state.offered
     assert reason in site.state.event
