@@ -5,7 +5,9 @@ from __future__ import annotations
 LONG_HOLD_S = 0.5
 """A hold of more than this is left only upon a request [s]."""
 
-ASK = "waits to be asked to go on"
+TOO_LONG = f"it held for more than {LONG_HOLD_S:g} s"
+ANOTHER_AUTHORITY = "it was asked for under another authority"
+"""Why an episode waits that nothing keeps any more."""
 
 
 class Hold:
@@ -16,9 +18,14 @@ class Hold:
     """
 
     def __init__(self) -> None:
-        self.waiting = False
+        self._waits = ""
         self._epoch = 0
         self._since_ns: int | None = None
+
+    @property
+    def waiting(self) -> bool:
+        """The episode goes on only when it is asked to."""
+        return bool(self._waits)
 
     def ask(self, epoch: int) -> None:
         """Somebody asked for the motion, or for it to go on.
@@ -26,7 +33,7 @@ class Hold:
         Args:
             epoch: of the authority under which.
         """
-        self.waiting = False
+        self._waits = ""
         self._epoch = epoch
         self._since_ns = None
 
@@ -43,5 +50,8 @@ class Hold:
         elif self._since_ns is None:
             self._since_ns = now_ns
         held_ns = now_ns - self._since_ns if self._since_ns is not None else 0
-        self.waiting = self.waiting or epoch != self._epoch or held_ns > LONG_HOLD_S * 1e9
-        return cause or (ASK if self.waiting else "")
+        if epoch != self._epoch:
+            self._waits = ANOTHER_AUTHORITY
+        elif held_ns > LONG_HOLD_S * 1e9:
+            self._waits = self._waits or TOO_LONG
+        return cause or self._waits

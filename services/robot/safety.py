@@ -62,10 +62,10 @@ class Watchdog:
         """
         limit = min(LONGEST_SILENCE_S, self.hold_after_s)
         if silence_s is None:
-            return "no master state with the authority's holder and epoch was heard"
+            return "nothing was heard of the operator's keys or device under this authority"
         if not silence_s <= limit:
-            return f"the master has not been heard for more than {limit * 1e3:.0f} ms"
-        return "" if engaged else "nobody is at the master"
+            return f"the operator's keys or device were not heard for more than {limit * 1e3:.0f} ms"
+        return "" if engaged else "no hand is at the operator's keys or device"
 
 
 @dataclass(frozen=True, eq=False)

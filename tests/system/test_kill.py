@@ -118,7 +118,7 @@ def test_each_process_is_killed_in_turn_and_the_loop_still_closes(tmp_path):
 
         run.executing(Mode.REFINE)
         run.kill("master")
-        run.holds("master has not been heard")
+        run.holds("keys or device were not heard")
         run.back("master", first["master"])
 
         up.until(lambda: witness.teaching and witness.teaching.updates, 2 * EPISODE_S, "a refinement is learnt")

@@ -113,14 +113,9 @@ def _executing(state: Workflow, view: View) -> str:
 
 
 def _holding(robot: RobotState) -> str:
-    """Whether it goes on by itself, and what keeps it, without the names of processes."""
-    reason = robot.hold_reason
-    if "master" in reason:
-        reason = "no hand is felt at your keys or device"
-    elif robot.waiting and reason.startswith("waits"):
-        reason = ""
+    """Whether it goes on by itself, and what keeps it."""
     holds = "The robot waits: press Go on, or Finish." if robot.waiting else "The robot holds."
-    return f"{holds} ({reason})" if reason else holds
+    return f"{holds} ({robot.hold_reason})" if robot.hold_reason else holds
 
 
 def _collided(view: View) -> bool:

@@ -2,7 +2,7 @@
 
 import pytest
 
-from services.robot.hold import ASK, LONG_HOLD_S, Hold
+from services.robot.hold import ANOTHER_AUTHORITY, LONG_HOLD_S, TOO_LONG, Hold
 
 MS = 1_000_000
 
@@ -35,7 +35,7 @@ def test_a_longer_one_waits_to_be_asked(hold):
     held(hold, round(1e3 * LONG_HOLD_S) + 10)
     assert hold.waiting
     for later in (600, 6000):
-        assert hold.reason(later * MS, "", 7) == ASK
+        assert hold.reason(later * MS, "", 7) == TOO_LONG
 
 
 def test_what_was_asked_goes_on_as_soon_as_nothing_keeps_it(hold):
@@ -61,8 +61,8 @@ def test_holds_that_come_one_after_the_other_do_not_add_up(hold):
 
 
 def test_under_another_authority_a_motion_waits_at_once(hold):
-    assert hold.reason(0, "", 8) == ASK
+    assert hold.reason(0, "", 8) == ANOTHER_AUTHORITY
     assert hold.waiting
-    assert hold.reason(10 * MS, "", 7) == ASK
+    assert hold.reason(10 * MS, "", 7) == ANOTHER_AUTHORITY
     hold.ask(8)
     assert hold.reason(20 * MS, "", 8) == ""

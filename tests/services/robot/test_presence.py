@@ -6,7 +6,7 @@ import pytest
 from protocol import messages, queries, topics
 from protocol.messages import Mode, Phase
 from protocol.queries import Accepted, Refused
-from services.robot.hold import ASK
+from services.robot.hold import TOO_LONG
 from tests.services.robot.site import Site, straight
 
 MODES = pytest.mark.parametrize("mode", Mode)
@@ -70,7 +70,7 @@ def test_a_master_of_the_authority_before_counts_no_more(site):
     site.run(0.5, master=(0.0, 0.1, 0.0))
     site.acquire()
     site.run(0.01)
-    assert site.state.hold_reason == "no master state with the authority's holder and epoch was heard"
+    assert site.state.hold_reason == "nothing was heard of the operator's keys or device under this authority"
 
 
 @MODES
@@ -89,7 +89,7 @@ def test_after_a_long_absence_the_robot_waits_to_be_asked(site, mode):
     held = site.state
     assert held.waiting
     site.run(1.0, master=RESTING)
-    assert (site.state.phase, site.state.hold_reason, site.state.q) == (Phase.HOLD, ASK, held.q)
+    assert (site.state.phase, site.state.hold_reason, site.state.q) == (Phase.HOLD, TOO_LONG, held.q)
     assert resume(site) == Accepted()
     site.run(2.0, master=RESTING)
     assert site.result.completed

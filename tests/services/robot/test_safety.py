@@ -40,10 +40,10 @@ def test_no_motion_goes_on_without_an_operator(holder, silence, expected):
     ("silence", "engaged", "expected"),
     [
         (0.1, True, ""),
-        (0.1, False, "nobody is at the master"),
-        (0.1001, True, "not been heard for more than 100 ms"),
-        (math.nan, True, "not been heard"),
-        (None, False, "no master state"),
+        (0.1, False, "no hand is at the operator's keys"),
+        (0.1001, True, "not heard for more than 100 ms"),
+        (math.nan, True, "not heard"),
+        (None, False, "nothing was heard"),
     ],
 )
 def test_no_refinement_goes_on_without_a_hand(silence, engaged, expected):

@@ -90,15 +90,15 @@ def test_light_and_text(state, seen, light, text):
 
 @pytest.mark.parametrize("state", [REFINING, ALONE])
 def test_a_held_robot_has_a_light_of_its_own_and_never_green(state):
-    light, text = told(state, robot=robot(HOLD, hold_reason="nobody is at the master"))
+    light, text = told(state, robot=robot(HOLD, hold_reason="no hand is at the operator's keys"))
     assert light is Light.HOLD
-    assert text == "The robot holds. (no hand is felt at your keys or device)"
+    assert text == "The robot holds. (no hand is at the operator's keys)"
 
 
 def test_a_robot_that_waits_says_what_to_press_and_what_keeps_it():
     _, text = told(ALONE, robot=robot(HOLD, waiting=True, hold_reason="nobody holds the authority"))
     assert text == "The robot waits: press Go on, or Finish. (nobody holds the authority)"
-    _, text = told(ALONE, robot=robot(HOLD, waiting=True, hold_reason="waits to be asked to go on"))
+    _, text = told(ALONE, robot=robot(HOLD, waiting=True))
     assert text == "The robot waits: press Go on, or Finish."
 
 
