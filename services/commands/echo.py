@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import queue
 import sys
 import time
@@ -15,6 +16,13 @@ from services.commands.arguments import add_network, whole
 from services.commands.settings import configuration
 from services.process.ending import end_within
 from services.process.runner import stop_on_signals
+
+log = logging.getLogger(__name__)
+
+POLL_S = 0.2
+
+KEPT = 10_000
+"""Messages that wait to be printed at most."""
 
 LONG = 64
 """Bytes and lists longer than this are shown by their length."""
@@ -58,6 +66,37 @@ def shown(value: Any) -> str:
             return repr(value)
 
 
+class Heard:
+    """What passes, until it is printed: whoever reads slowly misses some of it, and the network waits for nobody.
+
+    Args:
+        kept: how many messages wait at most.
+    """
+
+    def __init__(self, kept: int = KEPT) -> None:
+        self._waiting: queue.Queue[Passing] = queue.Queue(maxsize=kept)
+        self._missed = 0
+
+    def keep(self, message: Passing) -> None:
+        """Keep it to be printed, where there is room; called on the network's threads."""
+        try:
+            self._waiting.put_nowait(message)
+        except queue.Full:
+            self._missed += 1
+
+    def take(self, timeout_s: float) -> Passing | None:
+        """The oldest; None where none came in time."""
+        try:
+            return self._waiting.get(timeout=timeout_s)
+        except queue.Empty:
+            return None
+
+    def take_missed(self) -> int:
+        """How many there was no room for since the last call."""
+        missed, self._missed = self._missed, 0
+        return missed
+
+
 def echo(connect: str, key: str, count: int | None) -> None:
     """Print until interrupted, or `count` messages.
 
@@ -66,15 +105,16 @@ def echo(connect: str, key: str, count: int | None) -> None:
     """
     stop = stop_on_signals()
     end_within()
-    passing: queue.Queue[Passing] = queue.Queue(maxsize=10_000)
+    heard = Heard()
     session = open_session(connect, 5.0, stop)
     try:
-        watch(session, key, passing.put)
+        watch(session, key, heard.keep)
         shown_count = 0
         while not stop.is_set() and shown_count != count:
-            try:
-                message = passing.get(timeout=0.2)
-            except queue.Empty:
+            if missed := heard.take_missed():
+                log.warning("%d messages are not shown: they came faster than they were read", missed)
+            message = heard.take(POLL_S)
+            if message is None:
                 continue
             stamp = time.strftime("%H:%M:%S")
             sys.stdout.write(f"{stamp} {message.key} [{message.schema or '?'}] {shown(decoded(message.payload))}\n")

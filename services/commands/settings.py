@@ -22,7 +22,7 @@ def configuration(arguments: Namespace) -> Configuration:
     Raises:
         ConfigurationError: the file cannot be used.
         ProtocolError: the robot's or operator's name cannot stand in a message.
-        SimError: the scene has no such variant.
+        SimError: there is no such scene, or it has no such variant.
     """
     given = {flag: value for flag, value in vars(arguments).items() if value is not None}
     result = load(arguments.config) if "config" in given else Configuration()
@@ -35,11 +35,13 @@ def configuration(arguments: Namespace) -> Configuration:
         changes["master"] = msgspec.structs.replace(result.master, device=Scripted())
     station = {key: given[flag] for flag, key in _STATION_FLAGS.items() if flag in given}
     result = msgspec.structs.replace(result, station=msgspec.structs.replace(result.station, **station), **changes)
-    if result.station.variant:
-        # Imported here: few name a variant, and only they need the scenes.
+    if result.station.variant or "scene" in given:
+        # Imported here: few name a scene or a variant, and only they need the scenes.
         from sim.tasks import scene  # noqa: PLC0415
 
-        scene(result.robot.scene).check(result.station.variant)
+        found = scene(result.robot.scene)
+        if result.station.variant:
+            found.check(result.station.variant)
     checked_name(result.name)
     checked_name(result.operator)
     return result

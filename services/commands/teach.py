@@ -189,11 +189,12 @@ class ModelProcess:
             KeyboardInterrupt: somebody ended the command.
         """
         state = self._answered(queries.DESCRIBE, queries.Describe(), within_s)
-        wanted = binding_of(scene)
-        if (state.scene, state.robot_kind) != wanted:
+        wanted, kind = binding_of(scene)
+        if (state.scene, state.robot_kind) != (wanted, kind):
             raise CommandFailed(
-                f"the running model is for scene {state.scene} with robot {state.robot_kind}, not for {wanted}:"
-                f" start it with --scene {scene.name}, or teach with --scene {state.scene}"
+                f"the running model is for scene {state.scene} with robot {state.robot_kind},"
+                f" not for scene {wanted} with robot {kind}:"
+                f" start it with --scene {wanted}, or teach with --scene {state.scene}"
             )
         return state
 

@@ -172,6 +172,8 @@ class NotConfirmed(EnvironmentFault):
 class NoAnswer(EnvironmentFault):
     """A process was asked again and again, and did not answer."""
 
+    passes = True
+
     def __init__(self, process: str, robot: str, within_s: float, reason: str) -> None:
         self.process = process
         self.robot = robot

@@ -63,7 +63,8 @@ class Launch:
         Raises:
             CommandFailed: --only names a process that does not exist, or the report cannot be written.
         """
-        names = tuple(n.strip() for n in arguments.only.split(",")) if arguments.only else PROCESS_NAMES
+        named = arguments.only is not None
+        names = tuple(name.strip() for name in arguments.only.split(",")) if named else PROCESS_NAMES
         for name in names:
             if name not in PROCESS_NAMES:
                 raise CommandFailed(f"--only: unknown process {name!r}; there are {', '.join(PROCESS_NAMES)}")

@@ -2,7 +2,8 @@
 
 import msgpack
 
-from services.commands.echo import decoded, shown
+from services.bus.zenoh import Passing
+from services.commands.echo import Heard, decoded, shown
 
 
 def test_a_foreign_map_is_shown_by_its_fields():
@@ -15,3 +16,12 @@ def test_what_is_no_msgpack_is_shown_as_bytes():
 
 def test_long_fields_are_shown_by_their_length():
     assert shown({"data": b"\0" * 1000, "list": list(range(100))}) == "{data: <1000 bytes>, list: <100 items>}"
+
+
+def test_nobody_waits_for_a_reader_that_is_slow_and_what_it_misses_is_counted():
+    heard = Heard(kept=1)
+    heard.keep(Passing("a", b"", ""))
+    heard.keep(Passing("b", b"", ""))
+    assert heard.take(0.0) == Passing("a", b"", "")
+    assert heard.take(0.0) is None
+    assert (heard.take_missed(), heard.take_missed()) == (1, 0)

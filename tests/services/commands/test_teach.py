@@ -77,6 +77,7 @@ def test_a_model_that_is_not_there_is_the_networks_fault_and_no_wrong_input(netw
     with pytest.raises(NoAnswer, match="the model of robot 'robot1' did not answer in 10 s: nobody answers") as caught:
         asked(network, threading.Event())
     assert isinstance(caught.value, EnvironmentFault)
+    assert caught.value.passes, "where `retouch up` teaches, a model that comes later is taught later"
 
 
 def test_whoever_ends_the_waiting_for_an_answer_has_interrupted_it(network):

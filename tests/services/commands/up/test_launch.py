@@ -10,6 +10,7 @@ from services.commands.up.launch import Launch
 from services.process.config import Keyboard, Scripted
 from services.process.exceptions import CommandFailed
 from services.process.processes import PROCESS_NAMES
+from sim.exceptions import SimError
 
 
 def arguments(*words):
@@ -37,6 +38,17 @@ def test_only_some_processes_are_started():
     assert launch("--only", "robot, camera").processes == ("robot", "camera")
     with pytest.raises(CommandFailed, match=r"'ghost'.*perception"):
         launch("--only", "robot,ghost")
+
+
+@pytest.mark.parametrize("nothing", ["", ",", " "])
+def test_nothing_is_not_taken_for_everything(nothing):
+    with pytest.raises(CommandFailed, match=r"--only.*''.*perception"):
+        launch("--only", nothing)
+
+
+def test_an_unknown_scene_is_named_before_anything_starts():
+    with pytest.raises(SimError, match=r"'dishwaser'.*dishwasher"):
+        configuration(arguments("--scene", "dishwaser"))
 
 
 def test_a_report_that_could_not_be_written_is_refused_before_anything_starts(tmp_path):
