@@ -17,7 +17,7 @@ from protocol.messages import OperatorInput
 from services.bus.freshness import Freshness, Judgement
 from services.station.page.presses import STOP, Presses
 from services.station.page.said import Held, Hello, Pressed, read
-from services.station.page.seat import ASKED_NS, Seat
+from services.station.page.seat import Seat
 
 DEAD_MAN_NS = 150_000_000
 """Age at which the input state counts as zero."""
@@ -155,14 +155,14 @@ class Desk:
             self._expire(now_ns)
             armed = tab == self._seat.tab
             question = self._seat.question
-            left_s = (ASKED_NS - self._seat.asked_for_ns(now_ns)) / 1e9
+            left_s = self._seat.left_ns(now_ns) / 1e9
             known = self._tabs.get(tab)
             settled = self._presses.settled(known.hello.load if known is not None else "")
             return Standing(
                 armed=armed,
                 let_go=self._let_go,
                 focused=armed and self._held is not None and self._held.focused,
-                asked_s=left_s if armed and question is not None else 0.0,
+                asked_s=left_s if armed else 0.0,
                 asking_s=left_s if question is not None and question.tab == tab else 0.0,
                 kept=tab == self._seat.kept_from,
                 stop_pressed=self._stop_pressed,
@@ -172,7 +172,7 @@ class Desk:
 
     def _enter(self, tab: int, message: Hello, now_ns: int) -> None:
         self._tabs[tab] = _Tab(message)
-        if self._seat.enter(tab, message.seat, now_ns):
+        if self._seat.enter(tab, message.seat):
             self._sit(now_ns)
 
     def _sit(self, now_ns: int) -> None:
@@ -246,7 +246,7 @@ class Desk:
         if action == KEEP:
             self._seat.keep()
         elif action == GIVE:
-            if self._seat.give(now_ns):
+            if self._seat.give():
                 self._sit(now_ns)
         else:
             return self._presses.add(action)

@@ -46,11 +46,11 @@ class Seat:
         self._token = ""
         self._left_ns = 0
 
-    def enter(self, tab: int, token: str, now_ns: int) -> bool:
+    def enter(self, tab: int, token: str) -> bool:
         """A tab has come, or come back with the token by which it finds its seat; whether it sits now."""
         if self._token and token != self._token:
             return False
-        self._sit(tab, token, now_ns)
+        self._sit(tab, token)
         return True
 
     def leave(self, tab: int, now_ns: int) -> bool:
@@ -68,17 +68,17 @@ class Seat:
         if tab == self.tab or self.question is not None:
             return False
         if self.tab is None and now_ns - self._left_ns > RESERVED_NS:
-            self._sit(tab, token, now_ns)
+            self._sit(tab, token)
             return True
         self.question = Question(tab, token, now_ns)
         self.kept_from = None
         return False
 
-    def give(self, now_ns: int) -> bool:
+    def give(self) -> bool:
         """Who sits gives the seat to who asked for it; whether somebody did."""
         if self.question is None:
             return False
-        self._sit(self.question.tab, self.question.token, now_ns)
+        self._sit(self.question.tab, self.question.token)
         return True
 
     def keep(self) -> None:
@@ -89,15 +89,14 @@ class Seat:
 
     def expire(self, now_ns: int) -> bool:
         """Silence gives the seat; whether it did."""
-        return self.asked_for_ns(now_ns) >= ASKED_NS and self.give(now_ns)
+        return self.left_ns(now_ns) <= 0 and self.give()
 
-    def asked_for_ns(self, now_ns: int) -> int:
-        """How long the question has been open; 0 where there is none."""
-        return now_ns - self.question.since_ns if self.question is not None else 0
+    def left_ns(self, now_ns: int) -> int:
+        """Until silence answers the question; 0 where there is none."""
+        return ASKED_NS - (now_ns - self.question.since_ns) if self.question is not None else 0
 
-    def _sit(self, tab: int, token: str, now_ns: int) -> None:
+    def _sit(self, tab: int, token: str) -> None:
         self.tab = tab
         self.question = None
         self.kept_from = None
         self._token = token
-        self._left_ns = now_ns

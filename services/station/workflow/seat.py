@@ -84,8 +84,7 @@ def acquiring(state: Workflow, view: View, settings: Settings) -> Step:
 
 def _granted(state: Workflow, view: View, epoch: int) -> Workflow:
     granted = replace(state, epoch=epoch, holding=True, confirmed=False, granted_s=view.now_s, watches=False)
-    goes_on = state.episode is not None and runs(state, view)
-    if not goes_on or state.episode is None:
+    if not runs(state, view) or state.episode is None:
         return to(granted, Phase.LOOKING, view)
     number = state.episode.number or (view.robot.episode if view.robot is not None else 0)
     return to(granted, Phase.EXECUTING, view, episode=replace(state.episode, number=number))
@@ -119,7 +118,7 @@ def lost(state: Workflow, view: View, settings: Settings) -> Workflow | None:
     reason = _loss(state, view, settings)
     if reason:
         watches = bool(another(view, settings))
-        dropped = replace(state, holding=False, confirmed=False, pressed=False, watches=watches)
+        dropped = replace(state, holding=False, pressed=False, watches=watches)
         return to(dropped, Phase.WATCHING if watches else Phase.WAITING, view, event=reason)
     if state.pressed and view.now_s - state.heard_s > UNHEARD_S:
         return to(state, Phase.DECIDING, view, pressed=False, event="The robot was not heard for a moment.")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from protocol import queries
+from protocol.messages import SafetyState
 from services.station.workflow.asking import ask, not_done, to
 from services.station.workflow.state import Action, Phase, Settings, Workflow
 from services.station.workflow.view import Step, View
@@ -34,7 +35,7 @@ def stopped(state: Workflow, view: View, settings: Settings) -> Step:
         reason = f"stopped by {view.safety.by or 'somebody'}, and a script does not release a stop"
         return Step(to(state, Phase.FINISHED, view, reason="" if state.closure.closed else reason))
     if view.safety is not None and not view.latched and not view.stopping:
-        return Step(_released(state, view))
+        return Step(_released(state, view, view.safety))
     if Action.RELEASE_STOP in view.actions and view.latched:
         return Step(to(state, Phase.RELEASING, view))
     return Step(replace(state, offered=frozenset({Action.RELEASE_STOP}) if view.latched else frozenset()))
@@ -43,7 +44,7 @@ def stopped(state: Workflow, view: View, settings: Settings) -> Step:
 def releasing(state: Workflow, view: View, settings: Settings) -> Step:
     """Ask the robot, once: what was pressed for this stop must not release another one, later."""
     if view.safety is not None and not view.latched:
-        return Step(_released(state, view))
+        return Step(_released(state, view, view.safety))
     reply = ask(
         state, view, queries.RELEASE_STOP, lambda intent: queries.ReleaseStop(settings.operator, request=intent)
     )
@@ -57,10 +58,8 @@ def releasing(state: Workflow, view: View, settings: Settings) -> Step:
     return Step(to(state, Phase.STOPPED, view) if again else state)
 
 
-def _released(state: Workflow, view: View) -> Workflow:
+def _released(state: Workflow, view: View, safety: SafetyState) -> Workflow:
     """After a stop nothing moves by itself, and a new authority is needed."""
-    safety = view.safety
-    by = safety.released_by if safety is not None else ""
-    at = f" at {safety.at}" if safety is not None and safety.at and by else ""
-    event = f"The emergency stop was released by {by or 'somebody'}{at}."
-    return to(replace(state, holding=False, confirmed=False, last=None), Phase.WAITING, view, event=event)
+    at = f" at {safety.at}" if safety.at and safety.released_by else ""
+    event = f"The emergency stop was released by {safety.released_by or 'somebody'}{at}."
+    return to(replace(state, holding=False, last=None), Phase.WAITING, view, event=event)

@@ -4,9 +4,10 @@ import pytest
 from browser_tab import BrowserTab
 
 from services.station.page.input import Desk
-from services.station.page.presses import ACTIONS_KEPT
+from services.station.page.presses import Presses
 
 LATE_PRESS_MS = 1_000
+ACTIONS_KEPT = 64
 
 
 @pytest.fixture
@@ -97,3 +98,21 @@ def test_a_stop_is_unconfirmed_in_every_tab_until_the_robot_confirms_it(browser)
     assert other.standing().stop_pressed
     browser.desk.confirm_stop()
     assert not browser.standing().stop_pressed
+
+
+def test_of_a_page_the_newest_64_presses_are_known_again():
+    presses = Presses()
+    for number in range(65):
+        presses.settle("page", number, accepted=True)
+    assert presses.settled("page") == {True: tuple(range(1, 65)), False: ()}
+    assert presses.is_new("page", 0)
+    assert not presses.is_new("page", 1)
+
+
+def test_of_the_pages_that_were_loaded_the_32_that_pressed_last_are_known():
+    presses = Presses()
+    for page in range(32):
+        presses.settle(f"page {page}", 1, accepted=False)
+    presses.settle("page 0", 2, accepted=True)
+    presses.settle("page 32", 1, accepted=True)
+    assert [page for page in range(33) if presses.is_new(f"page {page}", 1)] == [1]

@@ -5,10 +5,9 @@ from browser_tab import MS, BrowserTab
 
 from protocol.messages import OperatorInput
 from services.station.page.input import Desk
-from services.station.page.seat import ASKED_NS, RESERVED_NS
 
-ASKED_MS = ASKED_NS // MS
-RESERVED_MS = RESERVED_NS // MS
+ASKED_MS = 10_000
+RESERVED_MS = 30_000
 
 
 @pytest.fixture
@@ -51,6 +50,32 @@ def test_a_tab_that_looks_on_may_stop_the_robot_and_nothing_else(first, second):
     assert second.standing().refused == (1, 3)
     assert first.desk.dropped == 2
     assert first.standing().armed
+
+
+def disturbances(second):
+    """What a tab that looks on may do without a word of who sits."""
+    third = BrowserTab(second.desk, tab=3, now_ms=second.now_ms)
+    yield
+    second.press("take_input")
+    yield
+    third.press("take_input")
+    yield
+    third.leave()
+    yield
+    second.leave()
+    yield
+
+
+def test_who_sits_goes_on_undisturbed_while_others_come_ask_and_go(first, second):
+    first.hold("KeyE")
+    for _ in disturbances(second):
+        assert first.input() == OperatorInput(present=True, focused=True, keys=("KeyE",))
+
+
+def test_asking_for_the_seat_that_one_has_changes_nothing(first):
+    first.hold("KeyE")
+    first.press("take_input")
+    assert first.input() == OperatorInput(present=True, focused=True, keys=("KeyE",))
 
 
 def test_who_sits_is_asked_before_another_takes_the_input(first, second):

@@ -6,7 +6,6 @@ import pytest
 
 from protocol import messages, queries
 from services.bus.bus import Failed
-from services.station.workflow.seat import CONFIRM_S, UNHEARD_S
 from services.station.workflow.state import Action, Phase
 from services.station.workflow.words import teaching_state
 from tests.services.station.workflow.site import (
@@ -93,9 +92,11 @@ def test_what_was_asked_before_the_authority_was_lost_waits_for_another_press(ph
 def test_what_was_asked_before_the_robot_fell_silent_waits_for_another_press(phase):
     site = Site(BY_HAND)
     site.press(Action.EXECUTE, phase)
-    for _ in range(round(UNHEARD_S) + 1):
-        site.sees(answer=None)
-        site.step(robot=None, seen=None)
+    site.sees(answer=None)
+    site.step(robot=None, seen=None)
+    assert site.state.pressed
+    site.sees(answer=None)
+    site.step(robot=None, seen=None)
     assert site.state.phase is Phase.DECIDING
     assert site.stay() == []
     assert "not heard" in site.state.event
@@ -150,6 +151,7 @@ def test_a_robot_that_was_restarted_stands_until_the_operator_presses():
     asked = len(site.asked)
     site.robot(publisher=2, phase=IDLE, episode=0)
     lose_authority(site)
+    site.run_to(Phase.LOOKING)
     site.run_to(Phase.DECIDING)
     site.stay()
     assert site.names()[asked:] == ["authority/acquire"]
@@ -198,7 +200,7 @@ def test_a_lower_epoch_that_stays_after_the_grant_counts_too():
     site = Site(BY_HAND)
     before = site.view.authority
     site.run_to(Phase.LOOKING)
-    for _ in range(round(CONFIRM_S)):
+    for _ in range(2):
         site.step(authority=before)
     assert site.state.held_epoch == site.epoch
     site.step(authority=before)

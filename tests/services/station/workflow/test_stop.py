@@ -3,9 +3,8 @@
 import pytest
 
 from protocol import queries
-from protocol.messages import Cut
+from protocol.messages import Cut, SafetyState
 from services.station.workflow.state import Action, Phase
-from services.station.workflow.stop import RELEASED_S
 from tests.services.station.workflow.site import (
     BY_HAND,
     COLLIDED,
@@ -113,9 +112,49 @@ def test_a_stop_that_was_released_and_pressed_again_can_be_released_again():
     stop(site)
     site.fail(queries.RELEASE_STOP, queries.Accepted())
     site.step(Action.RELEASE_STOP)
-    site.stay(round(RELEASED_S) + 2)
+    site.stay(3)
+    site.step()
     assert site.state.phase is Phase.STOPPED
     assert site.state.offered == {Action.RELEASE_STOP}
+
+
+def test_an_accepted_release_shows_within_two_seconds_or_the_robot_was_stopped_again():
+    site = executing()
+    stop(site)
+    site.fail(queries.RELEASE_STOP, queries.Accepted())
+    site.step(Action.RELEASE_STOP)
+    site.stay(2)
+    assert site.state.phase is Phase.RELEASING
+    site.step()
+    assert site.state.phase is Phase.STOPPED
+
+
+def test_a_release_that_is_under_way_is_waited_for_and_not_repeated():
+    site = executing()
+    stop(site)
+    site.instead[queries.RELEASE_STOP.name] = UNANSWERED
+    site.step(Action.RELEASE_STOP)
+    assert site.stay(10) == ["safety/release_stop"]
+    assert site.state.phase is Phase.RELEASING
+
+
+@pytest.mark.parametrize(
+    ("released", "text"),
+    [({"released_by": "eve"}, "by eve."), ({"at": "10:05"}, "by somebody."), ({}, "by somebody.")],
+)
+def test_of_a_release_what_is_known_is_told(released, text):
+    site = executing()
+    stop(site)
+    site.step(safety=SafetyState(emergency_stop=False, standing=True, **released))
+    assert site.state.event == f"The emergency stop was released {text}"
+
+
+def test_after_a_release_the_authority_of_before_is_not_held_any_more():
+    site = executing()
+    stop(site)
+    site.step(safety=RELEASED)
+    assert site.state.phase is Phase.WAITING
+    assert site.state.held_epoch == 0
 
 
 def test_a_stop_that_is_pressed_while_it_is_released_stands():

@@ -3,7 +3,6 @@
 import pytest
 
 from protocol import queries
-from services.station.workflow.seat import LINGERS_S
 from services.station.workflow.state import Action, Phase
 from services.station.workflow.words import teaching_state
 from tests.services.station.workflow.site import BY_HAND, SCRIPTED, STOPPED, Site, authority
@@ -90,10 +89,19 @@ def test_a_script_asks_again_once_nobody_commands():
 def test_a_new_station_waits_for_a_lease_that_runs_out_and_then_asks():
     site = Site(BY_HAND)
     site.sees(authority=authority("station-old", 7, "ann"))
-    assert site.stay(round(LINGERS_S)) == []
+    assert site.stay(2) == []
     site.sees(authority=authority("", 8))
     site.epoch = 8
     site.run_to(Phase.DECIDING)
+
+
+def test_a_lease_that_lasts_for_two_seconds_is_somebodys():
+    site = Site(BY_HAND)
+    site.sees(authority=authority("station-old", 7, "ann"))
+    site.stay(2)
+    assert site.state.phase is Phase.WAITING
+    site.step()
+    assert site.state.phase is Phase.WATCHING
 
 
 def test_a_new_station_watches_where_somebody_commands():
