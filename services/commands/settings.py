@@ -7,6 +7,7 @@ from argparse import Namespace
 import msgspec
 
 from protocol.topics import checked_name
+from services.process.addresses import EVERYWHERE, in_url
 from services.process.config import Configuration, Scripted, load
 
 _FLAGS = {"robot": "name", "operator": "operator", "connect": "connect", "listen": "listen", "seed": "seed"}
@@ -49,4 +50,6 @@ def configuration(arguments: Namespace) -> Configuration:
 
 def reachable(listen: str) -> str:
     """The endpoint by which this machine reaches its own router that listens on all addresses."""
-    return listen.replace("/0.0.0.0:", "/127.0.0.1:").replace("/[::]:", "/[::1]:")
+    for everywhere, own in EVERYWHERE.items():
+        listen = listen.replace(f"/{in_url(everywhere)}:", f"/{in_url(own)}:")
+    return listen

@@ -6,7 +6,7 @@ import socket
 
 import rerun as rr
 
-from services.process.addresses import EVERYWHERE
+from services.process.addresses import EVERYWHERE, LOOPBACK_NAMES, family, in_url
 from services.process.config import ViewerSection
 from services.process.exceptions import PortInUse
 
@@ -53,13 +53,13 @@ def only_our_time(stream: rr.RecordingStream) -> None:
 
 def page_origins(section: ViewerSection) -> list[str]:
     """The pages that may read the stream: the viewer's own, under any name where it listens on every address."""
-    names = ["*"] if section.host in EVERYWHERE else sorted({section.host, "localhost", "127.0.0.1", "[::1]"})
+    names = ["*"] if section.host in EVERYWHERE else sorted(in_url(name) for name in {section.host, *LOOPBACK_NAMES})
     return [f"http://{name}:{section.web_port}" for name in names]
 
 
 def _check_free(host: str, port: int, setting: str) -> None:
     # The SDK's server says so in its own log only.
-    with socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET) as probe:
+    with socket.socket(family(host)) as probe:
         probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             probe.bind((host, port))

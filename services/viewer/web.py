@@ -15,7 +15,7 @@ from socketserver import TCPServer
 from string import Template
 from typing import Any
 
-from services.process.addresses import LOOPBACK_NAMES
+from services.process.addresses import LOOPBACK_NAMES, family, in_url
 from services.process.config import ViewerSection
 from services.process.exceptions import PortInUse
 from services.viewer.web_files import FILES
@@ -37,7 +37,8 @@ _HEADERS = {
     "Cache-Control": "no-cache",
 }
 
-_LOOPBACK_SOURCES = frozenset({"localhost", "127.0.0.1"})
+# A policy has no way to write an IPv6 address.
+_LOOPBACK_SOURCES = frozenset(name for name in LOOPBACK_NAMES if family(name) is not socket.AF_INET6)
 
 # It stops listening within this time.
 _POLL_S = 0.05
@@ -73,15 +74,14 @@ class WebServer:
             stream_port = section.stream_port
 
         class Server(_Server):
-            address_family = socket.AF_INET6 if ":" in section.host else socket.AF_INET
+            address_family = family(section.host)
 
         try:
             self._server = Server((section.host, section.web_port), Handler)
         except OSError as error:
             reason = error.strerror or ""
             raise PortInUse("the live view", section.host, section.web_port, "[viewer] web_port", reason) from None
-        host = f"[{section.host}]" if ":" in section.host else section.host
-        self.url = f"http://{host}:{section.web_port}/"
+        self.url = f"http://{in_url(section.host)}:{section.web_port}/"
         self._thread = threading.Thread(
             target=self._server.serve_forever, args=(_POLL_S,), name="live view's page", daemon=True
         )
@@ -166,7 +166,7 @@ def _policy(name: str, stream_port: int, frames: frozenset[str]) -> str:
         stream_port: of the stream.
         frames: names of the hosts whose pages may.
     """
-    stream = "*" if name.startswith("[") else name  # a policy has no way to write an IPv6 address
+    stream = "*" if name.startswith("[") else name
     return "; ".join(
         (
             "default-src 'none'",

@@ -14,12 +14,11 @@ from protocol.messages import Attempt, Heartbeat, Phase, TeachingState
 from services.bus.subscription import Subscription
 from services.bus.zenoh import ZenohBus
 from services.commands.up.report import attempt_line
+from services.process.addresses import EVERYWHERE, in_url
 from services.process.config import StationSection
 
 Say = Callable[[str, str], None]
 """Prints a line under a name."""
-
-_EVERYWHERE = {"0.0.0.0": "127.0.0.1", "::": "::1"}  # told, not listened on
 
 
 class Watch:
@@ -92,8 +91,8 @@ class Narrator:
         if teaching.phase != self._phase:
             self._phase = teaching.phase
             self._say("teaching", teaching.text)
-        for place, attempt in enumerate(teaching.attempts, 1):
-            told = (teaching.publisher, attempt.number or place)
+        for attempt in teaching.attempts:
+            told = (teaching.publisher, attempt.number)
             if told not in self.attempts:
                 self.attempts[told] = attempt
                 self._say("teaching", attempt_line(len(self.attempts), attempt))
@@ -108,8 +107,7 @@ class Page:
     """
 
     def __init__(self, section: StationSection, *, opens: bool) -> None:
-        host = _EVERYWHERE.get(section.host, section.host)
-        self.url = f"http://{f'[{host}]' if ':' in host else host}:{section.port}/"
+        self.url = f"http://{in_url(EVERYWHERE.get(section.host, section.host))}:{section.port}/"
         self._opens = opens
         self._told = False
 

@@ -14,6 +14,7 @@ from starlette.routing import Mount, Route, WebSocketRoute
 from starlette.staticfiles import StaticFiles
 
 from protocol.messages import Figure, OperatorInput
+from services.process.addresses import family, in_url
 from services.process.clock import Clock
 from services.process.config import StationSection
 from services.process.exceptions import PortInUse, ServiceError
@@ -53,7 +54,7 @@ class Page:
     @property
     def url(self) -> str:
         """Where to point a browser."""
-        return f"http://{self._station.host}:{self._station.port}"
+        return f"http://{in_url(self._station.host)}:{self._station.port}"
 
     def start(self) -> None:
         """Listen, and return once pages are served.
@@ -107,7 +108,7 @@ class Page:
     def _listen(self) -> socket.socket:
         host, port = self._station.host, self._station.port
         try:
-            return socket.create_server((host, port))
+            return socket.create_server((host, port), family=family(host))
         except OSError as error:
             raise PortInUse("the operator's page", host, port, "[station] port", error.strerror or "") from None
 
