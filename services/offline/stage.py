@@ -84,7 +84,7 @@ class Stage:
         configured = settings(self._configuration.station, self._configuration.operator)
         chosen = replace(configured, holder=HOLDER, arrangement=arrangement, refinements_allowed=refinements_allowed)
         bus = self.bus()
-        station = self._turn(StationService(bus, self._clock, chosen, None, self._configuration.seed))
+        station = self._turn(StationService(bus, chosen, None, self._configuration.seed))
         self._turns.append(station)
         try:
             self.run(until)

@@ -107,10 +107,6 @@ class Store:
         except OSError as error:
             raise CannotKeep(self.folder, error.strerror or str(error)) from None
 
-    def forget(self, name: str) -> None:
-        """Drop the outcome of an analysis, where there is one."""
-        self._record(name).unlink(missing_ok=True)
-
     def _record(self, name: str) -> Path:
         return self.folder / f"{name}.json"
 

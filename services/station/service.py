@@ -15,10 +15,12 @@ from protocol.keys import STEERING
 from protocol.messages import Figure, OperatorInput
 from services.bus.arrays import vector3
 from services.bus.bus import Bus, Pending
+from services.bus.identity import new_number
 from services.process.clock import Clock
 from services.process.config import Configuration, StationSection
 from services.process.schedule import Schedule
 from services.station.ears import Ears, came_s, message, picture, young
+from services.station.page.presses import STOP
 from services.station.page.view import PageView
 from services.station.stop import StopButton
 from services.station.workflow.state import Action, Phase, Place, Settings, Workflow
@@ -32,9 +34,6 @@ if TYPE_CHECKING:
 log = logging.getLogger(__name__)
 
 QUERY_TIMEOUT_S = 5.0
-STOP = "stop"
-NUMBERS = 2**53
-"""Requests and questions are numbered at random: what outlived an earlier station is not taken for this one's."""
 
 _ACTIONS = {action.value: action for action in Action}
 
@@ -47,7 +46,7 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> StationServic
     """
     section = configuration.station
     page = None if section.scripted else _open_page(section, configuration.name, clock)
-    return StationService(bus, clock, settings(section, configuration.operator), page, configuration.seed)
+    return StationService(bus, settings(section, configuration.operator), page, configuration.seed)
 
 
 def _open_page(section: StationSection, robot: str, clock: Clock) -> Page:
@@ -82,7 +81,6 @@ class StationService:
 
     Args:
         bus: to the other processes.
-        clock: of the view.
         workflow_settings: of the run.
         page: the operator's; None where the workflow is scripted.
         seed: of the places.
@@ -90,8 +88,7 @@ class StationService:
 
     rate_hz = topics.OPERATOR_INPUT.rate_hz
 
-    def __init__(self, bus: Bus, clock: Clock, workflow_settings: Settings, page: Page | None, seed: int) -> None:
-        del clock
+    def __init__(self, bus: Bus, workflow_settings: Settings, page: Page | None, seed: int) -> None:
         self._bus = bus
         self._settings = workflow_settings
         self._page = page
@@ -144,7 +141,7 @@ class StationService:
         scene = message(arrangement)
         return View(
             now_s=now_ns / 1e9,
-            number=1 + secrets.randbelow(NUMBERS - 1),
+            number=new_number(),  # what outlived an earlier station is not taken for this one's
             present=held.present,
             steering=not STEERING.isdisjoint(held.keys),
             stopping=self._stop.unconfirmed,

@@ -65,28 +65,6 @@ class Cameras:
         camera.fixedcamid = self._model.camera(name).id
         return self._canvas.draw(self._data, camera)
 
-    def render_outside(
-        self, qpos: Array, look_at: Array, distance: float = 2.2, azimuth: float = 130.0, elevation: float = -22.0
-    ) -> Image:
-        """Draw the scene as a bystander sees it.
-
-        Args:
-            qpos: State of the world, as `World.state` gives it.
-            look_at: Point in the middle of the picture, in the base frame, shape (3,) [m].
-            distance: From that point [m].
-            azimuth: Direction of view about the vertical [deg].
-            elevation: Direction of view above the horizontal [deg].
-
-        Returns:
-            The picture in RGB, shape (height, width, 3), its first row at the top.
-        """
-        self._place(qpos)
-        camera = mujoco.MjvCamera()
-        camera.type = mujoco.mjtCamera.mjCAMERA_FREE
-        camera.lookat = look_at
-        camera.distance, camera.azimuth, camera.elevation = distance, azimuth, elevation
-        return self._canvas.draw(self._data, camera)
-
     def intrinsics(self, name: str) -> Array:
         """Return a camera's matrix, shape (3, 3) [px], for pixel centres at whole numbers.
 

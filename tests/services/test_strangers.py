@@ -98,7 +98,7 @@ def test_nothing_ends_the_robot_s_process(seed):
 def test_nothing_ends_the_station_s_process(seed):
     clock = ManualClock()
     network = MemoryNetwork(clock)
-    Attacked(network, clock, StationService(network.bus(), clock, Settings("station-1"), None, seed=3)).attack(seed)
+    Attacked(network, clock, StationService(network.bus(), Settings("station-1"), None, seed=3)).attack(seed)
 
 
 @pytest.mark.parametrize("device", [MasterSection(), MasterSection(device=Scripted())], ids=["keyboard", "scripted"])
@@ -137,7 +137,7 @@ def test_every_topic_is_heard_by_somebody_who_is_tried():
     """But for those that only the viewer and the camera hear, which draw: tests/system sends them what they cannot."""
     clock = ManualClock()
     network = MemoryNetwork(clock)
-    StationService(network.bus(), clock, Settings("station-1"), None, seed=3)
+    StationService(network.bus(), Settings("station-1"), None, seed=3)
     build_master(network.bus(), clock, Configuration(master=MasterSection(device=Scripted())))
     heard = {s.topic.name for s in (*network.subscriptions, *Site().network.subscriptions)}
     drawn = {topics.WORLD_STATE.name, topics.TEACHING_STATE.name, topics.HEARTBEAT.name}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -86,22 +85,16 @@ class ZenohBus:
         """This incarnation."""
         return self._outbox.identity
 
-    def claim_name(self, stop: threading.Event | None = None) -> None:
-        """Announce this process on the network.
-
-        Args:
-            stop: ends the waiting for a predecessor's token to go.
+    def claim_name(self) -> None:
+        """Announce this process on the network, once a predecessor's token has gone.
 
         Raises:
             NameTaken: another one of the name is there and stays there.
             TimeoutError: the router did not say whether there is one.
-            KeyboardInterrupt: `stop` was set.
         """
         key = f"retouch/{VERSION}/{self._robot}/alive/{self._process}"
         deadline = time.monotonic() + NAME_WAIT_S
         while held := list(self._session.liveliness().get(key, timeout=NAME_ASK_S)):
-            if stop is not None and stop.is_set():
-                raise KeyboardInterrupt
             if time.monotonic() > deadline:
                 if any(reply.ok is not None for reply in held):
                     raise NameTaken(self._robot, self._process)
@@ -211,15 +204,7 @@ def _responder(call: zenoh.Query, key: str, says: str) -> Callable[[bytes], None
     return respond
 
 
-def connect(
-    endpoint: str,
-    robot: str,
-    process: str,
-    clock: Clock,
-    *,
-    timeout_s: float = 30.0,
-    stop: threading.Event | None = None,
-) -> ZenohBus:
+def connect(endpoint: str, robot: str, process: str, clock: Clock, *, timeout_s: float = 30.0) -> ZenohBus:
     """A bus for one process, its name claimed.
 
     Args:
@@ -228,16 +213,14 @@ def connect(
         process: this process' name.
         clock: for stamps and receipt times.
         timeout_s: how long to wait for the router [s].
-        stop: ends the waiting too.
 
     Raises:
         BusError: see `open_session`.
         NameTaken: the robot has such a process already.
-        KeyboardInterrupt: `stop` was set.
     """
-    bus = ZenohBus(open_session(endpoint, timeout_s, stop), robot, process, clock)
+    bus = ZenohBus(open_session(endpoint, timeout_s), robot, process, clock)
     try:
-        bus.claim_name(stop)
+        bus.claim_name()
     except TimeoutError:
         bus.close()
         raise RouterUnreachable(endpoint, NAME_WAIT_S, "it took the connection and says nothing") from None

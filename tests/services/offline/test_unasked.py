@@ -51,7 +51,7 @@ class Person(Stage):
         super().__init__(configuration)
         self.page = Tab()
         settings = Settings("station-1", "operator", autonomous_s=4.0)
-        self.station = StationService(self.bus(), self._clock, settings, self.page, seed=0)
+        self.station = StationService(self.bus(), settings, self.page, seed=0)
         self.way_in = self.bus()
         self.robot = self.way_in.subscribe(ROBOT_STATE)
         self.safety = self.way_in.subscribe(SAFETY_STATE)

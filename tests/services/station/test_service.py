@@ -64,7 +64,7 @@ class Site:
         self.acquire = self.other.serve(queries.ACQUIRE)
         self.reset = self.other.serve(queries.RESET)
         self.authority = AuthorityState(holder="", epoch=40, expires_in=0.0)
-        self.service = StationService(network.bus(), self.clock, settings, page, seed=3)
+        self.service = StationService(network.bus(), settings, page, seed=3)
 
     def run(self, seconds):
         for _ in range(round(seconds * self.service.rate_hz)):
