@@ -12,6 +12,7 @@ import msgspec
 from protocol.queries import Adapt
 from services.bus import endpoint
 from services.process.exceptions import BadEndpoint, ConfigurationError
+from services.process.files import write_whole
 
 LARGEST = 1 << 20
 """Of a configuration file [byte]; more is some other file."""
@@ -135,7 +136,7 @@ class StationSection(_Section, frozen=True):
         updates_allowed: updates of one run.
         autonomous_s: duration of an autonomous execution [s].
         refine_s: duration of an execution under correction [s].
-        variant: arrangement of the scene that is taught; empty for the one that was changed since the first lesson.
+        variant: arrangement of the scene that is taught; empty for the one that has been changed.
         adapt: which way-point a correction moves: "next" (eq. 15-17), or "current" (eq. B.7) for comparison.
         alpha: how far the model believes a refinement (eq. 18), from 0 to 1; 1 is all the way.
         scripted: the workflow's buttons are pressed by a script; there is no page.
@@ -240,5 +241,9 @@ def _place(text: str, byte: int) -> str:
 
 
 def save(configuration: Configuration, path: Path) -> None:
-    """Write the configuration as JSON, as `load` reads it."""
-    path.write_bytes(msgspec.json.format(msgspec.json.encode(configuration)))
+    """Write the configuration as JSON, as `load` reads it.
+
+    Raises:
+        OSError: it cannot be written.
+    """
+    write_whole(path, msgspec.json.format(msgspec.json.encode(configuration)))
