@@ -30,7 +30,7 @@ Progress = Callable[[float], None]
 Advance = Callable[[int, float], None]
 """Called with the number of an item and the share of it that is done: 0 when it is begun, 1 at its end."""
 
-Reports = Queue[tuple[int, float] | None]
+States = Queue[tuple[int, float] | None]
 
 _apart = False  # whether this is a process of the pool
 
@@ -107,12 +107,12 @@ def _done(work: Callable[[Item, Progress], Result], item: Item, number: int, adv
 
 
 @contextmanager
-def _reports(advance: Advance) -> Iterator[Reports]:
+def _reports(advance: Advance) -> Iterator[States]:
     """A queue that reaches from the processes to here, and is listened to until what follows is done."""
     manager = SyncManager(ctx=get_context("spawn"))
     manager.start(_begin, (os.getpid(),))
     with manager:
-        reports: Reports = manager.Queue()
+        reports: States = manager.Queue()
         listener = Thread(target=_listen, args=(reports, advance), daemon=True)
         listener.start()
         try:
@@ -122,7 +122,7 @@ def _reports(advance: Advance) -> Iterator[Reports]:
             listener.join()
 
 
-def _listen(reports: Reports, advance: Advance) -> None:
+def _listen(reports: States, advance: Advance) -> None:
     while (report := reports.get()) is not None:
         advance(*report)
 
@@ -135,5 +135,5 @@ def _begin(parent: int) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
-def _report(work: Callable[[Item, Progress], Result], item: Item, number: int, reports: Reports) -> tuple[int, Result]:
+def _report(work: Callable[[Item, Progress], Result], item: Item, number: int, reports: States) -> tuple[int, Result]:
     return _done(work, item, number, lambda number, share: reports.put((number, share)))

@@ -8,11 +8,12 @@ from numpy.typing import NDArray
 
 from lfd.motion.trajectory import Trajectory
 from protocol.messages import Cut
-from services.robot.arm import Arm, Tick
+from services.robot.arm import Arm
 from services.robot.backends.backend import CONTROL_PERIOD
 from services.robot.correction import UNCORRECTED, Correction
 from services.robot.episode import EpisodeOutcome
 from services.robot.execution import look_ahead
+from services.robot.tick import Tick
 from sim.pose import Pose
 
 Array = NDArray[np.float64]

@@ -6,7 +6,6 @@ The service and the offline rollout both drive this class; here execution, kinem
 import logging
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,12 +13,13 @@ from numpy.typing import NDArray
 from lfd.motion.trajectory import Trajectory
 from protocol.messages import Cut, Phase
 from services.robot import safety
-from services.robot.backends.backend import CONTROL_PERIOD, Backend, Blocked, Observation
+from services.robot.backends.backend import CONTROL_PERIOD, Backend, Blocked
 from services.robot.correction import UNCORRECTED, Correction
 from services.robot.episode import Episode, EpisodeOutcome
 from services.robot.execution import angle_between
 from services.robot.mechanism import InverseFailed, Mechanism
 from services.robot.starts import StartImpossible, Starts
+from services.robot.tick import Tick
 from services.robot.verdict import Criteria, Verdict
 from sim.pose import Pose
 
@@ -30,39 +30,6 @@ log = logging.getLogger(__name__)
 LONGEST_FAULT = 200  # [characters]
 OUT_OF_REACH = 0.005  # [m] between reference and command from which it is reported
 OUT_OF_TURN = 0.05  # [rad] the same of their orientations, which give way first at the joints' limits
-
-
-@dataclass(frozen=True, eq=False)
-class Tick:
-    """What happened in one control period.
-
-    Attributes:
-        observation: at its end.
-        measured: pose of the grasping frame, from the measured joints.
-        reference: pose that the joints were to reach.
-        phase: what the arm did.
-        progress: of the episode, from 0 to 1.
-        correction: as it was applied.
-        hold_reason: why the arm held, empty where it did not.
-        clamped: what was clamped.
-        self_distance: between parts of the robot, where they are nearest [m].
-        verdict: now.
-        outcome: of the episode that ended in this period.
-        fault: what is wrong with the arm, so that nothing is known of this period; empty where nothing is.
-    """
-
-    observation: Observation
-    measured: Pose
-    reference: Pose
-    phase: Phase
-    progress: float
-    correction: Correction
-    hold_reason: str
-    clamped: tuple[str, ...]
-    self_distance: float
-    verdict: Verdict
-    outcome: EpisodeOutcome | None
-    fault: str
 
 
 class Arm:

@@ -17,7 +17,7 @@ from services.bus.arrays import motion_from_wire
 from services.bus.subscription import Received
 from services.process.exceptions import ServiceError
 from services.robot.admission import admit_prediction, admit_reset, admit_target
-from services.robot.arm import Arm, Tick
+from services.robot.arm import Arm
 from services.robot.authority import Lease
 from services.robot.backends.backend import CONTROL_PERIOD
 from services.robot.clutch import Clutch
@@ -30,6 +30,7 @@ from services.robot.memory import Memory
 from services.robot.refusal import Refusal
 from services.robot.safety import Watchdog
 from services.robot.starts import StartImpossible
+from services.robot.tick import Tick
 from sim.pose import Pose
 from sim.tasks import AnyScene
 

@@ -20,7 +20,6 @@ from services.bus.server import Server
 from services.bus.subscription import Received
 from services.process.clock import Clock
 from services.process.config import Configuration
-from services.robot.arm import Tick
 from services.robot.assembly import kinematics_of, simulated_arm
 from services.robot.backends.backend import CONTROL_PERIOD
 from services.robot.control import Control
@@ -28,8 +27,9 @@ from services.robot.mechanism import Mechanism
 from services.robot.memory import Memory, safety_file
 from services.robot.pace import Pace
 from services.robot.refusal import Refusal
-from services.robot.reports import Reports
 from services.robot.safety import Watchdog
+from services.robot.states import States
+from services.robot.tick import Tick
 from sim.robots.description import prepare
 from sim.tasks import scene as scene_named
 
@@ -121,7 +121,7 @@ class RobotService:
         self._bus = bus
         self._clock = clock
         self._control = control
-        self._reports = Reports(bus, control)
+        self._states = States(bus, control)
         self._kinematics = kinematics
         self._pace = Pace(round(CONTROL_PERIOD * 1e9))
         self._master = bus.subscribe(topics.MASTER_STATE)
@@ -154,7 +154,7 @@ class RobotService:
         tick = self._control.tick(now_ns, sample, self._given)
         self._measure(tick, sample)
         applied = self._applied.message.sequence if self._applied is not None else 0
-        self._reports.publish(now_ns, tick, applied, self._applied_latency)
+        self._states.publish(now_ns, tick, applied, self._applied_latency)
 
     def take_slew_ns(self) -> int:
         """See `Pace`."""

@@ -5,13 +5,13 @@ from services.bus.arrays import to_wire, vector3
 from services.bus.bus import Bus
 from services.process.schedule import Schedule
 from services.robot import wire
-from services.robot.arm import Tick
 from services.robot.control import Control, Finished
 from services.robot.safety import standing
+from services.robot.tick import Tick
 from sim.pose import Pose
 
 
-class Reports:
+class States:
     """Publishes the robot's states.
 
     Args:

@@ -131,8 +131,9 @@ def _loss(state: Workflow, view: View, settings: Settings) -> str:
     if authority is None:
         return ""
     if authority.epoch < state.epoch:
-        forgotten = state.confirmed or view.now_s - state.granted_s > CONFIRM_S
-        return f"The robot has forgotten the authority: it speaks of {authority.epoch}, not {state.epoch}." * forgotten
+        if not state.confirmed and view.now_s - state.granted_s <= CONFIRM_S:
+            return ""
+        return f"The robot has forgotten the authority: it speaks of {authority.epoch}, not {state.epoch}."
     taker = another(view, settings)
     if taker:
         return f"{taker} has taken the authority over."

@@ -12,7 +12,7 @@ from protocol.messages import Mode, Vector3
 from protocol.messages import Phase as RobotPhase
 from protocol.queries import Query
 from services.station.workflow.asking import RETRY_S, ask, not_done, to
-from services.station.workflow.seat import runs
+from services.station.workflow.authority import runs
 from services.station.workflow.state import Action, Episode, Phase, Place, Settings, Workflow
 from services.station.workflow.view import Ask, Step, View
 

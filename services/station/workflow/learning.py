@@ -22,7 +22,7 @@ def learning(state: Workflow, view: View, settings: Settings) -> Step:
         state,
         view,
         queries.ADD_DEMONSTRATION,
-        lambda intent: _lesson(state, view, settings, learnable(taught, settings.autonomous_s), intent),
+        lambda intent: _request(state, view, settings, learnable(taught, settings.autonomous_s), intent),
     )
     match reply:
         case Step():
@@ -38,7 +38,7 @@ def learning(state: Workflow, view: View, settings: Settings) -> Step:
             return Step(to(learnt, Phase.DECIDING, view, owed=None, event=event))
 
 
-def _lesson(state: Workflow, view: View, settings: Settings, motion: Motion, intent: int) -> queries.AddDemonstration:
+def _request(state: Workflow, view: View, settings: Settings, motion: Motion, intent: int) -> queries.AddDemonstration:
     # The model needs the refined prediction only where it is to believe the refinement in part.
     believed_in_part = state.prediction if settings.alpha < 1.0 else None
     return queries.AddDemonstration(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from protocol.messages import Light, Mode, Outcome, RobotState, SafetyState, TeachingState
 from protocol.messages import Phase as RobotPhase
-from services.station.workflow.seat import another, missing
+from services.station.workflow.authority import another, missing
 from services.station.workflow.state import Phase, Settings, Workflow
 from services.station.workflow.view import View
 
@@ -75,7 +75,8 @@ def _may_correct(state: Workflow, view: View) -> bool:
 def _text(state: Workflow, view: View, settings: Settings) -> str:
     match state.phase:
         case Phase.WAITING:
-            return missing(view) or (f"{another(view, settings)} commands the robot." * bool(another(view, settings)))
+            taker = another(view, settings)
+            return missing(view) or (f"{taker} commands the robot." if taker else "")
         case Phase.WATCHING:
             taker = another(view, settings)
             return f"{taker} commands the robot. Ask, or take over." if taker else "Nobody commands the robot. Ask to."

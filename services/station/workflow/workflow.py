@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from services.station.workflow import seat
+from services.station.workflow import authority
+from services.station.workflow.authority import acquiring, waiting, watching
 from services.station.workflow.deciding import deciding
 from services.station.workflow.episode import executing, looking, predicting, resetting, starting
 from services.station.workflow.learning import learning, undoing
-from services.station.workflow.seat import acquiring, waiting, watching
 from services.station.workflow.state import Phase, Settings, Workflow
 from services.station.workflow.stop import caught, releasing, stopped
 from services.station.workflow.verdict import judged
@@ -24,8 +24,8 @@ def advance(state: Workflow, view: View, settings: Settings) -> Step:
     """One step of the workflow: what has happened to it first, then what it does where it stands."""
     if state.phase is Phase.FINISHED:
         return Step(state)
-    known = seat.heard(judged(state, view), view, settings)
-    moved = caught(known, view) or seat.lost(known, view, settings)
+    known = authority.heard(judged(state, view), view, settings)
+    moved = caught(known, view) or authority.lost(known, view, settings)
     if moved is not None:
         return Step(moved)
     if known.phase is not state.phase:
