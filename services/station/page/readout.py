@@ -55,7 +55,7 @@ def criteria(shown: Shown) -> tuple[tuple[bool | None, str], ...]:
 def outcome(shown: Shown) -> tuple[bool | None, str]:
     """All three criteria in a word."""
     met = [good for good, _ in criteria(shown)]
-    if shown.view.verdict is None:
+    if shown.view.verdict is None or not _has_moved(shown):
         return None, "No verdict yet"
     if False in met:
         return False, "Failure"
@@ -64,7 +64,13 @@ def outcome(shown: Shown) -> tuple[bool | None, str]:
 
 def _open_while_moving(shown: Shown) -> bool | None:
     robot = shown.view.robot
-    return None if robot is not None and robot.phase.running else False
+    return None if (robot is not None and robot.phase.running) or not _has_moved(shown) else False
+
+
+def _has_moved(shown: Shown) -> bool:
+    """An episode has begun since the robot's process did; before the first there is nothing to judge."""
+    robot = shown.view.robot
+    return robot is None or robot.episode > 0
 
 
 def _contact(verdict: Verdict) -> str:

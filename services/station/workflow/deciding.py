@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from protocol.messages import Mode
 from services.station.workflow.asking import to
+from services.station.workflow.closure import Closure
 from services.station.workflow.episode import press
 from services.station.workflow.state import Action, Phase, Settings, Workflow
 from services.station.workflow.view import Step, View
@@ -42,6 +43,15 @@ def _take(state: Workflow, view: View, settings: Settings, chosen: Action) -> St
             return Step(to(state, Phase.UNDOING, view, taught=None))
         case _:
             return _end(state, view, "ended before the loop had closed")
+
+
+def finished(state: Workflow, view: View, settings: Settings) -> Step:
+    """A person's run is over: s/he may begin another one, with another place. A script's stays over."""
+    del settings
+    if Action.NEXT not in view.actions:
+        return Step(replace(state, offered=frozenset({Action.NEXT})))
+    fresh = replace(state, placed=None, last=None, refinements=0, updates=0, reason="", closure=Closure())
+    return Step(to(fresh, Phase.WAITING, view, holding=False, confirmed=False, taught=None, event=""))
 
 
 def recommended(state: Workflow, settings: Settings) -> Action:

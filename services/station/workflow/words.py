@@ -5,7 +5,7 @@ from __future__ import annotations
 from protocol.messages import Light, Mode, Outcome, RobotState, SafetyState, TeachingState
 from protocol.messages import Phase as RobotPhase
 from services.station.workflow.authority import another, missing
-from services.station.workflow.state import Phase, Settings, Workflow
+from services.station.workflow.state import Action, Phase, Settings, Workflow
 from services.station.workflow.view import View
 
 _TEXTS = {
@@ -85,10 +85,15 @@ def _text(state: Workflow, view: View, settings: Settings) -> str:
         case Phase.DECIDING:
             return _deciding(state)
         case Phase.FINISHED:
-            closed = "Finished: the model has learnt from the correction."
-            return closed if state.closure.closed else f"Ended: {state.reason}."
+            return _finished(state)
         case phase:
             return _TEXTS[phase]
+
+
+def _finished(state: Workflow) -> str:
+    learnt = "Finished: the model has learnt from the correction."
+    ended = learnt if state.closure.closed else f"Ended: {state.reason}."
+    return f"{ended} Press Next object to begin again." if Action.NEXT in state.offered else ended
 
 
 def _deciding(state: Workflow) -> str:

@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 from services.station.workflow import authority
 from services.station.workflow.authority import acquiring, waiting, watching
-from services.station.workflow.deciding import deciding
+from services.station.workflow.deciding import deciding, finished
 from services.station.workflow.episode import executing, looking, predicting, resetting, starting
 from services.station.workflow.learning import learning, undoing
 from services.station.workflow.state import Phase, Settings, Workflow
@@ -22,7 +22,7 @@ from services.station.workflow.view import Step, View
 
 def advance(state: Workflow, view: View, settings: Settings) -> Step:
     """One step of the workflow: what has happened to it first, then what it does where it stands."""
-    if state.phase is Phase.FINISHED:
+    if state.phase is Phase.FINISHED and settings.scripted:
         return Step(state)
     known = authority.heard(judged(state, view), view, settings)
     moved = caught(known, view) or authority.lost(known, view, settings)
@@ -47,4 +47,5 @@ _PHASES: dict[Phase, Callable[[Workflow, View, Settings], Step]] = {
     Phase.DECIDING: deciding,
     Phase.STOPPED: stopped,
     Phase.RELEASING: releasing,
+    Phase.FINISHED: finished,
 }

@@ -12,8 +12,8 @@ from services.station.page.view import Board, PageView, Shown
 POSE = Pose((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
 
 
-def robot(phase):
-    return RobotState(measured=POSE, reference=POSE, phase=phase)
+def robot(phase, episode=1):
+    return RobotState(measured=POSE, reference=POSE, phase=phase, episode=episode)
 
 
 @pytest.mark.parametrize(
@@ -51,6 +51,13 @@ def test_data_that_never_came_is_stale():
 )
 def test_the_outcome_is_all_three_criteria_and_not_reached_is_open_while_it_moves(phase, verdict, expected):
     assert outcome(Shown(PageView(robot=robot(phase), verdict=verdict), 0.0)) == expected
+
+
+def test_before_the_first_episode_nothing_has_failed():
+    verdict = Verdict(reached=False, kicked_over=False, collision=False)
+    before = Shown(PageView(robot=robot(Phase.IDLE, episode=0), verdict=verdict), 0.0)
+    assert outcome(before) == (None, "No verdict yet")
+    assert criteria(before)[0][0] is None
 
 
 def test_a_collision_says_where_and_how_hard():

@@ -127,6 +127,27 @@ def test_the_operator_ends_the_run():
     assert site.state.phase is Phase.FINISHED
 
 
+def test_a_person_who_ended_a_run_begins_another_one_with_a_press_and_stands_until_the_next():
+    site = Site(BY_HAND, [COLLIDED])
+    site.press(Action.EXECUTE, Phase.EXECUTING)
+    site.run_to(Phase.DECIDING)
+    site.step(Action.END)
+    site.step()
+    assert site.state.offered == {Action.NEXT}
+    asked = len(site.asked)
+    site.step(Action.NEXT)
+    site.run_to(Phase.DECIDING)
+    assert (site.state.placed, site.state.last, site.state.reason) == (None, None, "")
+    assert not MOVING & set(site.names()[asked:])
+
+
+def test_a_script_that_has_ended_its_run_begins_no_other():
+    site = Site(SCRIPTED, [COLLIDED, REACHED, REACHED])
+    site.run_to(Phase.FINISHED)
+    site.step(Action.NEXT)
+    assert (site.state.phase, site.state.offered) == (Phase.FINISHED, frozenset())
+
+
 @pytest.mark.parametrize("query", [queries.RESET, queries.PREDICT, queries.EXECUTE])
 def test_a_refusal_that_does_not_pass_is_told_and_the_operator_asked(query):
     site = Site(BY_HAND)

@@ -246,3 +246,14 @@ def test_what_the_model_was_told_before_the_stop_is_asked_for_again_with_the_sam
     first, second = site.requests(queries.ADD_DEMONSTRATION)
     assert first == second
     assert site.state.updates == 1
+
+
+def test_a_stop_after_the_end_of_a_run_can_be_released_where_it_was_pressed():
+    site = Site(BY_HAND)
+    site.run_to(Phase.DECIDING)
+    site.step(Action.END)
+    stop(site)
+    assert (site.state.phase, site.state.offered) == (Phase.STOPPED, {Action.RELEASE_STOP})
+    site.step(Action.RELEASE_STOP)
+    site.run_to(Phase.DECIDING)
+    assert "safety/release_stop" in site.names()
