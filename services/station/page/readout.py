@@ -55,10 +55,10 @@ def criteria(shown: Shown) -> tuple[tuple[bool | None, str], ...]:
 def outcome(shown: Shown) -> tuple[bool | None, str]:
     """All three criteria in a word."""
     met = [good for good, _ in criteria(shown)]
-    if shown.view.verdict is None or not _has_moved(shown):
-        return None, "No verdict yet"
     if False in met:
         return False, "Failure"
+    if shown.view.verdict is None or not _has_moved(shown):
+        return None, "No verdict yet"
     return (True, "Success") if None not in met else (None, "Under way")
 
 
