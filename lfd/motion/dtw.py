@@ -143,7 +143,7 @@ def _accumulate_by_diagonals(a: Array, b: Array) -> tuple[float, Steps]:
     n, m = len(a), b.shape[1]
     steps = np.empty((n, m + 1), np.uint8)  # with a spare column the diagonal k is every m-th byte from byte k on
     flat = steps.ravel()
-    count = max(2, _BLOCK_CELLS // n)
+    count = math.ceil(_BLOCK_CELLS / n)
     total = np.full((count + 2, n + 1), np.inf)  # two diagonals, then the block's; entry i + 1 is row i of the matrix
     total[-2, 0] = 0.0  # the virtual cell (-1, -1) before the start
     cheapest = np.empty(n)

@@ -63,9 +63,7 @@ class Freshness:
         clocks: of the machines, where several topics are judged by the same ones.
     """
 
-    def __init__(
-        self, stale_after_ns: int | None, own: int, rate_hz: float = 1000.0, clocks: Clocks | None = None
-    ) -> None:
+    def __init__(self, stale_after_ns: int | None, own: int, rate_hz: float, clocks: Clocks | None = None) -> None:
         self._stale_after_ns = stale_after_ns
         self._remembered_ns = EVENTS_REMEMBERED_NS if stale_after_ns is None else stale_after_ns
         self._most_a_ns = FASTEST * rate_hz / 1e9

@@ -158,7 +158,7 @@ class Corrections:
         covariances = self._open(expected) + self.surprise * self._wide(expected.s[None])[0]
         before = self._open_at(expected) + self.surprise
         explained = float(covariances @ cho_solve(self._factor, covariances, check_finite=False))
-        return Effect(covariances @ self._gain, min(max(1.0 - explained / before, 0.0), 1.0))
+        return Effect(covariances @ self._gain, max(1.0 - explained / before, 0.0))
 
     @cached_property
     def surprise(self) -> float:

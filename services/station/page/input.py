@@ -11,6 +11,7 @@ import threading
 from collections import deque
 from dataclasses import dataclass
 
+from protocol import topics
 from protocol.exceptions import ProtocolError
 from protocol.keys import STEERING
 from protocol.messages import OperatorInput
@@ -48,8 +49,8 @@ class _Tab:
 
     def __init__(self, hello: Hello) -> None:
         self.hello = hello
-        self._states = Freshness(DEAD_MAN_NS, _OURS)
-        self._presses = Freshness(LATE_PRESS_NS, _OURS)
+        self._states = Freshness(DEAD_MAN_NS, _OURS, topics.OPERATOR_INPUT.rate_hz)
+        self._presses = Freshness(LATE_PRESS_NS, _OURS, topics.OPERATOR_INPUT.rate_hz)
 
     def has_sent_in_time(self, message: Held | Pressed, now_ns: int) -> bool:
         """Whether the message is new and no older than its kind may be."""

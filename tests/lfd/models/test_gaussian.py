@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lfd.exceptions import OutOfRange, TooFewDemonstrations
+from lfd.exceptions import NotFinite, OutOfRange, TooFewDemonstrations, WrongShape
 from lfd.models.gaussian import JointGaussian, condition, welford
 
 seeds = st.integers(0, 10_000)
@@ -89,3 +89,28 @@ def test_what_a_condition_gives_cannot_be_written_to(rng):
     given = condition(JointGaussian.fit(rng.normal(size=(9, 5))), np.zeros(2), 0.1)
     for array in (given.mean, given.covariance):
         assert not array.flags.writeable
+
+
+def test_a_gaussian_keeps_its_own_numbers_whatever_becomes_of_those_it_was_made_of(rng):
+    mean, scatter = rng.normal(size=3), np.eye(3)
+    joint = JointGaussian(mean, scatter, 2.0)
+    mean[0], scatter[0, 0] = 100.0, 100.0
+    assert joint.mean[0] != 100.0
+    assert joint.scatter[0, 0] == 1.0
+    for array in (joint.mean, joint.scatter, joint.covariance):
+        assert not array.flags.writeable
+
+
+@pytest.mark.parametrize(
+    ("mean", "scatter", "error"),
+    [
+        (np.zeros((3, 1)), np.eye(3), WrongShape),
+        (np.zeros(3), np.eye(2), WrongShape),
+        (np.array([0.0, np.nan]), np.eye(2), NotFinite),
+        (np.zeros(2), np.diag([1.0, np.inf]), NotFinite),
+    ],
+    ids=["mean of a wrong shape", "scatter of another size", "mean not finite", "scatter not finite"],
+)
+def test_what_is_no_gaussian_is_refused(mean, scatter, error):
+    with pytest.raises(error):
+        JointGaussian(mean, scatter, 2.0)

@@ -1,3 +1,4 @@
+import tracemalloc
 from functools import cache
 
 import numpy as np
@@ -89,11 +90,22 @@ def test_rows_and_diagonals_agree_to_the_last_bit_on_ties_too(a, b):
     assert_same(module._Route(module._accumulate_by_rows, module._trace), a, b)
 
 
-@pytest.mark.parametrize(("n", "m"), [(1, 90), (90, 1), (3, 200), (200, 3), (64, 64)])
+@pytest.mark.parametrize(("n", "m"), [(1, 90), (90, 1), (3, 200), (200, 3), (64, 64), (400, 5)])
 def test_rows_and_diagonals_agree_when_one_sequence_is_much_longer(n, m, rng, monkeypatch):
     monkeypatch.setattr(module, "_BLOCK_CELLS", 300)
     route = module._Route(module._accumulate_by_rows, module._trace)
     assert_same(route, rng.normal(size=(n, 9)), rng.normal(size=(m, 9)))
+
+
+@pytest.mark.parametrize("n", [40, 400])
+def test_memory_is_a_byte_a_cell_and_a_block_of_distances_whatever_the_length(n, rng):
+    """A quarter of a megabyte of distances, twice as much beside them, and less than that of masks and the like."""
+    a, b = rng.normal(size=(n, 3)), rng.normal(size=(n, 3))
+    tracemalloc.start()
+    dtw(a, b)
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert most - n * n < 6 * 2**18
 
 
 @pytest.mark.sim
@@ -107,6 +119,28 @@ def test_what_numba_compiles_agrees_to_the_last_bit(levels, rng):
 def test_a_short_alignment_needs_no_numba(monkeypatch):
     monkeypatch.setattr(module, "import_module", lambda name: pytest.fail(f"imports {name}"))
     dtw(np.zeros((75, 7)), np.ones((75, 7)))
+
+
+class Compiler:
+    """Stands in for Numba: gives back what it was to compile."""
+
+    def __init__(self):
+        self.kept = []
+
+    def njit(self, signature, cache=False):
+        self.kept.append(cache)
+        return lambda function: function
+
+
+def test_the_first_long_alignment_loads_numba_and_from_then_on_it_serves_the_short_ones_too(monkeypatch):
+    """A dozen of half a million cells take as long as to load it."""
+    compiler = Compiler()
+    monkeypatch.setattr(module, "import_module", lambda name: compiler)
+    compiled = module._Route(module._accumulate_by_rows, module._trace)
+    assert module._route(499_999) == module._NUMPY_ROUTE
+    assert module._route(500_000) == compiled
+    assert module._route(1) == compiled
+    assert compiler.kept == [True, True], "what was compiled is kept, for both functions, once"
 
 
 def test_without_numba_long_ones_are_aligned_all_the_same(monkeypatch):

@@ -56,6 +56,11 @@ def test_product_is_that_of_scipy(a, b):
     assert same_rotation(xyzw(product), expected.as_quat())
 
 
+def test_nobody_can_change_what_the_identity_is():
+    np.testing.assert_array_equal(rotations.IDENTITY, [1.0, 0.0, 0.0, 0.0])
+    assert not rotations.IDENTITY.flags.writeable
+
+
 @given(vectors)
 def test_conjugate_is_the_inverse(r):
     q = rotations.exp_map(r)

@@ -40,8 +40,8 @@ def test_a_late_sample_with_a_made_up_number_does_not_silence_its_sender(freshne
 
 
 def test_events_are_never_stale():
-    assert Freshness(None, OWN).judge(SAME_MACHINE, 1, 0, HOUR) is Judgement.FRESH
-    other = Freshness(None, OWN)
+    assert Freshness(None, OWN, 100.0).judge(SAME_MACHINE, 1, 0, HOUR) is Judgement.FRESH
+    other = Freshness(None, OWN, 100.0)
     other.judge(OTHER_MACHINE, 1, HOUR, HOUR)
     assert other.judge(OTHER_MACHINE, 2, HOUR, 2 * HOUR) is Judgement.FRESH
 
@@ -56,7 +56,7 @@ def test_a_stamp_from_the_future_is_refused(freshness):
 
 @given(st.lists(st.integers(min_value=1, max_value=30), min_size=1, max_size=40))
 def test_only_growing_sequences_are_fresh(sequences):
-    freshness = Freshness(STALE_NS, OWN)
+    freshness = Freshness(STALE_NS, OWN, 100.0)
     newest = 0
     for sequence in sequences:
         judgement = freshness.judge(SAME_MACHINE, sequence, HOUR, HOUR)
@@ -74,7 +74,7 @@ def test_of_what_a_network_loses_swaps_and_doubles_the_newest_counts_once_and_in
         if data.draw(st.booleans()) or i == 0
         for _ in range(1 + order[i] % 2)
     )
-    freshness, newest = Freshness(STALE_NS, OWN), 0
+    freshness, newest = Freshness(STALE_NS, OWN, 100.0), 0
     for slot, i in came:
         judgement = freshness.judge(publisher, *sent[i], HOUR + slot * PERIOD)
         assert judgement is (Judgement.FRESH if i + 1 > newest else Judgement.REPEATED)
@@ -87,7 +87,7 @@ def test_a_restarted_sender_counts_from_one_again(freshness):
 
 
 def test_a_sender_whose_clock_went_back_goes_on_by_its_numbers():
-    freshness = Freshness(None, OWN)
+    freshness = Freshness(None, OWN, 100.0)
     freshness.judge(OTHER_MACHINE, 1, HOUR, HOUR)
     assert freshness.judge(OTHER_MACHINE, 2, HOUR - 5 * MS, HOUR) is Judgement.FRESH
     assert freshness.judge(OTHER_MACHINE, 2, HOUR, HOUR) is Judgement.REPEATED, "and the same number is the same sample"
@@ -128,7 +128,7 @@ def test_a_sender_is_fresh_after_any_loss(freshness, lost_s):
 
 @given(offset=st.integers(min_value=-(10**18), max_value=10**18))
 def test_the_offset_of_another_machines_clock_does_not_matter(offset):
-    freshness = Freshness(STALE_NS, OWN)
+    freshness = Freshness(STALE_NS, OWN, 100.0)
     now = 2 * 10**18
     assert freshness.judge(OTHER_MACHINE, 1, now + offset, now + 5 * MS) is Judgement.FRESH
     later = now + 1000 * MS
@@ -166,7 +166,7 @@ def flood(freshness, count, process, now):
 
 @pytest.mark.parametrize("process", ["robot", "robot-2"])
 def test_a_replay_stays_one_however_many_publishers_are_invented(process):
-    freshness = Freshness(None, OWN)
+    freshness = Freshness(None, OWN, 100.0)
     assert freshness.judge(OTHER_MACHINE, 7, HOUR, HOUR, "robot") is Judgement.FRESH
     flood(freshness, 1000, process, HOUR)
     assert freshness.judge(OTHER_MACHINE, 7, HOUR, HOUR + 5000 * MS, "robot") is Judgement.REPEATED
@@ -181,7 +181,7 @@ def test_an_old_sample_is_stale_though_nobody_remembers_its_sender(freshness):
 
 @pytest.mark.parametrize(("stale_ns", "remembered_ns"), [(STALE_NS, STALE_NS), (None, 60_000 * MS)])
 def test_a_new_incarnation_finds_room_once_the_invented_ones_could_not_be_replayed(stale_ns, remembered_ns):
-    freshness = Freshness(stale_ns, OWN)
+    freshness = Freshness(stale_ns, OWN, 100.0)
     for i in range(16):
         assert freshness.judge(SAME_MACHINE ^ (2 + i), 1, HOUR, HOUR, "robot") is Judgement.FRESH
     late = HOUR + remembered_ns
@@ -193,7 +193,7 @@ def test_a_new_incarnation_finds_room_once_the_invented_ones_could_not_be_replay
 
 
 def test_names_are_as_bounded_as_incarnations():
-    freshness = Freshness(STALE_NS, OWN)
+    freshness = Freshness(STALE_NS, OWN, 100.0)
     for i in range(256):
         assert freshness.judge(SAME_MACHINE, 1, HOUR, HOUR, f"master-{i}") is Judgement.FRESH
     assert freshness.judge(SAME_MACHINE, 1, HOUR, HOUR, "master") is Judgement.IMPLAUSIBLE
