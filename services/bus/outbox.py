@@ -11,7 +11,7 @@ from protocol.codec import encode
 from protocol.exceptions import Misplaced, ProtocolError
 from protocol.messages import Message, TopicFigures
 from protocol.topics import Topic
-from services.bus.subscription import Drops
+from services.bus.tally import Drops
 
 M = TypeVar("M", bound=Message)
 

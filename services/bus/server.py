@@ -16,7 +16,7 @@ from protocol.messages import TopicFigures
 from protocol.placement import check_announced
 from protocol.queries import Change, Query, Refused
 from services.bus.answers import Answers, Respond
-from services.bus.subscription import Drops
+from services.bus.tally import Drops, Tally
 from services.process.clock import Clock
 
 Req = TypeVar("Req", bound=msgspec.Struct)
@@ -56,10 +56,12 @@ class Server(Generic[Req, Rep]):
         self._lock = threading.Lock()
         self._calls: deque[Call[Req, Rep]] = deque()
         self._answers = Answers()
-        self.drops = Drops()
-        self._fault = ""
-        self._count = 0
-        self._counted_from_ns = 0
+        self._tally = Tally(query.name)
+
+    @property
+    def drops(self) -> Drops:
+        """What was no request so far, by cause."""
+        return self._tally.drops
 
     def receive(self, payload: bytes, announced: str, respond: Respond) -> None:
         """Queue the request, or answer it as before; what is no request, or one too many, is refused at once."""
@@ -67,14 +69,12 @@ class Server(Generic[Req, Rep]):
             schema = check_announced(self._query, self._robot, announced)
             request = decode_request(self._query, payload, schema)
         except ProtocolError as error:
-            with self._lock:
-                self.drops.count(error)
-                self._fault = str(error)
+            self._tally.dropped(error, str(error))
             respond(_encoded(self._query, Refused(str(error))))
             return
+        self._tally.came()
         number = request.request if isinstance(request, Change) else 0
         with self._lock:
-            self._count += 1
             first = not number or self._answers.open(number, respond, self._clock.now_ns())
             full = first and len(self._calls) >= CALLS_KEPT
             if full and number:
@@ -95,18 +95,11 @@ class Server(Generic[Req, Rep]):
 
     def take_fault(self) -> str:
         """The newest reason for refusing bytes that are no request since the last call; empty where there is none."""
-        with self._lock:
-            fault, self._fault = self._fault, ""
-        return fault
+        return self._tally.take_fault()
 
     def figures(self, now_ns: int) -> TopicFigures:
         """Requests a second since the last call, and all that were none so far."""
-        with self._lock:
-            count, since = self._count, self._counted_from_ns
-            self._count, self._counted_from_ns = 0, now_ns
-            drops = Drops(**vars(self.drops))
-        rate = count / ((now_ns - since) / 1e9) if since and now_ns > since else 0.0
-        return TopicFigures(topic=self._query.name, rate_hz=rate, age=-1.0, latency=-1.0, **vars(drops))
+        return self._tally.figures(now_ns)
 
     def _keeping(self, number: int) -> Respond:
         return lambda payload: self._hand_out(number, payload)

@@ -8,13 +8,14 @@ from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 from protocol.codec import decode
-from protocol.exceptions import Misplaced, OversizedMessage, ProtocolError, WrongVersion
+from protocol.exceptions import ProtocolError
 from protocol.messages import Message, TopicFigures
 from protocol.placement import check_message
 from protocol.topics import QoS, Topic
 from services.bus.clocks import Clocks
 from services.bus.freshness import Freshness, Judgement
 from services.bus.identity import same_clock
+from services.bus.tally import Drops, Tally
 
 M = TypeVar("M", bound=Message)
 
@@ -31,32 +32,6 @@ class Received(Generic[M]):
         return (now_ns - self.received_ns) / 1e9
 
 
-_CAUSES: dict[type[ProtocolError], str] = {
-    OversizedMessage: "oversized",
-    WrongVersion: "wrong_version",
-    Misplaced: "misplaced",
-}
-
-
-@dataclass
-class Drops:
-    """What was thrown away, by cause."""
-
-    malformed: int = 0
-    oversized: int = 0
-    wrong_version: int = 0
-    stale: int = 0
-    repeated: int = 0
-    future: int = 0
-    implausible: int = 0
-    misplaced: int = 0
-
-    def count(self, cause: ProtocolError | Judgement) -> None:
-        """One more was thrown away."""
-        name = cause.value if isinstance(cause, Judgement) else _CAUSES.get(type(cause), "malformed")
-        setattr(self, name, getattr(self, name) + 1)
-
-
 class Subscription(Generic[M]):
     """The receiving end of a topic.
 
@@ -71,16 +46,18 @@ class Subscription(Generic[M]):
 
     def __init__(self, topic: Topic[M], robot: str, own: int, clocks: Clocks) -> None:
         self.topic = topic
-        self.drops = Drops()
         self._robot = robot
-        self._fault = ""
         self._own = own
         self._freshness = Freshness(topic.stale_after_ns, own, topic.rate_hz, clocks)
         self._lock = threading.Lock()
         self._latest: Received[M] | None = None
         self._kept: deque[Received[M]] = deque(maxlen=topic.kept)
-        self._count = 0
-        self._counted_from_ns = 0
+        self._tally = Tally(topic.name)
+
+    @property
+    def drops(self) -> Drops:
+        """What was thrown away so far, by cause."""
+        return self._tally.drops
 
     def receive(self, payload: bytes, schema: str, now_ns: int, key: str | None = None) -> None:
         """Decode, judge, store; nothing else happens here.
@@ -96,16 +73,17 @@ class Subscription(Generic[M]):
                 message = decode(self.topic, payload, schema)
                 check_message(self.topic, self._robot, message, key)
             except ProtocolError as error:
-                self.drops.count(error)
-                self._fault = str(error)
+                self._tally.dropped(error, str(error))
                 return
             judgement = self._judge(message, now_ns)
-            if judgement is not Judgement.FRESH:
-                self.drops.count(judgement)
-                if judgement is Judgement.IMPLAUSIBLE:
-                    self._fault = f"implausible on {self.topic.name}: {message.process!r} counts to {message.sequence}"
+            if judgement is Judgement.IMPLAUSIBLE:
+                fault = f"implausible on {self.topic.name}: {message.process!r} counts to {message.sequence}"
+                self._tally.dropped(judgement, fault)
                 return
-            self._count += 1
+            if judgement is not Judgement.FRESH:
+                self._tally.dropped(judgement)
+                return
+            self._tally.came()
             self._latest = Received(message, now_ns)
             self._kept.append(self._latest)
 
@@ -135,20 +113,13 @@ class Subscription(Generic[M]):
 
     def take_fault(self) -> str:
         """The newest reason for throwing a message away since the last call; empty where there is none."""
-        with self._lock:
-            fault, self._fault = self._fault, ""
-        return fault
+        return self._tally.take_fault()
 
     def figures(self, now_ns: int) -> TopicFigures:
         """Rate, age and latency since the last call, and all drops so far."""
-        with self._lock:
-            received, count, since = self._latest, self._count, self._counted_from_ns
-            self._count, self._counted_from_ns = 0, now_ns
-            drops = Drops(**vars(self.drops))
-        age, latency = -1.0, -1.0
+        received, age, latency = self._latest, -1.0, -1.0
         if received is not None:
             age = received.age_s(now_ns)
             if same_clock(received.message.publisher, self._own):
                 latency = (received.received_ns - received.message.stamp_ns) / 1e9
-        rate = count / ((now_ns - since) / 1e9) if since and now_ns > since else 0.0
-        return TopicFigures(topic=self.topic.name, rate_hz=rate, age=age, latency=latency, **vars(drops))
+        return self._tally.figures(now_ns, age=age, latency=latency)
