@@ -11,7 +11,7 @@ import time
 from dataclasses import dataclass
 from typing import cast
 
-from services.bus.endpoint import OVER_TCP, Endpoint
+from services.process.endpoint import OVER_TCP, Endpoint
 from services.process.exceptions import BadEndpoint
 
 _Place = tuple[int, int, int, str, tuple[str, int] | tuple[str, int, int, int] | tuple[int, bytes]]

@@ -10,7 +10,7 @@ from typing import Annotated
 import msgspec
 
 from protocol.queries import Adapt
-from services.bus import endpoint
+from services.process import endpoint
 from services.process.exceptions import BadEndpoint, ConfigurationError
 from services.process.files import write_whole
 

@@ -12,8 +12,8 @@ from typing import Any
 
 import zenoh
 
-from services.bus.endpoint import Endpoint, parse
 from services.bus.reach import Silence, open_timeout_ms, probe
+from services.process.endpoint import Endpoint, parse
 from services.process.exceptions import BusError, EndpointInUse, RouterUnreachable, ServiceError
 
 log = logging.getLogger(__name__)

@@ -5,8 +5,8 @@ import socket
 import pytest
 
 from services.bus import reach
-from services.bus.endpoint import parse
 from services.bus.reach import OPEN_LEAST_MS, OPEN_MOST_MS, Silence, open_timeout_ms, probe
+from services.process.endpoint import parse
 from services.process.exceptions import BadEndpoint
 
 

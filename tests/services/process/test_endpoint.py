@@ -2,8 +2,8 @@
 
 import pytest
 
-from services.bus.endpoint import PROTOCOLS, Endpoint, parse
 from services.process.config import Configuration, load
+from services.process.endpoint import PROTOCOLS, Endpoint, parse
 from services.process.exceptions import BadEndpoint, ConfigurationError
 
 
