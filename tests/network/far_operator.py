@@ -10,6 +10,7 @@ import threading
 import time
 from pathlib import Path
 
+import msgspec
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
@@ -41,13 +42,15 @@ def straight():
 
 
 def answered(bus, query, request):
-    """The positive answer; asked until there is one."""
+    """The positive answer; asked until there is one, with another number after a refusal."""
     while True:
         pending = bus.ask(query, request)
         while (outcome := pending.poll()) is None:
             time.sleep(0.01)
         if isinstance(outcome, query.reply):
             return outcome
+        if isinstance(outcome, queries.Refused):
+            request = msgspec.structs.replace(request, request=new_number())
         time.sleep(0.2)
 
 

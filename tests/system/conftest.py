@@ -2,6 +2,8 @@
 
 import pytest
 
+from services.bus.zenoh import connect
+from services.process.clock import SystemClock
 from tests.system.harness import Command, free_endpoint, reachable
 
 
@@ -12,3 +14,17 @@ def router(tmp_path_factory):
     with Command("router", "--listen", endpoint, folder=tmp_path_factory.mktemp("router")) as command:
         command.until(lambda: reachable(endpoint), 20.0, "the router listens")
         yield endpoint
+
+
+@pytest.fixture
+def bus(router):
+    """A function that opens the bus of another process."""
+    opened = []
+
+    def open_one(process, robot="robot1"):
+        opened.append(connect(router, robot, process, SystemClock()))
+        return opened[-1]
+
+    yield open_one
+    for one in opened:
+        one.close()

@@ -153,14 +153,15 @@ def test_a_network_that_is_not_there_is_named(tmp_path):
     with ExitStack() as stack:
         commands = [
             stack.enter_context(Command(*arguments, "--connect", endpoint, folder=tmp_path))
-            for arguments in (("top", "--once"), ("stop",), ("echo", "**"))
+            for arguments in (("top", "--once"), ("stop", "--timeout", "2"), ("echo", "**"))
         ]
-        for command in commands:
+        for command, remedy in zip(commands, ("--connect", "its own emergency stop", "--connect"), strict=True):
             assert command.ended(WITHIN_S) == Exit.ENVIRONMENT, command.tail()
-            waiting, line = command.err.splitlines()
-            assert f"waiting for a router at {endpoint}: connection refused" in waiting
+            *waiting, line = command.err.splitlines()
+            assert waiting
+            assert all(f"waiting for a router at {endpoint}: connection refused" in told for told in waiting)
             assert endpoint in line
-            assert "--connect" in line
+            assert remedy in line
 
 
 def test_a_key_expression_that_is_none_is_named(tmp_path, router):

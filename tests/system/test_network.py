@@ -24,20 +24,6 @@ pytestmark = [pytest.mark.system, pytest.mark.zenoh]
 WITHIN_S = 10.0
 
 
-@pytest.fixture
-def bus(router):
-    """A function that opens the bus of another process."""
-    opened = []
-
-    def open_one(process, robot="robot1"):
-        opened.append(connect(router, robot, process, SystemClock()))
-        return opened[-1]
-
-    yield open_one
-    for one in opened:
-        one.close()
-
-
 def answering(server, reply):
     """A condition that answers what has come; true once something has."""
 

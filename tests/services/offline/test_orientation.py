@@ -10,6 +10,7 @@ from lfd.store.database import DemonstrationStore
 from protocol import messages, queries, topics
 from protocol.messages import Mode
 from services.bus.arrays import from_wire, motion_from_wire, motion_to_wire, vector3
+from services.bus.identity import new_number
 from services.bus.memory import MemoryNetwork
 from services.master import service as master
 from services.model.service import ModelService
@@ -93,7 +94,8 @@ class Site:
 
     def execute(self, mode, prediction, duration):
         self.results.take()
-        started = self.ask(queries.EXECUTE, queries.Execute(self.epoch, mode, prediction.id, duration, request=1))
+        request = queries.Execute(self.epoch, mode, prediction.id, duration, request=new_number())
+        started = self.ask(queries.EXECUTE, request)
         assert isinstance(started, queries.EpisodeStarted)
         while not (results := self.results.take()):
             self.tick()
