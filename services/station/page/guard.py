@@ -60,6 +60,9 @@ class Guard:
 
     def _welcome(self, headers: Headers, websocket: bool) -> bool:
         host = headers.get("host", "")
-        if self._names is not None and urlsplit(f"//{host}").hostname not in self._names:
+        try:
+            if self._names is not None and urlsplit(f"//{host}").hostname not in self._names:
+                return False
+            return not websocket or urlsplit(headers.get("origin", "")).netloc == host
+        except ValueError:  # what no browser sends: brackets around no address
             return False
-        return not websocket or urlsplit(headers.get("origin", "")).netloc == host

@@ -32,7 +32,7 @@ def test_a_page_on_loopback_is_served_under_loopback_names(host):
     assert b"content-security-policy" in ask(host)
 
 
-@pytest.mark.parametrize("host", ["evil.example:8080", "tablet.localhost:8080", ""])
+@pytest.mark.parametrize("host", ["evil.example:8080", "tablet.localhost:8080", "", "[::1", "[desk]:8080"])
 def test_a_page_on_loopback_is_served_under_no_other_name(host):
     assert ask(host) == 403
 
@@ -45,7 +45,7 @@ def test_a_page_that_listens_on_every_address_is_served_under_any_name(host):
 def test_the_link_is_opened_from_the_page_s_own_origin_only():
     own = ask("desk:8080", listening="0.0.0.0", kind="websocket", origin="http://desk:8080")
     assert b"content-security-policy" in own
-    for origin in ("http://evil.example", "http://desk:9090", None):
+    for origin in ("http://evil.example", "http://desk:9090", "http://[::1", "http://[desk]", None):
         assert ask("desk:8080", listening="0.0.0.0", kind="websocket", origin=origin) == 403
 
 
