@@ -59,7 +59,7 @@ class MasterService:
         self._seat = seat
         self._robot = bus.subscribe(ROBOT_STATE)
         self._started_ns: int | None = None
-        self._stepped_ns = 0
+        self._stepped_ns: int
 
     def step(self, now_ns: int) -> None:
         """Bring the device up to now and say where it is, or keep silent, which makes a refining robot hold."""

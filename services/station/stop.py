@@ -25,7 +25,7 @@ class StopButton:
         self._safety = safety
         self._message = EmergencyStop(pressed=True, by=operator, reason=f"pressed at {holder}")
         self._pressed_ns: int | None = None
-        self._due_ns = 0
+        self._due_ns: int
 
     @property
     def unconfirmed(self) -> bool:

@@ -17,10 +17,10 @@ from services.perception.service import build as build_perception
 from services.process.clock import ManualClock
 from services.process.config import Configuration, MasterSection, ModelSection, Scripted
 from services.station.service import StationService
-from services.station.workflow.state import Settings
 from tests.services.extremes import Extremes, encoded
 from tests.services.predictions import announce
 from tests.services.robot.site import Site, straight
+from tests.services.station.site import BY_HAND
 
 MESSAGES = 12
 
@@ -98,7 +98,7 @@ def test_nothing_ends_the_robot_s_process(seed):
 def test_nothing_ends_the_station_s_process(seed):
     clock = ManualClock()
     network = MemoryNetwork(clock)
-    Attacked(network, clock, StationService(network.bus(), Settings("station-1"), None, seed=3)).attack(seed)
+    Attacked(network, clock, StationService(network.bus(), BY_HAND, None, seed=3)).attack(seed)
 
 
 @pytest.mark.parametrize("device", [MasterSection(), MasterSection(device=Scripted())], ids=["keyboard", "scripted"])
@@ -137,7 +137,7 @@ def test_every_topic_is_heard_by_somebody_who_is_tried():
     """But for those that only the viewer and the camera hear, which draw: tests/system sends them what they cannot."""
     clock = ManualClock()
     network = MemoryNetwork(clock)
-    StationService(network.bus(), Settings("station-1"), None, seed=3)
+    StationService(network.bus(), BY_HAND, None, seed=3)
     build_master(network.bus(), clock, Configuration(master=MasterSection(device=Scripted())))
     heard = {s.topic.name for s in (*network.subscriptions, *Site().network.subscriptions)}
     drawn = {topics.WORLD_STATE.name, topics.TEACHING_STATE.name, topics.HEARTBEAT.name}

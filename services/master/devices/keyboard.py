@@ -99,7 +99,7 @@ class KeyboardMaster:
         self._push = _Lever(PUSH_KEYS, Law(law.growth, law.decay, law.reach))
         self._turn = _Lever(TURN_KEYS, Law(law.turn_growth, law.turn_decay, law.turn_reach))
         self._engaged = False
-        self._neutral = False
+        self._neutral: bool
 
     def step(self, moment: Moment) -> Sample:
         """Advance by the time that has passed."""
@@ -128,7 +128,7 @@ class KeyboardMaster:
         self._push.take_over((x / robot.master_gain, y / robot.master_gain, z / robot.master_gain))
         self._turn.take_over(robot.turn)
         self._engaged, self._neutral = True, _is_neutral(operator)
-        return self._sample(self._push.value, 0.0)
+        return Sample(self._push.value, ZERO, self._turn.value, engaged=True)
 
     def _let_go(self, dt: float) -> Sample:
         self._engaged = False

@@ -96,13 +96,14 @@ class Desk:
         self._lock = threading.Lock()
         self._tabs: dict[int, _Tab] = {}
         self._seat = Seat()
-        self._held: Held | None = None
-        self._heard_ns = 0
-        self._sat_ns = 0
+        self._held: Held | None
+        self._let_go: bool
+        self._heard_ns: int
+        self._sat_ns: int
         self._beats: deque[int] = deque(maxlen=BEATS)
-        self._let_go = True
         self._presses = Presses()
         self._stop_pressed = False
+        self._sit(0)
 
     def leave(self, tab: int, now_ns: int) -> None:
         """A tab has gone; nobody inherits its seat."""

@@ -150,7 +150,7 @@ def executing(state: Workflow, view: View, settings: Settings) -> Step:
         return Step(to(state, Phase.DECIDING, view, episode=None, event=ended))
     wanted = _wanted(state, view, settings)
     if wanted is not state.wants:
-        state = replace(state, wants=wanted, question=0, intent=0, retry_s=0.0)
+        state = replace(state, wants=wanted, question=0, intent=0, retry_s=view.now_s)
     state = replace(state, let_go=_let_go(state, view))
     waits = view.robot is not None and view.robot.waiting
     offered = frozenset({Action.FINISH, Action.GO_ON} if waits else {Action.FINISH})
@@ -175,11 +175,10 @@ def _wanted(state: Workflow, view: View, settings: Settings) -> Action | None:
 
 def _order(state: Workflow, view: View, query: Query[Any, Any]) -> Step:
     """Finish or go on, as the operator wants, until the robot has answered."""
-    request = queries.Finish if query is queries.FINISH else queries.Resume
-    reply = ask(state, view, query, lambda intent: request(state.epoch, request=intent))
+    reply = ask(state, view, query, lambda intent: query.request(state.epoch, request=intent))
     if isinstance(reply, Step):
         return reply
-    answered = replace(state, wants=None, question=0, intent=0, retry_s=view.now_s + RETRY_S)
+    answered = replace(state, wants=None, retry_s=view.now_s + RETRY_S)
     if not isinstance(reply, queries.Refused):
         return Step(replace(answered, notice=""))
     if query is queries.FINISH and view.robot is not None and view.robot.phase is RobotPhase.IDLE:

@@ -9,14 +9,15 @@ import msgspec
 from protocol import queries
 from protocol.messages import Motion
 from services.station.workflow.asking import ask, not_done, to
+from services.station.workflow.episode import ORIGIN
 from services.station.workflow.state import Phase, Settings, Workflow
 from services.station.workflow.view import Step, View
 
 
 def learning(state: Workflow, view: View, settings: Settings) -> Step:
     """Have the model learn the refinement; then the operator is asked to see what it does by itself."""
-    taught, looked = state.taught, state.looked
-    if taught is None or looked is None:
+    taught = state.taught
+    if taught is None:
         return Step(to(state, Phase.DECIDING, view, owed=None))
     reply = ask(
         state,
@@ -44,7 +45,7 @@ def _request(state: Workflow, view: View, settings: Settings, motion: Motion, in
     return queries.AddDemonstration(
         queries.Kind.UPDATE,
         motion,
-        state.looked or (0.0, 0.0, 0.0),
+        state.looked or ORIGIN,
         view.scene.name if view.scene is not None else "",
         state.condition,
         prediction=None if believed_in_part is None else learnable(believed_in_part.motion, settings.autonomous_s),
@@ -68,5 +69,5 @@ def undoing(state: Workflow, view: View, settings: Settings) -> Step:
         case queries.Refused(reason):
             return Step(to(state, Phase.DECIDING, view, owed=None, event=not_done(queries.UNDO, reason)))
         case _:
-            undone = replace(state, last=None, updates=max(0, state.updates - 1))
+            undone = replace(state, last=None, updates=state.updates - 1)
             return Step(to(undone, Phase.DECIDING, view, owed=None, event="The newest update was taken back."))

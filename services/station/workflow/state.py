@@ -79,16 +79,16 @@ class Settings:
     """
 
     holder: str
-    operator: str = "operator"
-    autonomous_s: float = 10.0
-    refine_s: float = 20.0
-    refinements_allowed: int = 10
-    updates_allowed: int = 8
-    adapt: Adapt = Adapt.NEXT
-    alpha: float = 1.0
-    variant: str = ""
-    scripted: bool = False
-    once: bool = False
+    operator: str
+    autonomous_s: float
+    refine_s: float
+    refinements_allowed: int
+    updates_allowed: int
+    adapt: Adapt
+    alpha: float
+    variant: str
+    scripted: bool
+    once: bool
     arrangement: Reset | None = None
 
     def duration_s(self, mode: Mode) -> float:

@@ -73,12 +73,11 @@ def _may_correct(state: Workflow, view: View) -> bool:
 
 
 def _text(state: Workflow, view: View, settings: Settings) -> str:
+    taker = another(view, settings)
     match state.phase:
         case Phase.WAITING:
-            taker = another(view, settings)
             return missing(view) or (f"{taker} commands the robot." if taker else "")
         case Phase.WATCHING:
-            taker = another(view, settings)
             return f"{taker} commands the robot. Ask, or take over." if taker else "Nobody commands the robot. Ask to."
         case Phase.EXECUTING:
             return _executing(state, view)

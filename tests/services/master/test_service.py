@@ -22,34 +22,35 @@ GRANTED = AuthorityState(operator="ann", holder="station-a", epoch=7, expires_in
 class Desk:
     """A master with a keyboard that belongs to Ann, and whoever talks to it."""
 
-    def __init__(self):
+    def __init__(self, silent_s=0.3):
         self.clock = ManualClock()
         network = MemoryNetwork(self.clock)
         self.others = network.bus()
         self.states = network.bus().subscribe(MASTER_STATE)
         self.service = build(network.bus(), self.clock, Configuration(operator="ann"))
-        self.listen()
+        self.listen(silent_s)
 
-    def listen(self):
+    def listen(self, seconds):
         """The time in which a new process says nothing."""
-        for _ in range(30):
+        for _ in range(round(seconds / PERIOD)):
             self.service.step(self.clock.now_ns())
             assert self.states.latest() is None
             self.clock.advance(PERIOD)
 
     def run(self, seconds, keys=("KeyQ",), page=True, robot=REFINING, authority=GRANTED, **said):
         """Let time pass; `said` is what else stands in the page's input."""
-        named = {"operator": "ann", "holder": "station-a", "epoch": 7} | said
+        named = {"focused": True, "operator": "ann", "holder": "station-a", "epoch": 7} | said
         for _ in range(round(seconds / PERIOD)):
             self.clock.advance(PERIOD)
             if page:
-                self.others.publish(OPERATOR_INPUT, OperatorInput(keys=keys, focused=True, **named))
+                self.others.publish(OPERATOR_INPUT, OperatorInput(keys=keys, **named))
             if robot is not None:
                 self.others.publish(ROBOT_STATE, robot)
             if authority is not None:
                 self.others.publish(AUTHORITY_STATE, authority)
             self.service.step(self.clock.now_ns())
-        return self.states.latest().message
+        said = self.states.latest()
+        return said.message if said is not None else None
 
 
 def test_it_publishes_at_the_topics_rate_though_nobody_is_there():
@@ -149,6 +150,26 @@ def test_without_hearing_the_robot_it_is_silent_so_that_the_robot_holds():
     assert desk.states.latest() is silent_from
     held = msgspec.structs.replace(REFINING, offset=(0.06, 0.0, 0.0))
     assert desk.run(0.01, keys=(), robot=held).displacement == pytest.approx((0.06, 0.0, 0.0), abs=1e-3)
+
+
+def test_a_process_that_has_just_come_up_listens_for_three_tenths_of_a_second_before_it_speaks():
+    desk = Desk(silent_s=0.0)
+    assert desk.run(0.3) is None
+    assert desk.run(PERIOD) is not None
+
+
+@pytest.mark.parametrize("lost", [{"focused": False}, {"robot": msgspec.structs.replace(REFINING, phase=Phase.IDLE)}])
+def test_who_commands_without_a_hand_on_the_device_is_told_with_nobody_at_it(lost):
+    state = Desk().run(0.5, **lost)
+    assert (state.engaged, state.operator, state.epoch) == (False, "ann", 7)
+
+
+def test_the_device_is_let_go_of_with_the_process():
+    desk = Desk()
+    closed = []
+    desk.service._device.close = lambda: closed.append("keyboard")
+    desk.service.close()
+    assert closed == ["keyboard"]
 
 
 def test_a_process_that_stood_still_does_not_make_up_for_it():

@@ -2,106 +2,12 @@
 
 from dataclasses import replace
 
-import msgspec
 import pytest
 
 from protocol import queries, topics
-from protocol.messages import (
-    AuthorityState,
-    Light,
-    ModelState,
-    ObjectPose,
-    OperatorInput,
-    Phase,
-    Pose,
-    RobotState,
-    SafetyState,
-    SceneState,
-)
-from services.bus.memory import MemoryNetwork
-from services.process.clock import ManualClock
-from services.station.service import StationService
-from services.station.workflow.state import Settings
-
-POSE = Pose((0.5, 0.0, 0.5), (1.0, 0.0, 0.0, 0.0))
-REGION = ((0.8, -0.1, 0.5), (0.9, 0.1, 0.5))
-SETTINGS = Settings("station-1", "ann", scripted=True)
-BY_HAND = Settings("station-1", "ann")
-
-
-class Tab:
-    """Stands in for the browser's page: what it says was pressed and held."""
-
-    def __init__(self):
-        self.pressed = []
-        self.held = OperatorInput(keys=("KeyE",), focused=True, present=True)
-        self.shown = None
-
-    def take_actions(self):
-        taken, self.pressed = self.pressed, []
-        return taken
-
-    def take_input(self):
-        return self.held
-
-    def show(self, view):
-        self.shown = view
-
-    def figures(self):
-        return ()
-
-    def close(self):
-        pass
-
-
-class Site:
-    """A station, and a robot and a model that are there."""
-
-    def __init__(self, page=None, *, settings=SETTINGS):
-        self.clock = ManualClock()
-        network = MemoryNetwork(self.clock)
-        self.other = network.bus()
-        self.acquire = self.other.serve(queries.ACQUIRE)
-        self.reset = self.other.serve(queries.RESET)
-        self.authority = AuthorityState(holder="", epoch=40, expires_in=0.0)
-        self.service = StationService(network.bus(), settings, page, seed=3)
-
-    def run(self, seconds):
-        for _ in range(round(seconds * self.service.rate_hz)):
-            self.clock.advance(1.0 / self.service.rate_hz)
-            self.other.publish(topics.ROBOT_STATE, RobotState(measured=POSE, reference=POSE, phase=Phase.IDLE))
-            self.other.publish(
-                topics.MODEL_STATE, ModelState(kind="adaptive", version=1, demonstrations=1, updates=0, scene="s")
-            )
-            self.other.publish(topics.AUTHORITY_STATE, self.authority)
-            self.service.step(self.clock.now_ns())
-
-    def show_scene(self, **changes):
-        scene = SceneState(
-            name="s",
-            variant="b1",
-            boxes=(),
-            object_size=(0.05, 0.05, 0.1),
-            ellipsoid_radii=(0.05, 0.05, 0.05),
-            kicked_over_thresholds=(0.1, 0.1, 0.1),
-            start=POSE,
-            object_region=REGION,
-            variants=("b1", "b2"),
-        )
-        self.other.publish(topics.SCENE_STATE, msgspec.structs.replace(scene, **changes))
-
-    def grant(self, **scene):
-        self.show_scene(**scene)
-        self.run(0.1)
-        (call,) = self.acquire.take()
-        call.reply(queries.AuthorityGranted(41, 1.0))
-        self.authority = AuthorityState(holder=call.request.holder, epoch=41, expires_in=1.0)
-
-    def see(self, seconds):
-        """Let the object be seen for so long."""
-        for _ in range(round(seconds * self.service.rate_hz)):
-            self.other.publish(topics.OBJECT_POSE, ObjectPose(pose=POSE, tag=1, pictures=9))
-            self.run(1.0 / self.service.rate_hz)
+from protocol.messages import AuthorityState, Light, OperatorInput, SafetyState
+from services.station import service
+from tests.services.station.site import BY_HAND, REGION, SETTINGS, Site, Tab
 
 
 def test_the_full_input_state_is_published_in_every_step():
@@ -175,7 +81,7 @@ def test_nothing_is_asked_of_the_robot_before_a_press_but_the_authority():
     site = Site(page, settings=BY_HAND)
     site.grant()
     site.see(10.0)
-    assert "Ready. Press Execute." in page.shown.teaching.text
+    assert page.shown.teaching.text == "Ready. Press Execute."
     assert site.reset.take() == []
     page.pressed = ["execute"]
     site.run(0.1)
@@ -212,6 +118,107 @@ def test_a_stop_goes_before_everything_else_in_its_step():
     assert told[0] is topics.EMERGENCY_STOP
     assert "STOP sent, not confirmed yet." in page.shown.teaching.text
     assert page.shown.teaching.light is Light.RED
+
+
+def test_a_stop_is_said_on_while_the_robot_moves_and_no_more_once_its_release_was_pressed():
+    page = Tab()
+    site = Site(page, settings=BY_HAND)
+    stops = site.other.subscribe(topics.EMERGENCY_STOP)
+    page.pressed = ["stop"]
+    site.run(0.1)
+    site.other.publish(topics.SAFETY_STATE, SafetyState(emergency_stop=True, by="ann", standing=False))
+    stops.take()
+    site.run(0.2)
+    assert len(stops.take()) == 2
+    page.pressed = ["release_stop"]
+    site.run(1.0)
+    assert stops.take() == []
+
+
+def spied(target, name, monkeypatch):
+    """What is given to a function from now on."""
+    given, function = [], getattr(target, name)
+    monkeypatch.setattr(target, name, lambda *values: (given.append(values), function(*values))[1])
+    return given
+
+
+def test_a_question_is_waited_for_five_seconds_and_its_number_is_nobody_elses(monkeypatch):
+    site = Site(Tab(), settings=BY_HAND)
+    asked = spied(site.service._bus, "ask", monkeypatch)
+    site.show_scene()
+    site.run(0.1)
+    ((_, request, timeout_s),) = asked
+    assert timeout_s == 5.0
+    assert request.request > 2**20
+
+
+@pytest.mark.parametrize(("key", "steers"), [("KeyE", True), ("KeyR", True), ("F13", False)])
+def test_the_workflow_sees_whether_a_key_is_held_that_steers(key, steers, monkeypatch):
+    page = Tab()
+    page.held = OperatorInput(keys=(key,), focused=True, present=True)
+    seen = spied(service, "advance", monkeypatch)
+    Site(page, settings=BY_HAND).run(0.02)
+    ((_, view, _),) = seen
+    assert view.steering is steers
+
+
+@pytest.mark.parametrize(("latency", "told"), [(-1.0, []), (0.0, [0.0]), (0.5, [0.5])])
+def test_the_page_tells_how_late_input_is_applied_once_that_was_measured(latency, told):
+    page = Tab()
+    site = Site(page, settings=BY_HAND)
+    site.applied_latency = latency
+    site.run(0.1)
+    assert [figure.value for figure in page.shown.latencies] == told
+
+
+def place(site, page, action):
+    """Where the presses' reset is to put the object, which is refused until the operator is asked again."""
+    page.pressed = [action]
+    asked = set()
+    for _ in range(5):
+        site.run(0.6)
+        (call,) = site.reset.take()
+        asked.add(call.request.object_position)
+        call.reply(queries.Refused("not yet"))
+    site.run(0.1)
+    (position,) = asked
+    return position
+
+
+def places(*actions):
+    page = Tab()
+    site = Site(page, settings=BY_HAND)
+    site.grant()
+    site.see(2.0)
+    return [place(site, page, action) for action in actions]
+
+
+def test_the_places_of_a_seed_do_not_depend_on_how_often_each_is_tried():
+    first, second = places("next", "next")
+    assert first != second
+    assert places("next", "execute", "next") == [first, first, second]
+
+
+def test_the_page_tells_whether_the_authority_is_its_own():
+    page = Tab()
+    site = Site(page, settings=BY_HAND)
+    site.grant()
+    assert not page.shown.authority_is_mine
+    site.run(0.1)
+    assert page.shown.authority_is_mine
+
+
+def test_what_the_page_measured_is_told():
+    page = Tab()
+    assert Site(page, settings=BY_HAND).service.figures() == page.figures()
+    assert Site().service.figures() == ()
+
+
+def test_the_page_is_closed_with_the_station():
+    page = Tab()
+    Site(page, settings=BY_HAND).service.close()
+    assert page.closed
+    Site().service.close()
 
 
 def test_the_object_is_put_into_its_region_and_the_scene_into_the_changed_variant():

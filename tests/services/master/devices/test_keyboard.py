@@ -1,3 +1,5 @@
+from dataclasses import FrozenInstanceError, fields
+
 import msgspec
 import pytest
 from hypothesis import given
@@ -6,7 +8,7 @@ from hypothesis import strategies as st
 from protocol.keys import PUSH_KEYS, TURN_KEYS
 from protocol.messages import Mode, OperatorInput, Phase, Pose, RobotState
 from services.master.devices.device import Moment
-from services.master.devices.keyboard import LET_GO_S, KeyboardMaster, Law, directions, pushed
+from services.master.devices.keyboard import KeyboardMaster, Law, directions, pushed
 from services.process.config import Keyboard
 
 KEYBOARD = Keyboard(growth=0.12, decay=0.05, reach=0.25, turn_growth=0.4, turn_decay=0.2, turn_reach=0.8)
@@ -92,6 +94,12 @@ def test_the_speed_does_not_depend_on_how_often_it_is_asked(displacement, keys, 
         assert twice == pytest.approx(pushed(displacement, way, first + second, LAW), abs=1e-12)
 
 
+def test_a_law_does_not_change():
+    for field in fields(LAW):
+        with pytest.raises(FrozenInstanceError):
+            setattr(LAW, field.name, 1.0)
+
+
 def test_diagonals_move_both_axes_at_full_growth():
     sample = hold(seated(), 0.5, "KeyQ", "KeyD")
     assert sample.displacement == pytest.approx((0.06, 0.0, -0.06))
@@ -128,7 +136,10 @@ def test_whatever_is_lost_disengages_at_once_and_returns_to_zero_although_keys_a
     assert not first.engaged
     assert abs(first.displacement[0]) < abs(before.displacement[0])
     assert abs(first.rotation[1]) < abs(before.rotation[1])
-    last = hold(master, LET_GO_S, "KeyQ", "KeyS", "KeyT", **loss)
+    half = hold(master, 0.09, "KeyQ", "KeyS", "KeyT", **loss)
+    assert half.displacement == pytest.approx((0.125, -0.125, 0.0))
+    assert half.rotation == pytest.approx((0.0, 0.4, 0.0))
+    last = hold(master, 0.1, "KeyQ", "KeyS", "KeyT", **loss)
     assert (last.displacement, last.rotation) == ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 

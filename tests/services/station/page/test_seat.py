@@ -1,10 +1,13 @@
 """Who commands: one tab, and nobody without a press but the first."""
 
+from dataclasses import FrozenInstanceError, fields
+
 import pytest
 from browser_tab import MS, BrowserTab
 
 from protocol.messages import OperatorInput
 from services.station.page.input import Desk
+from services.station.page.seat import Seat
 
 ASKED_MS = 10_000
 RESERVED_MS = 30_000
@@ -80,6 +83,7 @@ def test_asking_for_the_seat_that_one_has_changes_nothing(first):
 
 def test_who_sits_is_asked_before_another_takes_the_input(first, second):
     second.press("take_input")
+    assert second.standing().accepted == (1,)
     assert first.standing().armed
     assert first.standing().asked_s == pytest.approx(ASKED_MS / 1e3, abs=0.05)
     assert second.standing().asking_s == pytest.approx(ASKED_MS / 1e3, abs=0.05)
@@ -219,3 +223,13 @@ def test_an_answer_without_a_question_changes_nothing(first):
     first.hold()
     assert first.standing().armed
     assert not first.standing().kept
+
+
+def test_how_a_tab_stands_and_who_asks_are_said_for_good(first):
+    seat = Seat()
+    seat.enter(1, "seat-0001")
+    seat.ask(2, "seat-0002", 0)
+    for value in (first.standing(), seat.question):
+        for field in fields(value):
+            with pytest.raises(FrozenInstanceError):
+                setattr(value, field.name, None)

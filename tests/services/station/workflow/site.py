@@ -19,8 +19,20 @@ REACHED = Outcome(reached=True, kicked_over=False, collision=False)
 COLLIDED = Outcome(reached=False, kicked_over=False, collision=True)
 MISSED = Outcome(reached=False, kicked_over=False, collision=False)
 
-SCRIPTED = Settings(holder="station", scripted=True, once=True, refinements_allowed=3, updates_allowed=2)
-BY_HAND = Settings(holder="station", operator="ann")
+BY_HAND = Settings(
+    holder="station",
+    operator="ann",
+    autonomous_s=10.0,
+    refine_s=20.0,
+    refinements_allowed=10,
+    updates_allowed=8,
+    adapt=queries.Adapt.NEXT,
+    alpha=1.0,
+    variant="",
+    scripted=False,
+    once=False,
+)
+SCRIPTED = replace(BY_HAND, scripted=True, once=True, refinements_allowed=3, updates_allowed=2)
 STOPPED = messages.SafetyState(emergency_stop=True, by="bob", reason="it burns", at="10:00", standing=True)
 RELEASED = messages.SafetyState(emergency_stop=False, released_by="eve", at="10:05", standing=True)
 IDLE, RAMP, EXECUTE, HOLD = messages.Phase.IDLE, messages.Phase.RAMP, messages.Phase.EXECUTE, messages.Phase.HOLD
@@ -29,7 +41,7 @@ UNANSWERED = object()
 
 
 class Site:
-    """A run is a list of verdicts; a step takes a second, a question is answered in the next one."""
+    """A run is a list of verdicts; a step takes a second unless told, a question is answered in the next one."""
 
     def __init__(self, settings, verdicts=()):
         self.settings = settings
@@ -55,16 +67,16 @@ class Site:
                 kicked_over_thresholds=(0.1, 0.1, 0.1),
                 start=POSE,
                 object_region=((0.8, 0.0, 0.5), (0.9, 0.1, 0.5)),
-                variants=("b1", "b2"),
+                variants=("b0", "b1", "b2"),
             ),
             model=messages.ModelState(kind="adaptive", version=2, demonstrations=2, updates=0, scene="dishwasher"),
             seen=messages.ObjectPose(pose=messages.Pose((0.85, 0.05, 0.5), (1.0, 0.0, 0.0, 0.0)), tag=1, pictures=9),
             drawn=Place((0.85, 0.05, 0.5)),
         )
 
-    def step(self, *actions, **seen):
-        """Advance by a second; `seen` is what is different in this step only."""
-        self.now_s += 1.0
+    def step(self, *actions, seconds=1.0, **seen):
+        """Advance in time; `seen` is what is different in this step only."""
+        self.now_s += seconds
         self.numbers += 1
         before = self.state.phase
         now = {"now_s": self.now_s, "seen_s": self.now_s, "scene_s": self.now_s, "number": self.numbers}

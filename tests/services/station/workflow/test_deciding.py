@@ -161,6 +161,7 @@ def test_a_refusal_that_does_not_pass_is_told_and_the_operator_asked(query):
     assert site.state.phase is Phase.DECIDING
     assert "it is too far" in site.state.event
     assert site.names().count(query.name) == 5
+    assert not site.state.pressed
     site.instead.clear()
     assert site.stay() == []
 

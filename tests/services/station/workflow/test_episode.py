@@ -5,7 +5,6 @@ import pytest
 
 from protocol import messages, queries
 from services.bus.bus import Failed
-from services.station.workflow.episode import EPISODE_GRACE_S, LOOK_S, PICTURES_NEEDED, UNSEEN_AFTER_RESET_S
 from services.station.workflow.state import Action, Phase
 from tests.services.station.workflow.site import (
     BY_HAND,
@@ -36,32 +35,11 @@ def test_after_the_reset_it_looks_until_the_object_is_seen():
     site.run_to(Phase.EXECUTING)
 
 
-def test_where_the_object_was_before_the_reset_does_not_count():
+def test_a_scene_without_variants_is_reset_as_it_stands():
     site = Site(BY_HAND)
-    site.press(Action.EXECUTE, Phase.LOOKING)
-    before = site.now_s
-    site.stay(5, seen_s=before + 0.9 * LOOK_S)
-    assert site.state.phase is Phase.LOOKING
-    site.run_to(Phase.PREDICTING)
-
-
-def test_a_sighting_of_few_pictures_does_not_count():
-    site = Site(BY_HAND)
-    site.press(Action.EXECUTE, Phase.LOOKING)
-    few = msgspec.structs.replace(site.view.seen, pictures=PICTURES_NEEDED - 1)
-    site.stay(5, seen=few)
-    assert site.state.phase is Phase.LOOKING
-    site.sees(seen=msgspec.structs.replace(few, pictures=PICTURES_NEEDED))
-    site.run_to(Phase.PREDICTING)
-
-
-def test_an_object_that_is_not_seen_after_the_reset_ends_the_press():
-    site = Site(BY_HAND)
-    site.press(Action.EXECUTE, Phase.LOOKING)
-    site.stay(round(UNSEEN_AFTER_RESET_S), seen=None)
-    assert site.state.phase is Phase.DECIDING
-    assert not site.state.pressed
-    assert site.stay() == []
+    site.sees(scene=msgspec.structs.replace(site.view.scene, variants=()))
+    site.press(Action.EXECUTE, Phase.EXECUTING)
+    assert [request.variant for request in site.requests(queries.RESET)] == [None]
 
 
 def test_an_idle_robot_proves_nothing_the_result_may_be_late():
@@ -109,6 +87,7 @@ def test_a_result_that_overtakes_the_acknowledgement_of_the_start_counts():
     site.end(MISSED)
     site.step()
     assert site.state.phase is Phase.DECIDING
+    assert not site.state.pressed
     assert site.state.last == MISSED
 
 
@@ -125,17 +104,6 @@ def test_a_person_may_let_the_robot_hold_for_as_long_as_they_like():
     site.now_s += 3600.0
     assert site.stay() == []
     assert site.state.phase is Phase.EXECUTING
-
-
-def test_a_scripts_episode_that_never_ends_is_repeated():
-    site = Site(SCRIPTED)
-    site.run_to(Phase.EXECUTING)
-    site.now_s += SCRIPTED.autonomous_s + EPISODE_GRACE_S
-    asked = len(site.asked)
-    site.step()
-    assert site.state.phase is Phase.DECIDING
-    site.run_to(Phase.EXECUTING)
-    assert site.names()[asked:] == ["cmd/finish", "cmd/reset", "model/predict", "cmd/execute"]
 
 
 def test_a_held_motion_offers_to_go_on_and_does_so_upon_a_press():
@@ -219,6 +187,22 @@ def test_finish_that_is_refused_while_the_robot_moves_is_told():
     site.step()
     assert site.state.phase is Phase.EXECUTING
     assert "not of this epoch" in site.state.notice
+
+
+def test_to_finish_is_another_request_in_every_episode():
+    site = executing()
+    site.step(Action.FINISH)
+    site.end(MISSED)
+    site.press(Action.EXECUTE, Phase.EXECUTING)
+    site.step(Action.FINISH)
+    first, second = site.requests(queries.FINISH)
+    assert first.request != second.request
+
+
+def test_keys_that_are_held_from_when_the_robot_executes_count():
+    site = executing(Action.REFINE)
+    site.step(steering=True)
+    assert not site.state.let_go
 
 
 @pytest.mark.parametrize("phase", [RAMP, HOLD])

@@ -1,5 +1,7 @@
 """What the model is told: after its answer, whatever it is, the operator is asked and nothing moves."""
 
+from dataclasses import replace
+
 import pytest
 
 from protocol import queries
@@ -55,3 +57,19 @@ def test_after_an_undo_what_was_reached_before_says_nothing():
     site.step(Action.UNDO)
     site.run_to(Phase.DECIDING)
     assert site.state.last is None
+
+
+def test_an_undo_takes_one_update_back():
+    site = taught()
+    site.verdicts = [REACHED]
+    site.press(Action.REFINE, Phase.LEARNING)
+    site.press(Action.UNDO, Phase.DECIDING)
+    assert site.state.updates == 1
+
+
+def test_where_there_is_nothing_to_teach_the_operator_is_asked():
+    site = taught()
+    site.state = replace(site.state, taught=None)
+    site.step()
+    assert site.state.phase is Phase.DECIDING
+    assert "model/add_demonstration" not in site.names()

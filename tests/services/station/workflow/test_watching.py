@@ -8,6 +8,10 @@ from services.station.workflow.words import teaching_state
 from tests.services.station.workflow.site import BY_HAND, SCRIPTED, STOPPED, Site, authority
 
 
+def text(site):
+    return teaching_state(site.state, site.view, site.settings).text
+
+
 def taken_over(site, by="bob"):
     site.epoch += 1
     site.sees(authority=authority("station-b", site.epoch, by))
@@ -100,8 +104,19 @@ def test_a_lease_that_lasts_for_two_seconds_is_somebodys():
     site.sees(authority=authority("station-old", 7, "ann"))
     site.stay(2)
     assert site.state.phase is Phase.WAITING
+    assert text(site) == "Another station commands the robot."
     site.step()
     assert site.state.phase is Phase.WATCHING
+
+
+def test_a_lease_that_may_run_out_is_waited_for_after_a_stop_too():
+    site = Site(BY_HAND)
+    site.sees(authority=authority("station-old", 7, "ann"))
+    site.step(safety=STOPPED)
+    site.step()
+    assert site.state.phase is Phase.WAITING
+    site.step()
+    assert site.state.phase is Phase.WAITING
 
 
 def test_a_new_station_watches_where_somebody_commands():
@@ -109,4 +124,4 @@ def test_a_new_station_watches_where_somebody_commands():
     site.sees(authority=authority("station-b", 7, "bob"))
     site.run_to(Phase.WATCHING)
     assert site.stay() == []
-    assert "bob commands the robot" in teaching_state(site.state, site.view, site.settings).text
+    assert "bob commands the robot" in text(site)
