@@ -22,6 +22,7 @@ from services.commands.terminal import Terminal
 from services.model.learning import learn_all
 from services.model.skill import binding_of
 from services.offline.first_demonstrations import first_demonstrations
+from services.process.exceptions import CommandFailed
 from services.process.files import write_whole
 from services.reproduction.exceptions import CannotKeep, NothingToMap
 from services.reproduction.models import BY_NAME
@@ -175,7 +176,7 @@ def _check(request: Request) -> None:
         raise NothingToMap(f"--out must name a .png file, not {str(request.out)!r}")
     for path, flag in ((request.out, "--out"), (request.json, "--json")):
         if path and not path.parent.is_dir():
-            raise CannotKeep(path.parent, "there is no such folder", flag)
+            raise CommandFailed(f"{flag}: the folder {path.parent} does not exist")
 
 
 def _with_an_object(scene: AnyScene) -> ReachingScene:

@@ -156,6 +156,10 @@ class StationSection(_Section, frozen=True):
     once: bool = False
 
 
+FOLDER_SETTING = "[viewer] folder"
+"""Where the folders of runs are to be, as an error names it."""
+
+
 class ViewerSection(_Section, frozen=True):
     """The viewer process: where it serves the live view, and the folder for recordings."""
 

@@ -24,11 +24,11 @@ ServiceError
 ├── Unreachable              a pose that the robot does not reach (services.robot.mechanism)
 ├── Blocked                  something stands where the arm is to be put (services.robot.backends.backend)
 ├── ViewerError              (services.viewer.exceptions)
-│   ├── WebFilesMissing      the Rerun SDK did not give its web viewer's files
+│   ├── WebFilesMissing      the Rerun SDK did not give its web viewer's files (an EnvironmentFault too)
 │   └── CannotReplay         a recording that cannot be opened
 └── StudyError               (services.reproduction.exceptions)
     ├── UnknownAnalysis      a name that no analysis has
-    ├── CannotKeep           a folder that results cannot be kept in
+    ├── CannotKeep           a folder that results cannot be kept in (an EnvironmentFault too)
     └── NothingToMap         a model that cannot be mapped
 """
 

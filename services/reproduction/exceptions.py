@@ -2,7 +2,7 @@
 
 StudyError
 ├── UnknownAnalysis  a name that no analysis has
-├── CannotKeep       a folder that results cannot be kept in
+├── CannotKeep       a folder that results cannot be kept in (an EnvironmentFault too)
 └── NothingToMap     a model that cannot be mapped
 """
 
@@ -12,7 +12,7 @@ import difflib
 from collections.abc import Sequence
 from pathlib import Path
 
-from services.process.exceptions import ServiceError
+from services.process.exceptions import EnvironmentFault, ServiceError
 
 
 class StudyError(ServiceError):
@@ -29,7 +29,7 @@ class UnknownAnalysis(StudyError):
         super().__init__(f"no analysis is called {name!r}; {hint}")
 
 
-class CannotKeep(StudyError):
+class CannotKeep(StudyError, EnvironmentFault):
     """Results cannot be written."""
 
     def __init__(self, folder: Path, reason: str, flag: str = "--out") -> None:

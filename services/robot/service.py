@@ -38,7 +38,6 @@ log = logging.getLogger(__name__)
 Array = NDArray[np.float64]
 
 FIGURES_KEPT = 4096
-LONGEST_REASON = 900  # [characters] that fit into any reply
 
 
 def build(bus: Bus, clock: Clock, configuration: Configuration, memory: Memory | None = None) -> RobotService:
@@ -223,7 +222,7 @@ class RobotService:
 
     def _refuse(self, reason: str) -> Refused:
         self._refused += 1
-        line = " ".join(reason.split())[:LONGEST_REASON]
+        line = " ".join(reason.split())
         log.warning("refused: %s", line)
         return Refused(line)
 

@@ -42,7 +42,7 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> StationServic
     """The service, its page started where a person is to use it.
 
     Raises:
-        ServiceError: the page cannot be served.
+        PortInUse: the page cannot be served.
     """
     section = configuration.station
     page = None if section.scripted else _open_page(section, configuration.name, clock)

@@ -1,7 +1,7 @@
 """The viewer's failures.
 
 ViewerError
-├── WebFilesMissing  the Rerun SDK did not give its web viewer's files
+├── WebFilesMissing  the Rerun SDK did not give its web viewer's files (an EnvironmentFault too)
 └── CannotReplay     a recording that cannot be opened
 """
 
@@ -9,14 +9,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from services.process.exceptions import ServiceError
+from services.process.exceptions import EnvironmentFault, ServiceError
 
 
 class ViewerError(ServiceError):
     """Base of what the viewer raises for a person to read."""
 
 
-class WebFilesMissing(ViewerError):
+class WebFilesMissing(ViewerError, EnvironmentFault):
     """The Rerun SDK's web viewer could not be taken from it."""
 
     def __init__(self, reason: str) -> None:

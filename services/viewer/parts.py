@@ -15,7 +15,8 @@ from pathlib import Path
 
 import rerun as rr
 
-from services.viewer.exceptions import ViewerError
+from services.process.config import FOLDER_SETTING
+from services.process.exceptions import FolderUnusable
 from services.viewer.part import Part, refusal
 
 log = logging.getLogger(__name__)
@@ -39,7 +40,7 @@ class Parts:
         check_s: how often the thread looks [s]; 0 for no thread, `check` is called by hand.
 
     Raises:
-        ViewerError: the folder cannot be written to.
+        FolderUnusable: the folder cannot be written to.
     """
 
     def __init__(self, folder: Path, robot: str, identity: str, check_s: float = CHECK_S) -> None:
@@ -54,8 +55,7 @@ class Parts:
             folder.mkdir(parents=True, exist_ok=True)
             self._part: Part | None = Part(self.path, identity)
         except OSError as error:
-            reason = f"cannot record to {self.path}: {error.strerror}"
-            raise ViewerError(f"{reason}; set another folder in the configuration: [viewer] folder") from None
+            raise FolderUnusable(folder, FOLDER_SETTING, error.strerror or str(error)) from None
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._watch, args=(check_s,), name="recording", daemon=True)
         if check_s > 0.0:

@@ -29,7 +29,7 @@ class Recording:
 
     Raises:
         PortInUse: nothing can listen at the stream's port.
-        ViewerError: the folder cannot be written to.
+        FolderUnusable: the folder cannot be written to.
     """
 
     def __init__(self, section: ViewerSection, robot: str, start_ns: int, eye: Eye) -> None:

@@ -61,7 +61,8 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> Service:
 
     Raises:
         PortInUse: another program listens where the live view should be.
-        ViewerError: the recording cannot be written, or the web viewer's files are not there.
+        FolderUnusable: the recording cannot be written.
+        WebFilesMissing: the web viewer's files are not there.
     """
     web = WebServer(configuration.viewer, web_files())
     # A scene that is not known here has an arm like ours, as far as anybody can tell.

@@ -14,6 +14,8 @@ from services.commands.command import Command
 from services.commands.table import COMMANDS
 from services.process.exceptions import CommandFailed, PortInUse, RoomMissing
 from services.process.exit_codes import Exit
+from services.reproduction.exceptions import CannotKeep
+from services.viewer.exceptions import WebFilesMissing
 from sim.exceptions import DrawingLibraryMissing, UnknownScene
 
 SLOW = ("rich", "msgspec.toml", "numpy", "zenoh", "scipy", "mujoco")
@@ -52,6 +54,8 @@ PORT = PortInUse("the page", "127.0.0.1", 80, "[station] port", "in use")
         (UnknownScene("kitchen", ("table",)), Exit.BAD_INPUT),
         (PORT, Exit.ENVIRONMENT),
         (RoomMissing("robot", "mujoco"), Exit.ENVIRONMENT),
+        (WebFilesMissing("its program is not installed"), Exit.ENVIRONMENT),
+        (CannotKeep(Path("out"), "No space left on device"), Exit.ENVIRONMENT),
         (DrawingLibraryMissing("no"), Exit.ENVIRONMENT),
         (OSError(errno.ENOSPC, "No space left on device", "out.json"), Exit.ENVIRONMENT),
         (PermissionError(errno.EACCES, "Permission denied", "out.json"), Exit.ENVIRONMENT),

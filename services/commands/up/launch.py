@@ -20,16 +20,13 @@ from services.commands.up.child import Child, Job
 from services.commands.up.network import Page
 from services.commands.up.supervisor import ROUTER, Supervisor
 from services.commands.up.voice import Spoken, Voice
-from services.process.config import Configuration, save
+from services.process.config import FOLDER_SETTING, Configuration, save
 from services.process.exceptions import CommandFailed, FolderUnusable
 from services.process.exit_codes import Exit
 from services.process.processes import PROCESS_NAMES
 from services.process.runner import stop_on_signals
 
 TEACHER = "teach"
-
-FOLDER_SETTING = "[viewer] folder"
-"""Where the folders of runs are to be, in the configuration."""
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from protocol.messages import Figure, OperatorInput
 from services.process.addresses import family, in_url
 from services.process.clock import Clock
 from services.process.config import StationSection
-from services.process.exceptions import PortInUse, ServiceError
+from services.process.exceptions import PortInUse
 from services.station.page.controls import is_confirmed
 from services.station.page.document import ASSETS, document, version
 from services.station.page.guard import Guard
@@ -26,6 +26,9 @@ from services.station.page.link import Link
 from services.station.page.view import Board, PageView
 
 log = logging.getLogger(__name__)
+
+PAGE, SETTING = "the operator's page", "[station] port"
+"""What is served, and what sets where, as an error names them."""
 
 START_WITHIN_S = 60.0
 STOP_POLITELY_S = 0.7
@@ -60,8 +63,7 @@ class Page:
         """Listen, and return once pages are served.
 
         Raises:
-            PortInUse: something else listens there, or the address is not this machine's.
-            ServiceError: the server did not come up.
+            PortInUse: something else listens there, the address is not this machine's, or the server did not come up.
         """
         listener = self._listen()
         self._server = uvicorn.Server(self._server_configuration())
@@ -70,7 +72,7 @@ class Page:
         deadline_ns = self._clock.now_ns() + round(START_WITHIN_S * 1e9)
         while not self._server.started:
             if not self._thread.is_alive() or self._clock.now_ns() > deadline_ns:
-                raise ServiceError(f"the operator's page did not start on {self.url}; the log above says why")
+                raise PortInUse(PAGE, self._station.host, self._station.port, SETTING, "the server did not start")
             self._thread.join(0.02)
         log.info("the operator's page is on %s", self.url)
 
@@ -110,7 +112,7 @@ class Page:
         try:
             return socket.create_server((host, port), family=family(host))
         except OSError as error:
-            raise PortInUse("the operator's page", host, port, "[station] port", error.strerror or "") from None
+            raise PortInUse(PAGE, host, port, SETTING, error.strerror or "") from None
 
     def _server_configuration(self) -> uvicorn.Config:
         page = HTMLResponse(document(self._robot))

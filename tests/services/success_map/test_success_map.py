@@ -156,8 +156,8 @@ def said(capsys, *flags):
         (["--teach", "--database", "x.sqlite"], "leave out --database, or --teach"),
         (["--database", "nowhere.sqlite"], "there is no file nowhere.sqlite"),
         (["--out", "map.pdf"], "--out must name a .png file"),
-        (["--out", "nowhere/map.png"], "there is no such folder; choose another folder with --out"),
-        (["--json", "nowhere/map.json"], "there is no such folder; choose another folder with --json"),
+        (["--out", "nowhere/map.png"], "--out: the folder nowhere does not exist"),
+        (["--json", "nowhere/map.json"], "--json: the folder nowhere does not exist"),
     ],
 )
 def test_a_wrong_flag_is_one_line(flags, words, capsys, tmp_path, monkeypatch):

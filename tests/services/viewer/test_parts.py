@@ -10,7 +10,7 @@ import warnings
 
 import pytest
 
-from services.viewer.exceptions import ViewerError
+from services.process.exceptions import FolderUnusable
 
 pytestmark = pytest.mark.sim
 
@@ -208,5 +208,5 @@ def test_a_file_that_is_closed_is_whole(tmp_path, record):
 
 def test_a_folder_that_cannot_be_written_to_is_named_with_its_setting(tmp_path, record):
     (tmp_path / "runs").write_text("a file")
-    with pytest.raises(ViewerError, match=r"\[viewer\] folder"):
+    with pytest.raises(FolderUnusable, match=r"\[viewer\] folder"):
         record(tmp_path / "runs")
