@@ -8,7 +8,7 @@ import rerun as rr
 from protocol.messages import Array
 from services.bus.arrays import Floats, NotFinite, from_wire
 from services.viewer import entities, palette
-from services.viewer.recording import Recording
+from services.viewer.run import Run
 
 _ELLIPSOIDS = 24
 _THINNEST = 0.001  # [m]
@@ -25,22 +25,22 @@ def drawable(array: Array) -> Floats | None:
     return values if np.all(np.abs(values) <= _FARTHEST) else None
 
 
-def log_prediction(recording: Recording, positions: Floats, deviations: Floats | None) -> None:
+def log_prediction(run: Run, positions: Floats, deviations: Floats | None) -> None:
     """Draw a prediction and about it two standard deviations, 95 % on each axis.
 
     Args:
-        recording: where.
+        run: where.
         positions: shape (n, 3), base frame [m].
         deviations: one standard deviation on each axis, shape (n, 3) [m]; None where they are not known.
     """
     line = rr.LineStrips3D([positions], radii=[0.0035], colors=[palette.PREDICTED])
-    recording.log(entities.PREDICTION, line)
+    run.log(entities.PREDICTION, line)
     centres = half_sizes = np.empty((0, 3))
     if deviations is not None and deviations.shape == positions.shape:
         chosen = np.unique(np.linspace(0, len(positions) - 1, _ELLIPSOIDS).round().astype(int))
         centres = positions[chosen]
         half_sizes = np.maximum(_SIGMAS * deviations[chosen], _THINNEST)
-    recording.log(
+    run.log(
         entities.UNCERTAINTY,
         rr.Ellipsoids3D(
             centers=centres,
@@ -51,7 +51,7 @@ def log_prediction(recording: Recording, positions: Floats, deviations: Floats |
     )
 
 
-def log_refined(recording: Recording, positions: Floats) -> None:
+def log_refined(run: Run, positions: Floats) -> None:
     """Draw the part of the refined motion that lies behind, shape (k, 3) [m]."""
     strips = [positions] if len(positions) > 1 else []
-    recording.log(entities.REFINED, rr.LineStrips3D(strips, radii=[0.0045], colors=[palette.REFINED]))
+    run.log(entities.REFINED, rr.LineStrips3D(strips, radii=[0.0045], colors=[palette.REFINED]))

@@ -11,7 +11,7 @@ import rerun as rr
 from numpy.typing import NDArray
 
 from services.viewer import entities
-from services.viewer.recording import Recording
+from services.viewer.run import Run
 
 Floats = NDArray[np.float64]
 
@@ -20,31 +20,31 @@ _MOVING = f"{entities.ROBOT}/moving"
 
 
 class RobotModel:
-    """The robot in a recording.
+    """The robot in a run of the viewer.
 
     Args:
         urdf: its description.
-        recording: where it is drawn.
+        run: where it is drawn.
     """
 
-    def __init__(self, urdf: Path, recording: Recording) -> None:
-        self._recording = recording
+    def __init__(self, urdf: Path, run: Run) -> None:
+        self._run = run
         self._tree = rr.urdf.UrdfTree.from_file_path(
             urdf, entity_path_prefix=entities.ROBOT.removeprefix("/"), static_transform_entity_path=_LINKS
         )
         self._joints = _Joints(self._tree, ())
-        recording.always("robot", self._tree.log_urdf_to_recording)
+        run.always("robot", self._tree.log_urdf_to_recording)
         for path in _primitives(urdf, self._tree):
-            recording.log_always(path, rr.Boxes3D.from_fields(fill_mode="solid"))
+            run.log_always(path, rr.Boxes3D.from_fields(fill_mode="solid"))
         # What is drawn at paths, without a frame of its own, stands in the robot's base frame.
         base = rr.Transform3D(parent_frame=f"tf#{entities.WORLD}", child_frame=self._tree.root_link().name)
-        recording.log_always(f"{entities.ROBOT}/base", base)
+        run.log_always(f"{entities.ROBOT}/base", base)
 
     def move(self, time_s: float, names: Sequence[str], q: Sequence[float]) -> None:
         """Put the joints where they are; those that the description does not have are left out.
 
         Args:
-            time_s: on the recording's time line [s].
+            time_s: on the run's time line [s].
             names: of the joints.
             q: positions, in the order of `names` [rad, m].
         """
@@ -58,7 +58,7 @@ class RobotModel:
         columns = rr.Transform3D.columns(translation=translations, quaternion=quaternions)
         times = rr.TimeColumn(entities.TIMELINE, duration=[time_s] * len(translations))
         # One call for all joints: a third of the time of one call each.
-        self._recording.send_columns(_MOVING, times, [*columns, *self._joints.frames])
+        self._run.send_columns(_MOVING, times, [*columns, *self._joints.frames])
 
 
 class _Joints:

@@ -7,16 +7,16 @@ import rerun as rr
 
 from protocol.messages import Pose, Quaternion, SceneState, Vector3
 from services.viewer import entities, palette
-from services.viewer.recording import Recording
+from services.viewer.run import Run
 
 _FORCE_SCALE = 0.03  # [m/N]
 _THIN = -0.75  # [points on the screen]: Rerun's sign for not being metres
 _LEAST_FORCE = 0.05  # [N] below it there is no arrow
 
 
-def log_environment(recording: Recording, scene: SceneState) -> None:
+def log_environment(run: Run, scene: SceneState) -> None:
     """Draw the scene's boxes."""
-    recording.stand(
+    run.stand(
         entities.ENVIRONMENT,
         rr.Boxes3D(
             centers=[box.centre for box in scene.boxes],
@@ -30,35 +30,35 @@ def log_environment(recording: Recording, scene: SceneState) -> None:
     )
 
 
-def log_object_seen(recording: Recording, pose: Pose, size: Vector3) -> None:
+def log_object_seen(run: Run, pose: Pose, size: Vector3) -> None:
     """Draw the object where perception sees it; `size` is its full edge lengths [m]."""
-    recording.log(entities.OBJECT_SEEN, _box(pose, size, palette.OBJECT, "solid"))
+    run.log(entities.OBJECT_SEEN, _box(pose, size, palette.OBJECT, "solid"))
 
 
-def log_object_truth(recording: Recording, pose: Pose, size: Vector3) -> None:
+def log_object_truth(run: Run, pose: Pose, size: Vector3) -> None:
     """Draw where the object really is as an outline; `size` is its full edge lengths [m]."""
-    recording.log(entities.OBJECT_TRUTH, _box(pose, size, palette.TRUTH, "majorwireframe"))
+    run.log(entities.OBJECT_TRUTH, _box(pose, size, palette.TRUTH, "majorwireframe"))
 
 
-def log_grasp(recording: Recording, pose: Pose) -> None:
+def log_grasp(run: Run, pose: Pose) -> None:
     """Move the grasping frame."""
-    recording.log(entities.GRASP, rr.Transform3D(translation=pose.position, quaternion=_xyzw(pose.orientation)))
+    run.log(entities.GRASP, rr.Transform3D(translation=pose.position, quaternion=_xyzw(pose.orientation)))
 
 
-def log_point(recording: Recording, radius: float) -> None:
+def log_point(run: Run, radius: float) -> None:
     """Draw a robot that has no shape as a ball of this radius [m]; it moves with the grasping frame."""
-    recording.log_always(entities.POINT, rr.Points3D([(0.0, 0.0, 0.0)], radii=[radius], colors=[palette.TRUTH]))
+    run.log_always(entities.POINT, rr.Points3D([(0.0, 0.0, 0.0)], radii=[radius], colors=[palette.TRUTH]))
 
 
-def log_reached(recording: Recording, radii: Vector3, *, reached: bool) -> None:
+def log_reached(run: Run, radii: Vector3, *, reached: bool) -> None:
     """Draw the ellipsoid about the grasping frame in which the object's centre has to lie (thesis, eq. E.1).
 
     Args:
-        recording: where.
+        run: where.
         radii: of the ellipsoid [m].
         reached: whether it does.
     """
-    recording.log(
+    run.log(
         entities.REACHED,
         rr.Ellipsoids3D(
             half_sizes=[radii],
@@ -69,16 +69,16 @@ def log_reached(recording: Recording, radii: Vector3, *, reached: bool) -> None:
     )
 
 
-def log_kick_limits(recording: Recording, centre: Vector3, limits: Vector3, *, kicked_over: bool) -> None:
+def log_kick_limits(run: Run, centre: Vector3, limits: Vector3, *, kicked_over: bool) -> None:
     """Draw the box that the object's centre has to stay in (thesis, Appendix E).
 
     Args:
-        recording: where.
+        run: where.
         centre: where the object stood at first [m].
         limits: largest displacement on each axis [m].
         kicked_over: whether it has left the box.
     """
-    recording.log(
+    run.log(
         entities.KICK_LIMITS,
         rr.Boxes3D(
             centers=[centre],
@@ -90,17 +90,17 @@ def log_kick_limits(recording: Recording, centre: Vector3, limits: Vector3, *, k
     )
 
 
-def log_collision(recording: Recording, position: Vector3 | None, force: float) -> None:
+def log_collision(run: Run, position: Vector3 | None, force: float) -> None:
     """Mark where the robot first touched the environment [m] and how hard [N]; no mark where it did not."""
     positions = [] if position is None else [position]
     labels = [f"collision {force:.0f} N"] * len(positions)
-    recording.log(entities.COLLISION, rr.Points3D(positions, radii=[0.018], colors=[palette.STOP], labels=labels))
+    run.log(entities.COLLISION, rr.Points3D(positions, radii=[0.018], colors=[palette.STOP], labels=labels))
 
 
-def log_force(recording: Recording, origin: Vector3, force: Vector3) -> None:
+def log_force(run: Run, origin: Vector3, force: Vector3) -> None:
     """Draw the force that the master renders [N] as an arrow from this point [m]; none where hardly any is felt."""
     felt = float(np.linalg.norm(force)) > _LEAST_FORCE
-    recording.log(
+    run.log(
         entities.FORCE,
         rr.Arrows3D(
             vectors=[np.multiply(_FORCE_SCALE, force)] if felt else [],

@@ -30,8 +30,8 @@ from services.process.runner import Service
 from services.viewer import entities, motions, scene, series
 from services.viewer.journal import Entry, Journal
 from services.viewer.news import Changes, News
-from services.viewer.recording import Recording as Run
 from services.viewer.robot_model import RobotModel
+from services.viewer.run import Run
 from services.viewer.trace import Trace
 from services.viewer.web import WebServer
 from services.viewer.web_files import web_files

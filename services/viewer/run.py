@@ -18,7 +18,7 @@ from sim.tasks.scene import Eye
 _CLOSE_S = 1.0
 
 
-class Recording:
+class Run:
     """Everything that is shown: each thing is drawn for those who look on, and in the file.
 
     Args:

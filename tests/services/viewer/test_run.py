@@ -13,10 +13,10 @@ pytestmark = pytest.mark.sim
 
 @pytest.fixture
 def recording(configuration):
-    from services.viewer.recording import Recording
+    from services.viewer.run import Run
     from sim.tasks.scene import Eye
 
-    recording = Recording(configuration.viewer, "testbed", 0, Eye())
+    recording = Run(configuration.viewer, "testbed", 0, Eye())
     yield recording
     recording.close()
 
@@ -32,14 +32,14 @@ def test_the_stream_is_served_at_its_port(recording, configuration):
 
 
 def test_a_stream_port_in_use_is_named_with_its_setting_and_no_file_is_begun(configuration, tmp_path):
-    from services.viewer.recording import Recording
+    from services.viewer.run import Run
     from sim.tasks.scene import Eye
 
     with (
         socket.create_server(("127.0.0.1", configuration.viewer.stream_port)),
         pytest.raises(PortInUse, match="stream_port"),
     ):
-        Recording(configuration.viewer, "testbed", 0, Eye())
+        Run(configuration.viewer, "testbed", 0, Eye())
     assert not (tmp_path / "runs").exists()
 
 
