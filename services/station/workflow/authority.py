@@ -27,7 +27,7 @@ def missing(view: View) -> str:
     absent = [name for name, there in (("robot", robot), ("model", view.model)) if not there]
     if absent:
         return f"Waiting for the {' and the '.join(absent)}."
-    if view.model is not None and not view.model.demonstrations + view.model.updates:
+    if view.model is not None and not (view.model.demonstrations or view.model.updates):
         return "Waiting for the first demonstrations."
     return "" if view.present else "Waiting for the operator: open this page and keep it in view."
 

@@ -56,7 +56,7 @@ class View:
     """
 
     now_s: float
-    number: int = 1
+    number: int
     present: bool = True
     steering: bool = False
     stopping: bool = False

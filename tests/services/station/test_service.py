@@ -6,6 +6,9 @@ import pytest
 
 from protocol import queries, topics
 from protocol.messages import AuthorityState, Light, OperatorInput, SafetyState
+from services.bus.memory import MemoryNetwork
+from services.process.clock import ManualClock
+from services.process.config import Configuration, StationSection
 from services.station import service
 from tests.services.station.site import BY_HAND, REGION, SETTINGS, Site, Tab
 
@@ -212,6 +215,25 @@ def test_what_the_page_measured_is_told():
     page = Tab()
     assert Site(page, settings=BY_HAND).service.figures() == page.figures()
     assert Site().service.figures() == ()
+
+
+@pytest.mark.parametrize("scripted", [True, False])
+def test_a_person_s_station_opens_its_page_and_a_script_s_has_none(scripted, monkeypatch):
+    started = []
+
+    class Served(Tab):
+        def __init__(self, *_):
+            super().__init__()
+
+        def start(self):
+            started.append(self)
+
+    monkeypatch.setattr("services.station.page.page.Page", Served)
+    clock = ManualClock()
+    section = StationSection(scripted=scripted)
+    station = service.build(MemoryNetwork(clock).bus(), clock, Configuration(station=section))
+    station.step(clock.now_ns())
+    assert [page.shown is not None for page in started] == ([] if scripted else [True])
 
 
 def test_the_page_is_closed_with_the_station():

@@ -55,6 +55,7 @@ class Site:
         self.instead = {}
         self.view = View(
             now_s=0.0,
+            number=0,
             robot=messages.RobotState(measured=POSE, reference=POSE, phase=IDLE, publisher=1),
             authority=messages.AuthorityState(holder="", epoch=self.epoch, expires_in=0.0),
             safety=messages.SafetyState(emergency_stop=False),

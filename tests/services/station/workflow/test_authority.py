@@ -77,6 +77,15 @@ def test_a_lost_authority_is_asked_for_again_and_nothing_moves():
     assert "authority was lost" in site.state.event
 
 
+@pytest.mark.parametrize(("holder", "later"), [("", 0), ("station", 1)], ids=["nobody holds it", "a later lease"])
+def test_the_authority_is_lost_where_nobody_holds_it_or_under_another_epoch(holder, later):
+    site = Site(BY_HAND)
+    site.run_to(Phase.DECIDING)
+    site.step(authority=authority(holder, site.epoch + later))
+    assert site.state.held_epoch == 0
+    assert "authority was lost" in site.state.event
+
+
 @pytest.mark.parametrize("phase", [Phase.RESETTING, Phase.LOOKING, Phase.PREDICTING, Phase.STARTING])
 def test_what_was_asked_before_the_authority_was_lost_waits_for_another_press(phase):
     site = Site(BY_HAND)
@@ -145,6 +154,20 @@ def test_an_episode_whose_start_was_not_acknowledged_goes_on_upon_a_press():
     assert site.state.episode.number == 4
 
 
+def test_an_episode_whose_number_is_not_known_yet_is_known_by_its_running():
+    site = Site(BY_HAND)
+    site.press(Action.EXECUTE, Phase.STARTING)
+    site.fail(queries.EXECUTE)
+    site.step()
+    site.robot(phase=HOLD, waiting=True, episode=4)
+    lose_authority(site)
+    site.run_to(Phase.ACQUIRING)
+    site.step()
+    site.step(robot=None)
+    site.stay(2)
+    assert site.state.phase is Phase.EXECUTING
+
+
 def test_a_robot_that_was_restarted_stands_until_the_operator_presses():
     site = Site(BY_HAND)
     site.press(Action.EXECUTE, Phase.EXECUTING)
@@ -194,6 +217,14 @@ def test_a_lower_epoch_than_the_granted_one_is_said_and_the_authority_asked_for_
     assert f"not {granted}" in site.state.event
     site.run_to(Phase.DECIDING)
     assert site.state.held_epoch == 3
+
+
+def test_once_the_robot_has_confirmed_the_grant_a_lower_epoch_counts_at_once():
+    site = Site(BY_HAND)
+    site.run_to(Phase.LOOKING)
+    site.step(seconds=0.1)
+    site.step(seconds=0.1, authority=authority("", 2))
+    assert site.state.held_epoch == 0
 
 
 def test_a_lower_epoch_that_stays_after_the_grant_counts_too():

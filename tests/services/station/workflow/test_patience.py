@@ -5,7 +5,7 @@ import pytest
 
 from protocol import queries
 from services.station.workflow.state import Action, Phase
-from tests.services.station.workflow.site import BY_HAND, HOLD, SCRIPTED, UNANSWERED, Site
+from tests.services.station.workflow.site import BY_HAND, HOLD, SCRIPTED, UNANSWERED, Site, authority
 
 
 def after(action, phase, settings=BY_HAND):
@@ -103,3 +103,29 @@ def test_a_script_asks_a_robot_that_waits_to_go_on_every_half_second():
         asked.append(site.names().count("cmd/resume"))
     assert asked == [1, 2, 2, 2]
     assert all(isinstance(request, queries.Resume) for request in site.requests(queries.RESUME))
+
+
+def test_an_authority_that_was_refused_is_asked_for_again_after_half_a_second():
+    site = Site(BY_HAND)
+    site.fail(queries.ACQUIRE, queries.Refused("not yet"))
+    site.run_to(Phase.ACQUIRING)
+    site.run_to(Phase.WAITING)
+    site.step(seconds=0.25)
+    assert site.state.phase is Phase.WAITING
+    site.step(seconds=0.25)
+    assert site.state.phase is Phase.ACQUIRING
+
+
+def test_a_script_that_watches_and_was_refused_asks_again_after_half_a_second():
+    site = Site(SCRIPTED)
+    site.run_to(Phase.DECIDING)
+    site.sees(authority=authority("station-b", site.epoch + 1, "bob"))
+    site.run_to(Phase.WATCHING)
+    site.sees(authority=authority("", site.epoch + 2))
+    site.fail(queries.ACQUIRE, queries.Refused("not yet"))
+    site.run_to(Phase.ACQUIRING)
+    site.run_to(Phase.WATCHING)
+    site.step(seconds=0.25)
+    assert site.state.phase is Phase.WATCHING
+    site.step(seconds=0.25)
+    assert site.state.phase is Phase.ACQUIRING

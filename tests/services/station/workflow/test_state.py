@@ -7,7 +7,7 @@ import pytest
 from protocol import queries
 from protocol.messages import Mode
 from services.station.workflow.closure import Closure, Failure
-from services.station.workflow.state import Action, Episode, Owed, Phase, Place, Workflow
+from services.station.workflow.state import Episode, Owed, Phase, Place, Workflow
 from services.station.workflow.view import Answer, Ask, Step, View
 from tests.services.station.workflow.site import BY_HAND
 from tests.services.station.workflow.test_closure import CLOSED
@@ -22,7 +22,7 @@ VALUES = [
     Failure(CLOSED[0]),
     Ask(queries.UNDO, queries.Undo(request=1), 1),
     Answer(1, queries.Accepted()),
-    View(now_s=1.0),
+    View(now_s=1.0, number=1),
     Step(Workflow()),
 ]
 
@@ -40,7 +40,7 @@ def test_a_run_that_begins_has_asked_for_nothing_and_holds_and_owes_nothing():
     assert not any((state.question, state.intent, state.retry_s, state.refusals, state.wants, state.pressed))
     assert not any((state.watches, state.epoch, state.holding, state.confirmed, state.episode, state.owed))
     assert not any((state.taught, state.last, state.refinements, state.updates, state.attempts, state.let_go))
-    assert not state.closure.closed
+    assert not any((state.since_s, state.granted_s, state.heard_s, state.closure.closed))
     assert state.offered == frozenset()
 
 
@@ -59,7 +59,6 @@ def test_a_finished_run_holds_no_authority():
 
 
 def test_nothing_is_pressed_or_held_where_nothing_is_said_of_it():
-    view = View(now_s=1.0)
+    view = View(now_s=1.0, number=1)
     assert view.present
-    assert not any((view.steering, view.stopping, view.latched, view.actions))
-    assert Action.EXECUTE not in view.actions
+    assert not any((view.steering, view.stopping, view.latched, view.actions, view.scene_s, view.seen_s))

@@ -34,7 +34,7 @@ def robot(phase, **changes):
 
 
 def told(state, **seen):
-    teaching = teaching_state(state, View(now_s=1.0, **seen), BY_HAND)
+    teaching = teaching_state(state, View(now_s=1.0, number=1, **seen), BY_HAND)
     return teaching.light, teaching.text
 
 
@@ -139,7 +139,7 @@ def test_the_state_tells_counts_offers_and_the_end():
         reason="so",
         offered=frozenset({Action.REFINE, Action.EXECUTE}),
     )
-    teaching = teaching_state(state, View(now_s=1.0), BY_HAND)
+    teaching = teaching_state(state, View(now_s=1.0, number=1), BY_HAND)
     assert (teaching.phase, teaching.finished, teaching.loop_closed, teaching.reason) == ("finished", True, False, "so")
     assert (teaching.refinements, teaching.refinements_allowed) == (2, BY_HAND.refinements_allowed)
     assert (teaching.updates, teaching.updates_allowed) == (3, BY_HAND.updates_allowed)
