@@ -16,6 +16,7 @@ from services.commands.table import COMMANDS
 from services.process.exceptions import CannotWrite, EnvironmentFault, ServiceError
 from services.process.exit_codes import Exit
 from services.process.lifeline import die_with_parent
+from services.process.logs import Unhurried, own_stderr
 from sim.exceptions import CacheUnusable, DescriptionMissing, DrawingLibraryMissing, SimError
 
 log = logging.getLogger(__name__)
@@ -75,13 +76,17 @@ def main(argv: Sequence[str] | None = None) -> int:
     except Exception as error:
         log.debug("traceback", exc_info=True)
         line, code = _ending(error)
+        for handler in logging.getLogger().handlers:
+            handler.flush()
         with contextlib.suppress(OSError):
             sys.stderr.write(f"retouch: {' '.join(line.split())}\n")
         return Exit.TRY_AGAIN if supervised and _passes(error) else code
 
 
 def _log_to_stderr(level: int) -> None:
-    logging.basicConfig(level=level, format="%(levelname)s %(message)s", stream=sys.stderr)
+    if logging.getLogger().hasHandlers():
+        return
+    logging.basicConfig(level=level, format="%(levelname)s %(message)s", handlers=[Unhurried(own_stderr())])
     for noisy in _QUIET:
         logging.getLogger(noisy).setLevel(logging.WARNING)
 

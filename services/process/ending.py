@@ -10,6 +10,7 @@ from __future__ import annotations
 import atexit
 import contextlib
 import os
+import select
 import signal
 import socket
 import threading
@@ -62,8 +63,9 @@ def _guard(heard: socket.socket, told: socket.socket, patience: Patience) -> Non
         if patience.seconds <= 0.0:
             os._exit(Exit.DONE)
         time.sleep(patience.seconds)
-        with contextlib.suppress(OSError):
-            os.write(_STDERR, b"retouch: did not end in time: ended by force\n")
+        with contextlib.suppress(OSError, ValueError):
+            if select.select([], [_STDERR], [], 0.0)[1]:  # a stopped terminal would hold this up too
+                os.write(_STDERR, b"retouch: did not end in time: ended by force\n")
         os._exit(Exit.CRASHED)
 
 

@@ -5,6 +5,7 @@ import threading
 import time
 
 import msgspec
+from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from services.station.page.said import Held, Hello, Pressed
@@ -41,7 +42,7 @@ class Somebody:
 
     def _sit(self):
         while not self._over.is_set():
-            with contextlib.suppress(OSError), self._opened() as link:
+            with contextlib.suppress(OSError, ConnectionClosed), self._opened() as link:
                 self._say(link, Hello("seat-of-somebody", "load-of-somebody"))
                 self._stay(link)
             self._over.wait(0.1)

@@ -1,5 +1,6 @@
 """Ctrl-C and SIGTERM end everything, soon and cleanly, and what happened so far is told."""
 
+import contextlib
 import json
 import os
 import signal
@@ -99,3 +100,19 @@ def test_streams_that_nobody_reads_end_nothing(tmp_path, shell):
         up.process.terminate()
         assert up.ended(10.0) == Exit.DONE
     assert json.loads((tmp_path / "out.json").read_text())["restarts"]["master"] == 1
+
+
+def test_a_log_that_nobody_takes_holds_no_process_up_and_it_ends_all_the_same(tmp_path, router):
+    out, into = os.pipe()
+    os.set_blocking(into, False)
+    with contextlib.suppress(BlockingIOError):
+        while True:
+            os.write(into, b"\n")
+    os.set_blocking(into, True)
+    stopped = f"2> /proc/{os.getpid()}/fd/{into}"
+    with Command("master", "--connect", router, folder=tmp_path, shell=stopped) as master, Witness(router) as witness:
+        witness.next_beats({"master"}, START_S)
+        master.process.terminate()
+        assert master.ended(10.0) == Exit.DONE
+    os.close(into)
+    os.close(out)

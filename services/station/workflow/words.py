@@ -16,7 +16,6 @@ _TEXTS = {
     Phase.STARTING: "The robot is told the motion.",
     Phase.LEARNING: "The model learns from the correction.",
     Phase.UNDOING: "The model takes its newest update back.",
-    Phase.STOPPED: "The emergency stop is not latched any more.",
     Phase.RELEASING: "Releasing the emergency stop.",
 }
 
@@ -73,12 +72,11 @@ def _may_correct(state: Workflow, view: View) -> bool:
 
 
 def _text(state: Workflow, view: View, settings: Settings) -> str:
-    taker = another(view, settings)
     match state.phase:
-        case Phase.WAITING:
-            return missing(view) or (f"{taker} commands the robot." if taker else "")
-        case Phase.WATCHING:
-            return f"{taker} commands the robot. Ask, or take over." if taker else "Nobody commands the robot. Ask to."
+        case Phase.WAITING | Phase.WATCHING:
+            return _without(state, view, another(view, settings))
+        case Phase.STOPPED:
+            return _stopped(view)
         case Phase.EXECUTING:
             return _executing(state, view)
         case Phase.DECIDING:
@@ -87,6 +85,19 @@ def _text(state: Workflow, view: View, settings: Settings) -> str:
             return _finished(state)
         case phase:
             return _TEXTS[phase]
+
+
+def _without(state: Workflow, view: View, taker: str) -> str:
+    """Without the authority: what is waited for, or who has it and what can be done."""
+    if state.phase is Phase.WAITING:
+        return missing(view) or (f"{taker} commands the robot." if taker else "")
+    return f"{taker} commands the robot. Ask, or take over." if taker else "Nobody commands the robot. Ask to."
+
+
+def _stopped(view: View) -> str:
+    """Where no stop is seen: it was released in this moment, or the robot says nothing of it."""
+    released = "The emergency stop is not latched any more."
+    return released if view.safety is not None else "The robot was stopped, and is not heard now."
 
 
 def _finished(state: Workflow) -> str:

@@ -1,5 +1,7 @@
 """How a process ends, whatever it is doing when it is told to."""
 
+import contextlib
+import os
 import signal
 import subprocess
 import sys
@@ -23,9 +25,9 @@ def busy():
     """A function that starts a process which goes on when it is told to end; it has so much time for that."""
     started = []
 
-    def busy_(seconds, then):
+    def busy_(seconds, then, stderr=subprocess.PIPE):
         script = BUSY.format(seconds=seconds, then=then)
-        started.append(subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE))
+        started.append(subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=stderr))
         assert started[-1].stdout.readline() == b"told\n"
         return started[-1]
 
@@ -33,6 +35,20 @@ def busy():
     for process in started:
         process.kill()
         process.communicate()
+
+
+@pytest.fixture
+def full_pipe():
+    """A pipe that takes nothing more, since nobody reads it."""
+    out, into = os.pipe()
+    os.set_blocking(into, False)
+    with contextlib.suppress(BlockingIOError):
+        while True:
+            os.write(into, b"\n")
+    os.set_blocking(into, True)
+    yield into
+    os.close(into)
+    os.close(out)
 
 
 def test_what_has_nothing_to_finish_ends_at_once_and_is_done(busy):
@@ -47,3 +63,9 @@ def test_what_has_something_to_finish_and_hangs_is_ended_by_force_and_says_so(bu
     process.send_signal(signal.SIGTERM)
     assert process.wait(30.0) == 1
     assert b"ended by force" in process.stderr.read()
+
+
+def test_nobody_who_reads_is_no_reason_to_stay(busy, full_pipe):
+    process = busy(0.0, 0.05, stderr=full_pipe)
+    process.send_signal(signal.SIGTERM)
+    assert process.wait(30.0) == 1

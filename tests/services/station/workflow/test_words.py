@@ -161,3 +161,10 @@ def test_every_phase_has_words(phase):
 )
 def test_a_verdict_as_a_sentence(outcome, text):
     assert outcome_text(outcome) == text
+
+
+def test_a_stopped_robot_that_is_not_heard_is_not_said_to_be_released():
+    _, unheard = told(Workflow(phase=Phase.STOPPED))
+    assert unheard == "The robot was stopped, and is not heard now."
+    _, released = told(Workflow(phase=Phase.STOPPED), safety=SafetyState(emergency_stop=False))
+    assert released == "The emergency stop is not latched any more."
