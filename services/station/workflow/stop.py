@@ -32,7 +32,8 @@ def caught(state: Workflow, view: View) -> Workflow | None:
 def stopped(state: Workflow, view: View, settings: Settings) -> Step:
     """Stand; a person releases, a script ends."""
     if settings.scripted and view.latched and view.safety is not None:
-        reason = f"stopped by {view.safety.by or 'somebody'}, and a script does not release a stop"
+        by = view.safety.by or "somebody"
+        reason = f"stopped by {by}, and a script does not release a stop: 'retouch stop --release' does"
         return Step(to(state, Phase.FINISHED, view, reason="" if state.closure.closed else reason))
     if view.safety is not None and not view.latched and not view.stopping:
         return Step(_released(state, view, view.safety))

@@ -184,6 +184,7 @@ def test_a_script_never_releases_a_stop_and_ends_with_the_reason():
     stop(site)
     assert site.state.phase is Phase.FINISHED
     assert "bob" in site.state.reason
+    assert "'retouch stop --release'" in site.state.reason
     assert "safety/release_stop" not in site.names()
 
 
