@@ -121,8 +121,8 @@ class Corrections:
         return self._first_vectors(len(self))
 
     def _first_vectors(self, n: int) -> Array:
-        means = [self.regression.mean(s) for s in self.conditions[:n]]
-        return self.changes[:n] + np.array(means).reshape(-1, self.changes.shape[1])
+        changes = self.changes[:n]
+        return changes + np.reshape([self.regression.mean(s) for s in self.conditions[:n]], changes.shape)
 
     def on(self, regression: Regression) -> Self:
         """The same corrections of another regression."""

@@ -146,8 +146,8 @@ def test_requests_are_counted(rig):
     assert (first.topic, first.rate_hz, first.age, first.latency) == ("cmd/finish", 0.0, -1.0, -1.0), "no interval yet"
     for _ in range(3):
         rig.finish(7)
-    rig.clock.advance(1.0)
-    assert rig.server.figures(rig.clock.now_ns()).rate_hz == pytest.approx(3.0)
+    rig.clock.advance(0.5)
+    assert rig.server.figures(rig.clock.now_ns()).rate_hz == pytest.approx(6.0)
     rig.clock.advance(1.0)
     assert rig.server.figures(rig.clock.now_ns()).rate_hz == 0.0
     assert rig.server.figures(rig.clock.now_ns()).rate_hz == 0.0, "nor is there one now"

@@ -144,13 +144,14 @@ def test_demonstrations_that_can_judge_their_trend_are_left_as_they_are(none):
     assert corrected.tested() is corrected
 
 
-@pytest.mark.parametrize("extent", [0.05, 0.5, 40.0])
-def test_the_slope_that_demonstrations_leave_open_is_that_of_a_bayesian_line(extent, rng):
+@pytest.mark.parametrize(("extent", "slope_std"), [(0.05, 1.0), (0.5, 0.1), (0.5, 1.0), (40.0, 1.0)])
+def test_the_slope_that_demonstrations_leave_open_is_that_of_a_bayesian_line(extent, slope_std, rng):
     """Prior slope_std, and at each condition a value known to mean_std of the extent."""
+    options = CorrectionOptions(slope_std=slope_std)
     conditions = extent * rng.normal(size=(7, 2))
     regression = Regression(conditions, rng.normal(size=(7, 4)), np.eye(4), extent, RegressionOptions())
     deviations = conditions - conditions.mean(axis=0)
-    precision = np.eye(2) / OPTIONS.slope_std**2 + deviations.T @ deviations / (OPTIONS.mean_std * extent) ** 2
+    precision = np.eye(2) / slope_std**2 + deviations.T @ deviations / (options.mean_std * extent) ** 2
     np.testing.assert_allclose(
-        Corrections.none(regression, OPTIONS).slope_covariance, np.linalg.inv(precision), rtol=1e-9, atol=1e-12
+        Corrections.none(regression, options).slope_covariance, np.linalg.inv(precision), rtol=1e-9, atol=1e-12
     )
