@@ -122,7 +122,8 @@ class Corrections:
 
     def _first_vectors(self, n: int) -> Array:
         changes = self.changes[:n]
-        return changes + np.reshape([self.regression.mean(s) for s in self.conditions[:n]], changes.shape)
+        vectors: Array = changes + np.reshape([self.regression.mean(s) for s in self.conditions[:n]], changes.shape)
+        return vectors
 
     def on(self, regression: Regression) -> Self:
         """The same corrections of another regression."""

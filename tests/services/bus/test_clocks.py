@@ -249,12 +249,21 @@ def test_what_is_learnt_anew_is_the_fastest_of_the_samples_that_were_away():
     link.run(1.0)
     link.offset_ns += 3600 * SECOND
     link.sample(late_ns=80 * MS)
-    link.run(2.0)
+    ages = link.run(2.0)
+    assert next(age for age in ages if abs(age) <= NEAR_NS) == pytest.approx(0, abs=MS), "from the first one on"
     assert link.sample() == pytest.approx(0, abs=MS)
     assert link.sample(late_ns=120 * MS) == pytest.approx(120 * MS, abs=2 * MS)
 
 
 def test_the_first_sample_is_one_of_those_that_agree():
+    link = Link(jitter_ns=0)
+    link.sample()
+    link.now_ns += 10 * SECOND
+    assert link.sample(late_ns=3 * MS) == pytest.approx(-3 * MS, abs=MS / 10), "6 ms were forgotten meanwhile"
+    assert link.sample(late_ns=3 * MS) == pytest.approx(0, abs=MS / 10)
+
+
+def test_it_takes_three_that_agree():
     link = Link(jitter_ns=0)
     link.sample()
     link.sample(late_ns=-30 * MS)
