@@ -5,7 +5,7 @@ time on the way plus the unknown offset of the clocks. Its age is the transit ab
 samples were seen to take, whichever process and topic they belong to, since all processes of a machine share its clock.
 
 What moves that baseline, and what must not:
-- Clocks drift apart, so the fastest transit is forgotten at `DRIFT`, faster than any clock drifts.
+- Clocks drift apart, so the fastest transit is forgotten at `DRIFT_PPM`, faster than any clock drifts.
 - Several of the newest samples must have been as fast before it falls: one forged stamp moves nothing.
 - Where all samples of a machine are early or late by more than `NEAR_NS` for `RELEARN_NS`, the clocks have jumped (a
   machine slept whose clock stands still meanwhile, a virtual one was moved): the offset is learnt anew from these.
@@ -21,8 +21,8 @@ from dataclasses import dataclass
 
 from services.bus.identity import machine
 
-DRIFT = 6e-4
-"""More than the 500 ppm by which a clock is slewed at most."""
+DRIFT_PPM = 600
+"""More than the 500 by which a clock is slewed at most."""
 
 NEAR_NS = 100_000_000
 """Samples on the way vary by less than this where neither a clock jumped nor a queue stands."""
@@ -66,7 +66,7 @@ class Comparison:
     def age_ns(self, transit_ns: int, received_ns: int) -> int:
         """The sample's age, and whatever is to be learnt from it; far below zero for a stamp from the future."""
         silence = max(0, received_ns - self._received_ns)
-        drifted = int(DRIFT * silence)
+        drifted = silence * DRIFT_PPM // 1_000_000
         self._fastest_ns += drifted
         self._received_ns = received_ns
         excess = transit_ns - self._fastest_ns

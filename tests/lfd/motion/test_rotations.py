@@ -29,6 +29,11 @@ def test_log_is_the_inverse_of_exp_near_the_identity(size):
     np.testing.assert_allclose(rotations.log_map(rotations.exp_map(r)), r, rtol=1e-6, atol=0.0)
 
 
+def test_log_is_the_same_where_rounding_left_the_scalar_part_a_little_below_one():
+    q = np.array([np.nextafter(1.0, 0.0), 3e-10, 0.0, -4e-10])
+    np.testing.assert_allclose(rotations.log_map(q), [6e-10, 0.0, -8e-10], rtol=1e-9, atol=0.0)
+
+
 @pytest.mark.parametrize("size", [1e-12, 1e-8, 1e-5])
 def test_log_that_keeps_the_sign_is_near_a_full_turn_what_it_is_near_none(size):
     """Where the rotation vector is about as long as a full turn its direction has no meaning; near none it has."""

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from services.bus.clocks import AGREEING, DRIFT, LONG_NS, NEAR_NS, RELEARN_NS, Clocks
+from services.bus.clocks import AGREEING, DRIFT_PPM, LONG_NS, NEAR_NS, RELEARN_NS, Clocks
 from services.bus.identity import new_publisher
 
 MS = 1_000_000
@@ -78,7 +78,7 @@ def test_what_is_forgotten_is_no_more_than_drift_asks_for():
     link.sample()
     for _ in range(100):
         link.sample(late_ns=90 * MS)
-    assert link.sample(late_ns=90 * MS) == pytest.approx(90 * MS - DRIFT * 101 * PERIOD, abs=200)
+    assert link.sample(late_ns=90 * MS) == pytest.approx(90 * MS - DRIFT_PPM * 1e-6 * 101 * PERIOD, abs=200)
 
 
 @given(
@@ -205,15 +205,6 @@ def test_it_takes_as_long_as_said_to_learn_a_jump():
     assert timely(ages).index(True) == RELEARN_NS // PERIOD
 
 
-@pytest.mark.parametrize(("silence_s", "at_once"), [(90, False), (110, True)])
-def test_only_after_a_long_silence_is_a_much_faster_sample_believed_at_once(silence_s, at_once):
-    link = Link(jitter_ns=0)
-    link.run(1.0)
-    link.now_ns += silence_s * SECOND
-    age = link.sample(late_ns=-150 * MS)
-    assert age == 0 if at_once else age < -NEAR_NS
-
-
 @pytest.mark.parametrize(("between", "agree"), [(10, True), (20, False)])
 def test_samples_agree_that_are_among_the_newest_ones(between, agree):
     link = Link(jitter_ns=0)
@@ -269,11 +260,3 @@ def test_it_takes_three_that_agree():
     link.sample(late_ns=-30 * MS)
     assert link.sample(late_ns=-50 * MS) == pytest.approx(-50 * MS, abs=MS), "two of three are slower"
     assert link.sample(late_ns=-30 * MS) == pytest.approx(0, abs=MS)
-
-
-@pytest.mark.parametrize(("off_ns", "near"), [(0, True), (1, False)])
-def test_how_near_a_sample_has_to_be_to_teach_the_baseline(off_ns, near):
-    clocks = Clocks(OWN)
-    clocks.age_ns(OTHER_MACHINE, START, START)
-    ages = [clocks.age_ns(OTHER_MACHINE, START + NEAR_NS + off_ns, START) for _ in range(AGREEING)]
-    assert ages[-1] == (0 if near else -NEAR_NS - off_ns)
