@@ -118,9 +118,9 @@ def quaternion_from_matrix(R: Array) -> Array:
     singular case and projects a slightly non-orthogonal R.
     """
     k = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
-    K = np.empty((4, 4))
+    K = np.zeros((4, 4))  # its lower triangle, which is all that is read
     K[0, 0] = np.trace(R)
-    K[0, 1:] = K[1:, 0] = k
+    K[1:, 0] = k
     K[1:, 1:] = R + R.T - np.trace(R) * np.eye(3)
     _, vectors = np.linalg.eigh(K)
     q: Array = vectors[:, -1]

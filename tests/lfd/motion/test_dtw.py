@@ -143,6 +143,13 @@ def test_the_first_long_alignment_loads_numba_and_from_then_on_it_serves_the_sho
     assert compiler.kept == [True, True], "what was compiled is kept, for both functions, once"
 
 
+def test_an_alignment_is_as_long_as_one_sequence_times_the_other(monkeypatch):
+    cells = []
+    monkeypatch.setattr(module, "_route", lambda number: cells.append(number) or module._NUMPY_ROUTE)
+    dtw(np.zeros((7, 2)), np.zeros((3, 2)))
+    assert cells == [21]
+
+
 def test_without_numba_long_ones_are_aligned_all_the_same(monkeypatch):
     def missing(name):
         raise ImportError(name)

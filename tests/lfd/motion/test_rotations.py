@@ -134,6 +134,11 @@ def test_mean_rotation_ignores_signs_and_is_the_middle_of_a_symmetric_set(rng):
     assert mean[0] > 0.0
 
 
+@given(st.lists(st.tuples(*[st.floats(-3.0, 3.0)] * 3), min_size=1, max_size=4).map(np.array))
+def test_a_mean_rotation_has_no_negative_scalar_part(r):
+    assert rotations.mean_rotation(rotations.exp_map(r))[0] >= 0.0
+
+
 def test_sign_continuous_keeps_the_rotations_and_joins_the_signs(rng):
     q = rotations.exp_map(np.linspace(0.0, 5.0, 40)[:, None] * [0.0, 0.6, 0.8])
     joined = rotations.sign_continuous(rng.choice([-1.0, 1.0], size=(40, 1)) * q)

@@ -2,12 +2,17 @@
 
 import pytest
 
-from services.bus.clocks import AGREEING, DRIFT_PPM, LONG_NS, NEAR_NS, RELEARN_NS, Clocks
+from services.bus.clocks import Clocks
 from services.bus.identity import new_publisher
 
 OWN = new_publisher()
 OTHER_MACHINE = OWN ^ (1 << 50)
 START = 10**18
+
+DRIFT_PPM = 600
+NEAR_NS = 100_000_000
+RELEARN_NS = 1_000_000_000
+LONG_NS = 100_000_000_000
 
 
 def ages(*samples):
@@ -31,7 +36,7 @@ def test_only_after_a_long_silence_is_a_much_faster_sample_believed_at_once(sile
 
 @pytest.mark.parametrize(("off_ns", "near"), [(0, True), (1, False)])
 def test_how_near_a_sample_has_to_be_to_teach_the_baseline(off_ns, near):
-    early = ages((0, 0), *[(-NEAR_NS - off_ns, 0)] * AGREEING)
+    early = ages((0, 0), *[(-NEAR_NS - off_ns, 0)] * 3)
     assert early[-1] == (0 if near else -NEAR_NS - off_ns)
     drifted = RELEARN_NS * DRIFT_PPM // 1_000_000
     late = ages((0, 0), (NEAR_NS + off_ns, 0), (NEAR_NS + off_ns + drifted, RELEARN_NS))

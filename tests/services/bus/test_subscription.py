@@ -9,7 +9,8 @@ from protocol.codec import encode
 from protocol.messages import MasterState
 from services.bus.clocks import Clocks
 from services.bus.identity import new_publisher
-from services.bus.subscription import Drops, Subscription
+from services.bus.subscription import Subscription
+from services.bus.tally import Drops
 from services.process.clock import ManualClock
 
 TOPIC = topics.MASTER_STATE
