@@ -107,7 +107,7 @@ def _separator(text: str, columns: Sequence[str]) -> str:
 
     def found(separator: str) -> int:
         first = next(_lines(text[:_BEGINNING], separator), (0, []))[1]
-        return sum(_HEADING.fullmatch(cell.casefold())[1] in columns for cell in first)  # type: ignore[index]
+        return sum(_HEADING.fullmatch(cell.casefold())[1] in columns for cell in first)  # type: ignore[index]  # matches any text
 
     return max(_SEPARATORS, key=found)
 
@@ -135,7 +135,7 @@ def _names(path: Path, cells: list[str], columns: Sequence[str], unit: str) -> l
     """
     names = []
     for cell in cells:
-        name, given = _HEADING.fullmatch(cell.casefold()).groups()  # type: ignore[union-attr]
+        name, given = _HEADING.fullmatch(cell.casefold()).groups()  # type: ignore[union-attr]  # matches any text
         if name in columns and given and given != unit:
             raise TableError(path, f"column {name} is in {given!r}: give {unit}")
         names.append(name)

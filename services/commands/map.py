@@ -14,6 +14,7 @@ import msgspec
 import numpy as np
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, Task, TextColumn, TimeRemainingColumn
+from rich.text import Text
 
 from lfd.models.model import MovementModel
 from lfd.store.database import DemonstrationStore, Purpose, StoredDemonstration
@@ -247,9 +248,9 @@ class _Rate(TextColumn):
     def __init__(self) -> None:
         super().__init__("")
 
-    def render(self, task: Task) -> str:  # type: ignore[override]
+    def render(self, task: Task) -> Text:
         """See the base."""
-        return f"{task.speed:.1f} /s" if task.speed else ""
+        return Text(f"{task.speed:.1f} /s" if task.speed else "")
 
 
 @contextmanager

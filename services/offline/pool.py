@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from multiprocessing import get_context
@@ -44,7 +44,7 @@ class ProcessDied(CommandFailed):
 
 def each(
     work: Callable[[Item, Progress], Result], items: Sequence[Item], jobs: int, advance: Advance = lambda *_: None
-) -> Iterator[tuple[int, Result]]:
+) -> Generator[tuple[int, Result], None, None]:
     """Do the same work on every item; what is ready comes first.
 
     Closing the iterator ends what is still running. In a process of the pool, and with one job, the items are

@@ -144,11 +144,7 @@ class Rehearsal:
             motion = motion_to_wire(shown.positions, shown.orientations, shown.duration)
             condition = tuple(demonstration.condition.tolist())
             request = AddDemonstration(Kind.INITIAL, motion, vector3(demonstration.origin), self._plan.scene, condition)
-            pending = self._bus.ask(queries.ADD_DEMONSTRATION, request)
-            self._stage.run(lambda pending=pending: pending.poll() is not None)  # type: ignore[misc]
-            outcome = pending.poll()
-            if not isinstance(outcome, Learnt):
-                raise CommandFailed(f"the model does not learn: {outcome}")
+            self._add(request)
 
     def course(self, arrangement: Arrangement, refinements_allowed: int) -> Course:
         """Algorithm 1 under one condition.
@@ -182,6 +178,13 @@ class Rehearsal:
     def close(self) -> None:
         """Give back what the services hold."""
         self._stage.close()
+
+    def _add(self, request: AddDemonstration) -> None:
+        pending = self._bus.ask(queries.ADD_DEMONSTRATION, request)
+        self._stage.run(lambda: pending.poll() is not None)
+        outcome = pending.poll()
+        if not isinstance(outcome, Learnt):
+            raise CommandFailed(f"the model does not learn: {outcome}")
 
     def _newest(self) -> TeachingState | None:
         taken = self._teaching.take()

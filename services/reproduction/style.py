@@ -87,7 +87,7 @@ DEMONSTRATION_LINE = Line(DEMONSTRATION, 1.0)
 
 @contextmanager
 def _styled() -> Iterator[None]:
-    with mpl.rc_context(_STYLE):  # type: ignore[arg-type]
+    with mpl.rc_context(_STYLE):  # type: ignore[arg-type]  # its stub wants literal keys
         yield
 
 

@@ -67,7 +67,7 @@ def carry_out(
                 watcher.advanced(pieces[number].analysis, share)
 
         try:
-            with closing(each(_outcome, pieces, jobs, advance)) as outcomes:  # type: ignore[type-var]
+            with closing(each(_outcome, pieces, jobs, advance)) as outcomes:
                 for number, outcome in outcomes:
                     running.discard(number)
                     waiting.remove(pieces[number].analysis)
