@@ -107,6 +107,7 @@ def test_what_was_asked_before_the_robot_fell_silent_waits_for_another_press(pha
     site.sees(answer=None)
     site.step(robot=None, seen=None)
     assert site.state.phase is Phase.DECIDING
+    assert not site.state.pressed
     assert site.stay() == []
     assert "not heard" in site.state.event
 

@@ -58,6 +58,10 @@ def test_who_asks_and_is_refused_watches_on():
     site.run_to(Phase.WATCHING)
     assert "bob holds it" in site.state.notice
     assert site.stay() == []
+    site.step(safety=STOPPED)
+    site.sees(authority=authority("", site.epoch + 1))
+    assert site.stay() == []
+    assert site.state.phase is Phase.WATCHING
 
 
 def test_an_absent_operator_asks_for_nothing():
