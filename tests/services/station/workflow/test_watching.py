@@ -129,3 +129,13 @@ def test_a_new_station_watches_where_somebody_commands():
     site.run_to(Phase.WATCHING)
     assert site.stay() == []
     assert "bob commands the robot" in text(site)
+
+
+def test_a_new_station_that_watches_watches_on_after_a_stop():
+    site = Site(BY_HAND)
+    site.sees(authority=authority("station-b", 7, "bob"))
+    site.run_to(Phase.WATCHING)
+    site.step(safety=STOPPED)
+    site.sees(authority=authority("", 8))
+    assert site.stay() == []
+    assert site.state.phase is Phase.WATCHING
