@@ -38,10 +38,9 @@ import numpy as np
 
 from lfd.arrays import Array, checked, checked_quaternions, frozen
 from lfd.exceptions import OutOfRange, TooFewPoints
-from lfd.models.model import PREDICTION_POINTS
 from lfd.motion.resampling import Interpolation, resample
 from lfd.motion.rotations import conjugate, exp_map, log_map, multiply
-from lfd.motion.trajectory import Trajectory
+from lfd.motion.trajectory import PREDICTION_POINTS, Trajectory
 
 GOAL_WEIGHT = 1e6
 LEAST_EXTENT = 1e-3  # [m] between start and goal on an axis, to scale by it

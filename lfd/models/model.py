@@ -8,9 +8,7 @@ from lfd.arrays import Array, checked
 from lfd.exceptions import OutOfRange
 from lfd.models.distribution import MotionDistribution
 from lfd.motion.demonstration import Demonstration, Situation
-from lfd.motion.trajectory import Trajectory
-
-PREDICTION_POINTS = 75  # the thesis' number of way-points in a prediction
+from lfd.motion.trajectory import PREDICTION_POINTS, Trajectory
 
 
 @dataclass(frozen=True, eq=False)

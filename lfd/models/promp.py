@@ -11,9 +11,10 @@ from lfd.models.basis import GaussianBasis
 from lfd.models.distribution import MotionDistribution
 from lfd.models.encoding import OUTPUTS, Encoding, reference_rotation
 from lfd.models.gaussian import JointGaussian, condition, welford
-from lfd.models.model import PREDICTION_POINTS, Prediction
+from lfd.models.model import Prediction
 from lfd.motion.alignment import Selection, align
 from lfd.motion.demonstration import Demonstration, Situation, check_demonstrations, check_dimension
+from lfd.motion.trajectory import PREDICTION_POINTS
 
 CONDITION_SCALE = 10.0  # the thesis' factor on the condition
 

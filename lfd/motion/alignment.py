@@ -5,11 +5,9 @@ from dataclasses import replace
 from enum import StrEnum
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
-from scipy.spatial import KDTree
 
 from lfd.arrays import Array
+from lfd.distances import squared_distances
 from lfd.motion.demonstration import Demonstration, relative_to_origin, to_base
 from lfd.motion.dtw import dtw
 from lfd.motion.resampling import at_phases
@@ -71,14 +69,17 @@ def group_by_condition(conditions: Array, tolerance: float = SAME_CONDITION) -> 
     (equation (21)) and leaves open what follows when a = b and b = c but not a = c; its own example (equation (D.6))
     is such a chain, and is treated as one condition.
     """
-    if len(conditions) == 0:
-        return []
-    i, j = KDTree(conditions).query_pairs(tolerance, output_type="ndarray").T
-    equal = coo_array((np.ones(len(i)), (i, j)), shape=(len(conditions), len(conditions)))
-    groups: dict[int, list[int]] = {}
-    for index, label in enumerate(connected_components(equal, directed=False)[1]):
-        groups.setdefault(int(label), []).append(index)
-    return list(groups.values())
+    groups: list[list[int]] = []
+    left = np.arange(len(conditions))
+    while left.size:
+        group: list[int] = []
+        found, left = left[:1], left[1:]
+        while found.size:
+            group += found.tolist()
+            near = (squared_distances(conditions[left], conditions[found]) <= tolerance**2).any(axis=1)
+            found, left = left[near], left[~near]
+        groups.append(sorted(group))
+    return groups
 
 
 def align(

@@ -3,11 +3,10 @@
 import numpy as np
 
 from lfd.exceptions import OutOfRange
-from lfd.models.model import PREDICTION_POINTS
 from lfd.motion.dtw import dtw
 from lfd.motion.resampling import from_samples, resample
 from lfd.motion.rotations import slerp
-from lfd.motion.trajectory import Trajectory
+from lfd.motion.trajectory import PREDICTION_POINTS, Trajectory
 
 
 def refine(

@@ -9,6 +9,8 @@ from lfd.arrays import Array, checked, checked_quaternions, frozen
 from lfd.exceptions import InvalidDuration, NotFinite, TooFewPoints, WrongShape
 from lfd.motion.rotations import sign_continuous
 
+PREDICTION_POINTS = 75  # the thesis' number of way-points in a prediction
+
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:

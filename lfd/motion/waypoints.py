@@ -7,10 +7,9 @@ from numpy.typing import ArrayLike
 
 from lfd.arrays import checked
 from lfd.exceptions import TooFewPoints, TooFewWaypoints
-from lfd.models.model import PREDICTION_POINTS
 from lfd.motion.resampling import at_phases
 from lfd.motion.spline import quadratic_spline
-from lfd.motion.trajectory import Trajectory
+from lfd.motion.trajectory import PREDICTION_POINTS, Trajectory
 
 LEAST_WAYPOINTS = 3
 

@@ -20,9 +20,10 @@ from lfd.models.adaptive.spread import Spread, SpreadPrior, spread_of
 from lfd.models.basis import GaussianBasis
 from lfd.models.distribution import POSITION, MotionDistribution
 from lfd.models.encoding import OUTPUTS, Encoding, reference_rotation
-from lfd.models.model import PREDICTION_POINTS, Prediction
+from lfd.models.model import Prediction
 from lfd.motion.alignment import align
 from lfd.motion.demonstration import Demonstration, Situation, check_demonstrations, check_dimension
+from lfd.motion.trajectory import PREDICTION_POINTS
 
 _FINE_BASIS = GaussianBasis(count=40, width=0.0256)  # finer than the thesis', to follow a correction closely
 _MEASURED = 25  # phases at which positions are compared

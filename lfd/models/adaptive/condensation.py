@@ -1,9 +1,9 @@
 """Many samples as few: what keeps a model's memory and time bounded."""
 
 import numpy as np
-from scipy.spatial import KDTree
 
 from lfd.arrays import Array
+from lfd.distances import squared_distances
 
 
 def condensed(conditions: Array, vectors: Array, most: int) -> tuple[Array, Array]:
@@ -21,7 +21,7 @@ def condensed(conditions: Array, vectors: Array, most: int) -> tuple[Array, Arra
     """
     if len(conditions) <= most:
         return conditions, vectors
-    _, nearest = KDTree(conditions[:most]).query(conditions[most:])
+    nearest = squared_distances(conditions[most:], conditions[:most]).argmin(axis=1)
     owners = np.concatenate([np.arange(most), nearest])
     counts = np.bincount(owners, minlength=most)[:, None]
     mean_conditions, mean_vectors = (

@@ -16,9 +16,9 @@ from typing import Self
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
-from scipy.spatial.distance import cdist
 
 from lfd.arrays import Array
+from lfd.distances import squared_distances
 from lfd.models.adaptive.regression import Expectation, Regression
 
 
@@ -203,7 +203,7 @@ class Corrections:
         The Matern kernel of order 3/2: smooth enough to carry a trend of the corrections on, and less smooth than a
         Gaussian, which carries the slope between two corrections against each other on still further.
         """
-        distances = np.sqrt(3.0) * cdist(s, self.conditions) / (self.options.reach * self.regression.extent)
+        distances = np.sqrt(3.0 * squared_distances(s, self.conditions)) / (self.options.reach * self.regression.extent)
         wide: Array = (1.0 + distances) * np.exp(-distances)
         return wide
 

@@ -10,9 +10,9 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
-from scipy.spatial.distance import cdist
 
 from lfd.arrays import Array
+from lfd.distances import squared_distances
 from lfd.models.adaptive.moments import Moments
 from lfd.motion.alignment import group_by_condition
 
@@ -106,7 +106,7 @@ class Regression:
 
     def kernel(self, a: Array, b: Array) -> Array:
         """exp(-d^2 / 2 l^2) of conditions (m, c) and (n, c), shape (m, n)."""
-        return np.asarray(np.exp(-0.5 * cdist(a, b, "sqeuclidean") / self.length**2), dtype=np.float64)
+        return np.asarray(np.exp(-0.5 * squared_distances(a, b) / self.length**2), dtype=np.float64)
 
     def solved(self, k: Array) -> Array:
         """(K + r I)^-1 k, shape (M, ...)."""

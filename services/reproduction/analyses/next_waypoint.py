@@ -10,9 +10,8 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from lfd.models.model import PREDICTION_POINTS
 from lfd.motion.resampling import resample
-from lfd.motion.trajectory import Trajectory
+from lfd.motion.trajectory import PREDICTION_POINTS, Trajectory
 from services.offline.rollout import RolloutView, rollout
 from services.reproduction.analysis import Analysis, Context, Figure, Finding, Holds, Row
 from services.reproduction.functions import rms

@@ -45,6 +45,12 @@ def test_conditions_group_within_the_tolerance_and_along_chains():
     conditions = np.array([[0.0, 0, 0], [1.0, 0, 0], [0.008, 0, 0], [0.016, 0, 0], [1.0, 0.02, 0]])
     assert group_by_condition(conditions) == [[0, 2, 3], [1], [4]]
     assert group_by_condition(conditions[:1]) == [[0]]
+    assert group_by_condition(conditions[:0]) == []
+
+
+def test_a_chain_is_followed_both_ways_from_where_it_is_met_first():
+    along = np.array([0.016, 0.0, 1.0, 0.032, 0.008, 0.024])
+    assert group_by_condition(along[:, None]) == [[0, 1, 3, 4, 5], [2]]
 
 
 def test_align_changes_the_tempo_within_a_condition_and_nothing_else(reach):
