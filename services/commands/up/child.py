@@ -49,7 +49,7 @@ class Child:
         self.exit_code: int | None = None
         self.over: End | None = None
         self._say = say
-        self._retries = Retries(job.name)
+        self._retries = Retries(job.name, lives=job.restart)
         self._told: set[str] = set()
         self._process: subprocess.Popen[str] | None = None
         self._reader: threading.Thread | None = None

@@ -54,10 +54,13 @@ class Retries:
 
     Args:
         name: of the process.
+        lives: it is to live as long as the run; one that does a single thing and ends gets no clean record by taking
+            long over it.
     """
 
-    def __init__(self, name: str) -> None:
+    def __init__(self, name: str, *, lives: bool = True) -> None:
         self._name = name
+        self._lives = lives
         self._failures = 0
         self._kills = 0
 
@@ -69,7 +72,7 @@ class Retries:
             lived_s: from its start [s].
             last_line: that it said.
         """
-        if lived_s > STEADY_AFTER_S:
+        if self._lives and lived_s > STEADY_AFTER_S:
             self._failures = self._kills = 0
         self._failures += code not in _KILLED
         self._kills += code in _KILLED

@@ -41,6 +41,12 @@ def test_one_that_ran_steadily_between_its_ends_is_started_for_ever():
     assert {one.delay_s for one in judged} == {BACK_OFF_S[0]}
 
 
+def test_one_that_does_a_single_thing_is_not_tried_for_ever_however_long_it_takes():
+    *_, last = ended(Retries("teach", lives=False), Exit.TRY_AGAIN, TRIES, lived_s=6 * STEADY_AFTER_S)
+    assert isinstance(last, End)
+    assert last.code == Exit.ENVIRONMENT
+
+
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
 def test_a_person_may_kill_it_often_but_not_for_ever(number):
     *before, last = ended(Retries("robot"), -number, KILLS)
