@@ -150,7 +150,7 @@ def executing(state: Workflow, view: View, settings: Settings) -> Step:
         return Step(to(state, Phase.DECIDING, view, episode=None, event=ended))
     wanted = _wanted(state, view, settings)
     if wanted is not state.wants:
-        state = replace(state, wants=wanted, question=0, intent=0, retry_s=view.now_s)
+        state = replace(state, wants=wanted, question=0, intent=0, retry_s=view.now_s, event="")
     state = replace(state, let_go=_let_go(state, view))
     waits = view.robot is not None and view.robot.waiting
     offered = frozenset({Action.FINISH, Action.GO_ON} if waits else {Action.FINISH})

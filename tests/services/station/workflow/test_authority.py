@@ -130,7 +130,9 @@ def test_a_held_episode_is_offered_to_go_on_once_the_authority_is_back():
     site.stay()
     assert site.names()[asked:] == ["authority/acquire"]
     assert site.state.offered == {Action.GO_ON, Action.FINISH}
+    assert "authority" in site.state.event
     site.step(Action.GO_ON)
+    assert site.state.event == "", "what has happened is said until the next press"
     assert site.requests(queries.RESUME)[-1].epoch == site.epoch
 
 
