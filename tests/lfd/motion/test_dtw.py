@@ -90,6 +90,21 @@ def test_rows_and_diagonals_agree_to_the_last_bit_on_ties_too(a, b):
     assert_same(module._Route(module._accumulate_by_rows, module._trace), a, b)
 
 
+@pytest.mark.parametrize("accumulate", [module._accumulate_by_rows, module._accumulate_by_diagonals])
+@pytest.mark.parametrize(
+    ("n", "m", "path"),
+    [
+        (3, 3, [[0, 0], [1, 1], [2, 2]]),
+        (4, 2, [[0, 0], [1, 0], [2, 0], [3, 1]]),
+        (2, 4, [[0, 0], [0, 1], [0, 2], [1, 3]]),
+    ],
+)
+def test_of_equally_cheap_paths_the_one_is_taken_that_is_diagonal_from_the_end(accumulate, n, m, path):
+    distance, steps = accumulate(np.zeros((n, 1)), np.zeros((1, m)))
+    assert distance == 0.0
+    assert module._trace(steps).tolist() == path
+
+
 @pytest.mark.parametrize(("n", "m"), [(1, 90), (90, 1), (3, 200), (200, 3), (64, 64), (400, 5)])
 def test_rows_and_diagonals_agree_when_one_sequence_is_much_longer(n, m, rng, monkeypatch):
     monkeypatch.setattr(module, "_BLOCK_CELLS", 300)
