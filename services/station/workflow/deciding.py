@@ -37,8 +37,7 @@ def _take(state: Workflow, view: View, settings: Settings, chosen: Action) -> St
         case Action.TEACH:
             return Step(to(state, Phase.LEARNING, view))
         case Action.NEXT:
-            fresh = replace(state, placed=None, last=None, refinements=0, updates=0)
-            return Step(press(fresh, view, Mode.AUTONOMOUS))
+            return Step(press(_elsewhere(state), view, Mode.AUTONOMOUS))
         case Action.UNDO:
             return Step(to(state, Phase.UNDOING, view, taught=None))
         case _:
@@ -50,8 +49,12 @@ def finished(state: Workflow, view: View, settings: Settings) -> Step:
     del settings
     if Action.NEXT not in view.actions:
         return Step(replace(state, offered=frozenset({Action.NEXT})))
-    fresh = replace(state, placed=None, last=None, refinements=0, updates=0, reason="", closure=Closure())
-    return Step(to(fresh, Phase.WAITING, view, holding=False, confirmed=False, taught=None, event=""))
+    fresh = replace(_elsewhere(state), reason="", closure=Closure())
+    return Step(to(fresh, Phase.WAITING, view, holding=False, taught=None, event=""))
+
+
+def _elsewhere(state: Workflow) -> Workflow:
+    return replace(state, placed=None, last=None, refinements=0, updates=0)
 
 
 def recommended(state: Workflow, settings: Settings) -> Action:

@@ -141,6 +141,18 @@ def test_a_person_who_ended_a_run_begins_another_one_with_a_press_and_stands_unt
     assert not MOVING & set(site.names()[asked:])
 
 
+def test_a_run_that_is_begun_after_another_counts_anew_and_holds_no_authority_of_before():
+    site = Site(BY_HAND, [COLLIDED, REACHED, MISSED])
+    site.press(Action.EXECUTE, Phase.EXECUTING)
+    site.press(Action.REFINE, Phase.LEARNING)
+    site.press(Action.REFINE, Phase.EXECUTING)
+    site.press(Action.END, Phase.FINISHED)
+    assert (site.state.refinements, site.state.updates) == (1, 1)
+    site.step(Action.NEXT)
+    assert (site.state.phase, site.state.refinements, site.state.updates) == (Phase.WAITING, 0, 0)
+    assert site.state.held_epoch == 0
+
+
 def test_a_script_that_has_ended_its_run_begins_no_other():
     site = Site(SCRIPTED, [COLLIDED, REACHED, REACHED])
     site.run_to(Phase.FINISHED)
