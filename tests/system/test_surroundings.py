@@ -96,9 +96,10 @@ def test_a_driver_that_another_project_chose_is_named(tmp_path, router):
 @pytest.mark.parametrize("encoding", ["ascii", "latin-1"])
 def test_a_terminal_of_another_alphabet_is_no_reason_to_fail(tmp_path, encoding):
     environment = {"LC_ALL": "C", "LANG": "C", "PYTHONIOENCODING": encoding, "TERM": "dumb", "COLUMNS": "20"}
-    endpoint = free_endpoint()
-    arguments = ("--only", "master", "--config", configured(tmp_path, endpoint), "--scene", "schüssel→")
-    with Command("up", *arguments, "--no-browser", folder=tmp_path, environment=environment) as up:
+    folder = tmp_path / "schüssel→"
+    folder.mkdir()
+    arguments = ("--only", "master", "--config", configured(folder, free_endpoint()), "--no-browser")
+    with Command("up", *arguments, folder=folder, environment=environment) as up:
         up.until(lambda: "master | INFO started" in up.out, START_S, "the master has started")
         up.process.terminate()
         assert up.ended(10.0) == Exit.DONE

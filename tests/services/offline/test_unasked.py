@@ -8,9 +8,8 @@ from protocol.topics import EMERGENCY_STOP, ROBOT_STATE, SAFETY_STATE, TEACHING_
 from services.bus.arrays import motion_to_wire, vector3
 from services.offline.first_demonstrations import first_demonstrations
 from services.offline.stage import Stage
-from services.process.config import Configuration, ModelSection, RobotSection
-from services.station.service import StationService
-from services.station.workflow.state import Settings
+from services.process.config import Configuration, ModelSection, RobotSection, StationSection
+from services.station.service import StationService, settings
 from sim.tasks.particle import PARTICLE
 
 pytestmark = pytest.mark.sim
@@ -50,8 +49,8 @@ class Person(Stage):
         )
         super().__init__(configuration)
         self.page = Tab()
-        settings = Settings("station-1", "operator", autonomous_s=4.0)
-        self.station = StationService(self.bus(), settings, self.page, seed=0)
+        by_hand = settings(StationSection(autonomous_s=4.0), "operator")
+        self.station = StationService(self.bus(), by_hand, self.page, seed=0)
         self.way_in = self.bus()
         self.robot = self.way_in.subscribe(ROBOT_STATE)
         self.safety = self.way_in.subscribe(SAFETY_STATE)
