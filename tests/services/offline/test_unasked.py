@@ -69,6 +69,13 @@ class Person(Stage):
             pending = self.way_in.ask(queries.ADD_DEMONSTRATION, request)
             self.run(lambda pending=pending: pending.poll() is not None)
 
+    def begin(self, action):
+        """Press for an episode, and let it come under way."""
+        self.until("deciding")
+        self.page.pressed = [action]
+        self.until("executing")
+        self.phases(2.0)
+
     def phases(self, seconds):
         """What the robot does in so much time."""
         seen = set()
@@ -114,10 +121,7 @@ def test_nothing_moves_before_a_press_and_each_press_is_one_episode(person):
 
 
 def test_after_a_stop_and_its_release_from_elsewhere_nothing_moves(person):
-    person.until("deciding")
-    person.page.pressed = ["execute"]
-    person.until("executing")
-    person.phases(2.0)
+    person.begin("execute")
     person.way_in.publish(EMERGENCY_STOP, EmergencyStop(pressed=True, by="bob"))
     person.until("stopped")
     assert person.phases(5.0) == {Phase.STOPPED}
@@ -128,10 +132,7 @@ def test_after_a_stop_and_its_release_from_elsewhere_nothing_moves(person):
 
 
 def test_a_stop_of_the_page_is_confirmed_and_released_by_its_person(person):
-    person.until("deciding")
-    person.page.pressed = ["execute"]
-    person.until("executing")
-    person.phases(2.0)
+    person.begin("execute")
     person.page.pressed = ["stop"]
     person.until("stopped")
     person.phases(1.0)
@@ -145,10 +146,7 @@ def test_a_stop_of_the_page_is_confirmed_and_released_by_its_person(person):
 @pytest.mark.parametrize("absence", [0.8, 5.0])
 def test_after_an_absence_the_motion_waits_and_goes_on_upon_a_press(person, absence):
     """Shorter than the lease, and longer."""
-    person.until("deciding")
-    person.page.pressed = ["execute"]
-    person.until("executing")
-    person.phases(2.0)
+    person.begin("execute")
     person.page.present = False
     person.phases(absence)
     person.page.present = True
@@ -172,11 +170,7 @@ def test_a_station_that_was_taken_over_moves_nothing_after_the_other_has_gone(pe
 
 
 def test_a_refinement_that_its_operator_finished_says_so(person):
-    """By these words the station tells it from one that was stopped."""
-    person.until("deciding")
-    person.page.pressed = ["refine"]
-    person.until("executing")
-    person.phases(2.0)
+    person.begin("refine")
     person.page.pressed = ["finish"]
     person.until("deciding")
     assert "It did not run to its end: finished by" in person.teaching.latest().message.text
