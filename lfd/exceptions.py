@@ -19,6 +19,7 @@ LfdError
 """
 
 from collections.abc import Sequence
+from numbers import Real
 from pathlib import Path
 
 
@@ -99,13 +100,14 @@ class TimesNotIncreasing(LfdError):
 
 
 class OutOfRange(LfdError):
-    """A number lies outside its range."""
+    """A number lies outside its range, or is none."""
 
-    def __init__(self, name: str, value: float, allowed: str) -> None:
+    def __init__(self, name: str, value: object, allowed: str) -> None:
         self.name = name
         self.value = value
         self.allowed = allowed
-        super().__init__(f"{name} is {value:g}: it must be {allowed}")
+        shown = f"{value:g}" if isinstance(value, Real) else repr(value)
+        super().__init__(f"{name} is {shown}: it must be {allowed}")
 
 
 class NothingToTakeBack(LfdError):

@@ -175,7 +175,7 @@ class AddDemonstration(Change, frozen=True):
         object_position: that the motion is relative to, base frame [m].
         scene: in which it was given.
         condition: the external state that it was right for; empty for the object relative to the motion's start.
-        prediction: that the motion refines, where it is learnt only in part.
+        operator: who gave it; empty where nobody did.
         alpha: of eq. 18, how far the prediction is moved towards the motion; 1 learns the motion itself.
     """
 
@@ -184,7 +184,7 @@ class AddDemonstration(Change, frozen=True):
     object_position: Vector3
     scene: Name
     condition: Condition = ()
-    prediction: Motion | None = None
+    operator: Name = ""
     alpha: Annotated[float, msgspec.Meta(ge=0.0, le=1.0)] = 1.0
 
 

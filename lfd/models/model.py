@@ -1,13 +1,14 @@
 """The seam between a movement model and whoever uses it."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol, Self
 
 from lfd.arrays import Array, checked
 from lfd.exceptions import OutOfRange
 from lfd.models.distribution import MotionDistribution
 from lfd.motion.demonstration import Demonstration, Situation
+from lfd.motion.refinement import refine
 from lfd.motion.trajectory import PREDICTION_POINTS, Trajectory
 
 
@@ -46,7 +47,10 @@ class MovementModel(Protocol):
         ...
 
     def updated(self, demonstration: Demonstration) -> Self:
-        """The model that has also learnt `demonstration`, the motion that a refinement led to."""
+        """The model that has also learnt `demonstration`, the motion that a refinement led to.
+
+        How far it moves the prediction at its condition, its provenance's confidence says.
+        """
         ...
 
     def predict(self, situation: Situation, n: int = PREDICTION_POINTS) -> Prediction:
@@ -69,3 +73,27 @@ class MovementModel(Protocol):
             WrongShape: The condition has another dimension than those of the demonstrations.
         """
         ...
+
+
+def in_part(model: MovementModel, demonstration: Demonstration) -> Demonstration:
+    """The demonstration as far as it is believed: equation (18), from what the model predicts in its situation.
+
+    For a model that has no other use for a confidence. Whole belief leaves the demonstration as it is.
+
+    Args:
+        model: That the demonstration corrects, before it has learnt it.
+        demonstration: Of any confidence.
+
+    Returns:
+        A demonstration to be believed whole.
+    """
+    alpha = demonstration.provenance.confidence
+    if alpha == 1.0:
+        return demonstration
+    given = demonstration.trajectory
+    predicted = model.predict(demonstration.situation).trajectory
+    return replace(
+        demonstration,
+        trajectory=refine(predicted, given, alpha, given.n_points),
+        provenance=replace(demonstration.provenance, confidence=1.0),
+    )

@@ -11,7 +11,7 @@ from lfd.models.basis import GaussianBasis
 from lfd.models.distribution import MotionDistribution
 from lfd.models.encoding import OUTPUTS, Encoding, reference_rotation
 from lfd.models.gaussian import JointGaussian, condition, welford
-from lfd.models.model import Prediction
+from lfd.models.model import Prediction, in_part
 from lfd.motion.alignment import Selection, align
 from lfd.motion.demonstration import Demonstration, Situation, check_demonstrations, check_dimension
 from lfd.motion.trajectory import PREDICTION_POINTS
@@ -79,11 +79,14 @@ class ConditionedProMP:
     def updated(self, demonstration: Demonstration) -> Self:
         """The model after one step of Welford's method: the new motion counts as much as each earlier one.
 
+        One that is believed in part is moved towards the prediction first, by equation (18).
+
         Raises:
             WrongShape: Its condition has another dimension than those before.
         """
         self._check(demonstration.condition)
-        return replace(self, joint=welford(self.joint, _sample(self.encoding, demonstration), self.options.kept))
+        sample = _sample(self.encoding, in_part(self, demonstration))
+        return replace(self, joint=welford(self.joint, sample, self.options.kept))
 
     def predict(self, situation: Situation, n: int = PREDICTION_POINTS) -> Prediction:
         """Equations (12) and (13), see `MovementModel.predict`; the start orientation is not used."""

@@ -6,6 +6,7 @@ from typing import Self
 
 from lfd.arrays import Array, checked, checked_quaternions
 from lfd.exceptions import TooFewDemonstrations, WrongShape
+from lfd.motion.provenance import UNKNOWN, Provenance
 from lfd.motion.trajectory import Trajectory
 
 
@@ -63,6 +64,7 @@ class Demonstration:
         trajectory: The motion of the end effector in the base frame.
         origin: See `Situation`, shape (3,) [m].
         condition: See `Situation`, shape (c,).
+        provenance: Whose it is, since when, and how far it is believed.
 
     Raises:
         WrongShape: An array has the wrong shape, or the condition is empty.
@@ -72,16 +74,17 @@ class Demonstration:
     trajectory: Trajectory
     origin: Array
     condition: Array
+    provenance: Provenance = UNKNOWN
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "origin", checked("origin", self.origin, (3,)))
         object.__setattr__(self, "condition", checked_condition(self.condition))
 
     @classmethod
-    def reaching(cls, trajectory: Trajectory, object_position: Array) -> Self:
+    def reaching(cls, trajectory: Trajectory, object_position: Array, provenance: Provenance = UNKNOWN) -> Self:
         """A motion that reached an object at a position in the base frame, shape (3,) [m]."""
         target = checked("object_position", object_position, (3,))
-        return cls(trajectory, target, target - trajectory.positions[0])
+        return cls(trajectory, target, target - trajectory.positions[0], provenance)
 
     @property
     def situation(self) -> Situation:

@@ -1,7 +1,7 @@
 """Durable demonstrations: one SQLite file, from which a model can always be built again."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from enum import Enum
 from pathlib import Path
 from typing import NamedTuple, Self
@@ -11,6 +11,7 @@ import numpy as np
 from lfd.arrays import Array
 from lfd.exceptions import BoundElsewhere, LfdError, NothingToUndo, StorageError
 from lfd.motion.demonstration import Demonstration
+from lfd.motion.provenance import Provenance
 from lfd.motion.trajectory import Trajectory
 from lfd.store.connection import Connection
 from lfd.store.schema import DTYPE, prepare
@@ -157,7 +158,7 @@ class DemonstrationStore:
             BoundElsewhere: The others are of another scene or robot.
             StorageError: It could not be written; the file is as before.
         """
-        trajectory = demonstration.trajectory
+        trajectory, provenance = demonstration.trajectory, demonstration.provenance
         arrays = {
             "positions": trajectory.positions,
             "orientations": trajectory.orientations,
@@ -168,8 +169,9 @@ class DemonstrationStore:
             self.check(binding)
             version = self._next(request)
             self._connection.rows(
-                "INSERT INTO demonstrations (added, kind, scene, duration, robot) VALUES (?, ?, ?, ?, ?)",
-                (version, kind.value, binding.scene, trajectory.duration, binding.robot),
+                "INSERT INTO demonstrations (added, kind, scene, duration, robot, author, at_s, confidence)"
+                " VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+                (version, kind.value, binding.scene, trajectory.duration, binding.robot, *astuple(provenance)),
             )
             for name, array in arrays.items():
                 row = (version, name, DTYPE, _shape_text(array), array.astype(DTYPE).tobytes())
@@ -206,11 +208,14 @@ class DemonstrationStore:
             StorageError: A record cannot be read.
         """
         rows = self._connection.rows(
-            "SELECT added, kind, scene, robot, duration FROM demonstrations WHERE undone IS NULL ORDER BY added"
+            "SELECT added, kind, scene, robot, duration, author, at_s, confidence FROM demonstrations"
+            " WHERE undone IS NULL ORDER BY added"
         )
         return [
-            StoredDemonstration(added, Purpose(kind), Binding(scene, robot), self._demonstration(added, duration))
-            for added, kind, scene, robot, duration in rows
+            StoredDemonstration(
+                added, Purpose(kind), Binding(scene, robot), self._demonstration(added, duration, *provenance)
+            )
+            for added, kind, scene, robot, duration, *provenance in rows
         ]
 
     def _next(self, request: int) -> int:
@@ -220,12 +225,15 @@ class DemonstrationStore:
             self._connection.rows("INSERT INTO requests VALUES (?, ?)", (request, version))
         return version
 
-    def _demonstration(self, added: int, duration: float) -> Demonstration:
+    def _demonstration(
+        self, added: int, duration: float, author: str, at_s: float | None, confidence: float
+    ) -> Demonstration:
         rows = self._connection.rows("SELECT name, dtype, shape, bytes FROM arrays WHERE demonstration = ?", (added,))
         try:
             arrays = {name: _array(dtype, shape, data) for name, dtype, shape, data in rows}
             trajectory = Trajectory(arrays["positions"], arrays["orientations"], duration)
-            return Demonstration(trajectory, arrays["origin"], arrays["condition"])
+            provenance = Provenance(author, at_s, confidence)
+            return Demonstration(trajectory, arrays["origin"], arrays["condition"], provenance)
         except (LfdError, ValueError, KeyError) as error:
             reason = f"demonstration {added} is damaged ({error})"
             raise StorageError(self._path, reason, "restore the file from a copy") from error

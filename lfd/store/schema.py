@@ -5,8 +5,9 @@ import numpy as np
 from lfd.exceptions import StorageError
 from lfd.store.connection import Connection
 
-SCHEMA_VERSION = 3
-"""1 had no conditions: they were the object relative to the start. 2 knew neither robots nor requests."""
+SCHEMA_VERSION = 4
+"""1 had no conditions: they were the object relative to the start. 2 knew neither robots nor requests, 3 no authors,
+times and confidences: its motions were stored as far as they were believed."""
 
 APPLICATION_ID = 0x52544348  # "RTCH" in the file's header tells our files from others
 DTYPE = "<f8"
@@ -18,7 +19,10 @@ CREATE TABLE demonstrations (
     kind TEXT NOT NULL CHECK (kind IN ('initial', 'update')),
     scene TEXT NOT NULL,
     duration REAL NOT NULL,
-    robot TEXT NOT NULL DEFAULT ''
+    robot TEXT NOT NULL DEFAULT '',
+    author TEXT NOT NULL DEFAULT '',
+    at_s REAL,
+    confidence REAL NOT NULL DEFAULT 1.0 CHECK (confidence BETWEEN 0.0 AND 1.0)
 ) STRICT
 """
 _ARRAYS = """
@@ -76,10 +80,9 @@ def _upgrade(connection: Connection, schema: int) -> None:
     with connection.transaction():
         if connection.value("PRAGMA user_version") != schema:
             return  # another process was first
-        if schema < 2:
-            _add_conditions(connection)
-        connection.rows("ALTER TABLE demonstrations ADD COLUMN robot TEXT NOT NULL DEFAULT ''")
-        connection.rows(_REQUESTS)
+        for older_than, upgrade in ((2, _add_conditions), (3, _add_robots_and_requests), (4, _add_provenance)):
+            if schema < older_than:
+                upgrade(connection)
         connection.rows(f"PRAGMA user_version = {SCHEMA_VERSION}")
 
 
@@ -94,3 +97,17 @@ def _add_conditions(connection: Connection) -> None:
         first = np.frombuffer(positions, dtype=DTYPE, count=3)
         condition = (np.frombuffer(origin, dtype=DTYPE) - first).tobytes()
         connection.rows("INSERT INTO arrays VALUES (?, 'condition', ?, '3', ?)", (demonstration, DTYPE, condition))
+
+
+def _add_robots_and_requests(connection: Connection) -> None:
+    connection.rows("ALTER TABLE demonstrations ADD COLUMN robot TEXT NOT NULL DEFAULT ''")
+    connection.rows(_REQUESTS)
+
+
+def _add_provenance(connection: Connection) -> None:
+    for column in (
+        "author TEXT NOT NULL DEFAULT ''",
+        "at_s REAL",
+        "confidence REAL NOT NULL DEFAULT 1.0 CHECK (confidence BETWEEN 0.0 AND 1.0)",
+    ):
+        connection.rows(f"ALTER TABLE demonstrations ADD COLUMN {column}")

@@ -140,7 +140,9 @@ def teach_waypoints(configuration: Configuration, file: Path, object_position: V
     with _model(configuration) as model:
         before = model.state(scene)
         kind = Kind.UPDATE if before.demonstrations or before.updates else Kind.INITIAL
-        state = model.add(AddDemonstration(kind, motion, object_position, scene.name, request=new_number()))
+        operator = configuration.operator
+        given = AddDemonstration(kind, motion, object_position, scene.name, operator=operator, request=new_number())
+        state = model.add(given)
     log.info("taught a motion through %d waypoints; %s", len(waypoints.positions), _holds(state))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
+from datetime import UTC, datetime
 from typing import TypeVar
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy as np
 from lfd.exceptions import LfdError
 from lfd.models.model import MovementModel
 from lfd.motion.demonstration import Demonstration, Situation
-from lfd.motion.refinement import refine
+from lfd.motion.provenance import Provenance
 from lfd.motion.trajectory import Trajectory
 from lfd.store.database import Counts, DemonstrationStore, Purpose, StoredDemonstration
 from protocol import messages, queries, topics
@@ -20,7 +21,7 @@ from services.bus.arrays import motion_from_wire, motion_to_wire, to_wire
 from services.bus.bus import Bus, Rep, Req
 from services.bus.identity import new_number
 from services.bus.server import Server
-from services.model.learning import learn_all
+from services.model.learning import learn_all, updated
 from services.model.skill import binding_of, check_demonstration, check_duration, check_situation, open_store
 from services.process.clock import Clock
 from services.process.config import Configuration
@@ -47,7 +48,7 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> ModelService:
     scene = find_scene(configuration.robot.scene)
     store = open_store(configuration.model, configuration.name, binding_of(scene))
     try:
-        return ModelService(bus, store, configuration.model.kind, scene)
+        return ModelService(bus, store, configuration.model.kind, scene, lambda: datetime.now(UTC))
     except BaseException:
         store.close()
         raise
@@ -61,12 +62,16 @@ class ModelService:
         store: every demonstration and update; the model is what it holds.
         kind: of the model, a key of `MODELS`.
         scene: that it learns for.
+        utc: the time of day, which what is learnt is stored with.
     """
 
     rate_hz = 100.0
 
-    def __init__(self, bus: Bus, store: DemonstrationStore, kind: str, scene: AnyScene) -> None:
+    def __init__(
+        self, bus: Bus, store: DemonstrationStore, kind: str, scene: AnyScene, utc: Callable[[], datetime]
+    ) -> None:
         self._bus = bus
+        self._utc = utc
         self._store = store
         self._kind = kind
         self._scene = scene
@@ -143,7 +148,7 @@ class ModelService:
                 f"the demonstration is of scene {request.scene}, and this model is for {self._binding}:"
                 f" start the model with --scene {request.scene}"
             )
-        demonstration = _demonstration(request)
+        demonstration = _demonstration(request, self._utc().timestamp())
         check_demonstration(self._scene, demonstration)
         purpose = Purpose(request.kind.value)
         candidate = self._extended(demonstration, purpose)
@@ -153,7 +158,7 @@ class ModelService:
 
     def _extended(self, demonstration: Demonstration, purpose: Purpose) -> MovementModel | None:
         if purpose is Purpose.UPDATE and self._model is not None:
-            return self._model.updated(demonstration)
+            return updated(self._model, demonstration)
         added = StoredDemonstration(self._state.version + 1, purpose, self._binding, demonstration)
         return learn_all(self._kind, [*self._stored, added])
 
@@ -191,19 +196,13 @@ class ModelService:
         )
 
 
-def _demonstration(request: AddDemonstration) -> Demonstration:
-    motion = _learnable(request, Trajectory(*motion_from_wire(request.motion)))
+def _demonstration(request: AddDemonstration, at_s: float) -> Demonstration:
+    motion = Trajectory(*motion_from_wire(request.motion))
     origin = np.array(request.object_position, dtype=np.float64)
+    provenance = Provenance(request.operator, at_s, request.alpha)
     if request.condition:
-        return Demonstration(motion, origin, np.array(request.condition))
-    return Demonstration.reaching(motion, origin)
-
-
-def _learnable(request: AddDemonstration, motion: Trajectory) -> Trajectory:
-    """Equation (18): the whole motion, or the prediction moved a part of the way towards it."""
-    if request.alpha == 1.0 or request.prediction is None:
-        return motion
-    return refine(Trajectory(*motion_from_wire(request.prediction)), motion, request.alpha, motion.n_points)
+        return Demonstration(motion, origin, np.array(request.condition), provenance)
+    return Demonstration.reaching(motion, origin, provenance)
 
 
 def _situation(request: Predict) -> Situation:

@@ -40,15 +40,13 @@ def learning(state: Workflow, view: View, settings: Settings) -> Step:
 
 
 def _request(state: Workflow, view: View, settings: Settings, motion: Motion, intent: int) -> queries.AddDemonstration:
-    # The model needs the refined prediction only where it is to believe the refinement in part.
-    believed_in_part = state.prediction if settings.alpha < 1.0 else None
     return queries.AddDemonstration(
         queries.Kind.UPDATE,
         motion,
         state.looked or ORIGIN,
         view.scene.name if view.scene is not None else "",
         state.condition,
-        prediction=None if believed_in_part is None else learnable(believed_in_part.motion, settings.autonomous_s),
+        operator=settings.operator,
         alpha=settings.alpha,
         request=intent,
     )

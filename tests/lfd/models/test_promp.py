@@ -8,6 +8,8 @@ from lfd.models.basis import GaussianBasis
 from lfd.models.promp import ConditionedProMP, PrompOptions
 from lfd.motion.alignment import Selection
 from lfd.motion.demonstration import Situation
+from lfd.motion.provenance import Provenance
+from lfd.motion.refinement import refine
 from lfd.motion.resampling import resample
 
 OBJECTS = [[0.9, -0.2, 0.6], [0.9, 0.0, 0.65], [0.85, 0.2, 0.6], [0.95, 0.1, 0.55]]
@@ -111,3 +113,14 @@ def test_averaging_leaves_most_of_the_error_as_the_thesis_measured(recordings, r
 def _gap(model, demonstration):
     predicted = model.predict(demonstration.situation).trajectory
     return np.sqrt(np.mean(np.sum((predicted.positions - demonstration.trajectory.positions) ** 2, axis=1)))
+
+
+@pytest.mark.parametrize("alpha", [0.0, 0.4])
+def test_a_correction_counts_as_far_as_it_is_believed(demonstrations, reach, alpha):
+    """Equation (18): what is learnt is the prediction moved by alpha towards the refinement."""
+    model = ConditionedProMP.fit(demonstrations)
+    correction = reach([0.9, 0.1, 0.6], bend=0.2, duration=9.0)
+    refined = refine(model.predict(correction.situation).trajectory, correction.trajectory, alpha, 60)
+    expected = model.updated(replace(correction, trajectory=refined))
+    learnt = model.updated(replace(correction, provenance=Provenance(confidence=alpha)))
+    np.testing.assert_allclose(learnt.joint.mean, expected.joint.mean, atol=1e-12)

@@ -1,12 +1,14 @@
 import sqlite3
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from lfd.exceptions import BoundElsewhere, NothingToUndo, StorageError
+from lfd.motion.provenance import UNKNOWN, Provenance
 from lfd.store.database import Binding, Counts, DemonstrationStore, Purpose
 
 DISHWASHER, TABLE = Binding("dishwasher", "tiago"), Binding("table", "tiago")
@@ -38,6 +40,15 @@ def test_what_was_stored_is_read_back_bit_for_bit_and_in_order(path, reach):
         np.testing.assert_array_equal(record.demonstration.origin, expected.origin)
         np.testing.assert_array_equal(record.demonstration.condition, expected.condition)
         assert trajectory.duration == expected.trajectory.duration
+
+
+def test_whose_a_demonstration_is_since_when_and_how_far_it_is_believed_is_kept(path, reach):
+    given = [UNKNOWN, Provenance("anna", 1790000000.25, 0.3)]
+    with DemonstrationStore(path) as store:
+        for provenance in given:
+            store.add(replace(reach([0.9, 0.1, 0.6]), provenance=provenance), Purpose.UPDATE, TABLE)
+    with DemonstrationStore(path) as store:
+        assert [stored.demonstration.provenance for stored in store.active()] == given
 
 
 def test_undo_takes_back_the_newest_and_makes_a_new_version(path, reach):

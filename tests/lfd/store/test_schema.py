@@ -1,11 +1,13 @@
 """Files of earlier versions go on being good; what is no file of ours stays untouched."""
 
 import sqlite3
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from lfd.exceptions import BoundElsewhere, StorageError
+from lfd.motion.provenance import UNKNOWN, Provenance
 from lfd.store.database import Binding, DemonstrationStore, Purpose
 
 DISHWASHER, TABLE = Binding("dishwasher", "tiago"), Binding("table", "tiago")
@@ -16,7 +18,16 @@ def path(tmp_path):
     return tmp_path / "demonstrations.sqlite"
 
 
+def _as_schema_3(path):
+    with sqlite3.connect(path) as old:
+        for column in ("author", "at_s", "confidence"):
+            old.execute(f"ALTER TABLE demonstrations DROP COLUMN {column}")
+        old.execute("PRAGMA user_version = 3")
+    old.close()
+
+
 def _as_schema_2(path):
+    _as_schema_3(path)
     with sqlite3.connect(path) as old:
         old.execute("ALTER TABLE demonstrations DROP COLUMN robot")
         old.execute("DROP TABLE requests")
@@ -54,6 +65,17 @@ def test_a_file_of_schema_2_is_bound_to_the_scene_of_its_rows_whatever_the_robot
     with DemonstrationStore(path) as store:
         store.add(reach([0.9, 0.1, 0.6]), Purpose.UPDATE, DISHWASHER, request=5)
         assert store.made_by(5) == 2
+
+
+def test_what_a_file_of_schema_3_holds_is_nobodys_of_no_time_and_believed_whole(path, reach):
+    with DemonstrationStore(path) as store:
+        store.add(reach([0.9, 0.1, 0.6]), Purpose.INITIAL, TABLE)
+    _as_schema_3(path)
+    given = Provenance("anna", 1.5, 0.25)
+    with DemonstrationStore(path) as store:
+        store.add(replace(reach([0.9, 0.2, 0.6]), provenance=given), Purpose.UPDATE, TABLE)
+    with DemonstrationStore(path) as store:
+        assert [stored.demonstration.provenance for stored in store.active()] == [UNKNOWN, given]
 
 
 def test_a_file_in_which_an_earlier_version_mixed_two_scenes_is_refused_by_both(path, reach):

@@ -1,6 +1,7 @@
 """The model process: what it has acknowledged is on disk, and what it cannot do it refuses."""
 
 import sqlite3
+from datetime import UTC, datetime
 
 import msgspec
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 
 from lfd.exceptions import StorageError
 from lfd.store import connection
+from lfd.store.database import DemonstrationStore
 from protocol import messages, queries, topics
 from protocol.messages import Pose
 from protocol.queries import AddDemonstration, Kind, Learnt, Predicted, Undo
@@ -122,9 +124,31 @@ def test_a_correction_that_is_half_believed_moves_the_prediction_half_the_way(ri
     """Equation (18) with alpha = 0.5."""
     rig.teach(Kind.INITIAL)
     before = rig.predict().prediction
-    rig.teach(Kind.UPDATE, bend=0.1, prediction=before.motion, alpha=0.5)
+    rig.teach(Kind.UPDATE, bend=0.1, alpha=0.5)
     raised = positions(rig.predict())[:, 2] - motion_from_wire(before.motion)[0][:, 2]
     assert np.max(raised) == pytest.approx(0.05, abs=0.005)
+
+
+def test_a_correction_is_stored_whole_with_its_author_its_time_and_how_far_it_is_believed(rig, path):
+    began = datetime.now(UTC).timestamp()
+    rig.teach(Kind.INITIAL)
+    rig.teach(Kind.UPDATE, bend=0.1, operator="anna", alpha=0.5)
+    with DemonstrationStore(path) as store:
+        first, correction = (stored.demonstration for stored in store.active())
+    assert (first.provenance.author, first.provenance.confidence) == ("", 1.0)
+    assert (correction.provenance.author, correction.provenance.confidence) == ("anna", 0.5)
+    assert began <= first.provenance.at_s <= correction.provenance.at_s <= datetime.now(UTC).timestamp()
+    assert np.max(correction.trajectory.positions[:, 2] - first.trajectory.positions[:, 2]) == pytest.approx(0.1, 0.01)
+
+
+def test_a_restarted_process_believes_what_it_learnt_as_far_as_before(rig, path):
+    rig.teach(Kind.INITIAL)
+    rig.teach(Kind.UPDATE, bend=0.1, alpha=0.5)
+    before = positions(rig.predict())
+    rig.service.close()
+    again = Rig(path)
+    np.testing.assert_allclose(positions(again.predict()), before, atol=1e-9)
+    again.service.close()
 
 
 def test_a_model_of_another_condition_refuses_the_motion(rig):

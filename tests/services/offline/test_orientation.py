@@ -1,5 +1,7 @@
 """One correction of an orientation is enough: robot, scripted stylus and model on one bus, from hand to model."""
 
+from datetime import UTC, datetime
+
 import msgspec
 import numpy as np
 import pytest
@@ -23,6 +25,7 @@ from sim.tasks import scene
 
 pytestmark = pytest.mark.sim
 
+MORNING = datetime(2026, 3, 1, 8, 0, tzinfo=UTC)
 ROLL = np.array([0.5, 0.0, 0.0])  # [rad] about the gripper's own axis
 REFINE_S, AUTONOMOUS_S = 20.0, 10.0
 
@@ -39,10 +42,11 @@ class Site:
         configuration = Configuration(
             robot=RobotSection(scene=name, variant=variant), master=MasterSection(device=Scripted())
         )
+        store = DemonstrationStore(folder / "model.sqlite")
         self.services = (
             robot.build(network.bus(), self.clock, configuration),
             master.build(network.bus(), self.clock, configuration),
-            ModelService(network.bus(), DemonstrationStore(folder / "model.sqlite"), "adaptive", self.scene),
+            ModelService(network.bus(), store, "adaptive", self.scene, lambda: MORNING),
         )
         self.robot = self.bus.subscribe(topics.ROBOT_STATE)
         self.results = self.bus.subscribe(topics.EPISODE_RESULT)

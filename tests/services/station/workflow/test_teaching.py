@@ -6,9 +6,8 @@ import msgspec
 
 from protocol import queries
 from protocol.messages import Mode
-from services.station.workflow.learning import learnable
 from services.station.workflow.state import Phase, Place
-from tests.services.station.workflow.site import COLLIDED, MISSED, MOTION, POSE, REACHED, SCRIPTED, Site
+from tests.services.station.workflow.site import COLLIDED, MISSED, POSE, REACHED, SCRIPTED, Site
 
 
 def test_the_loop_closes_by_one_correction():
@@ -84,23 +83,17 @@ def test_every_execution_is_of_the_newest_prediction():
     assert [request.prediction for request in site.requests(queries.EXECUTE)] == predicted
 
 
-def test_a_refinement_is_learnt_with_the_prediction_that_it_refines_as_far_as_it_is_believed():
+def test_a_refinement_is_learnt_as_its_operators_and_as_far_as_it_is_believed():
     site = Site(replace(SCRIPTED, alpha=0.5), [COLLIDED, REACHED, REACHED])
     site.run_to(Phase.FINISHED)
     (learnt,) = site.requests(queries.ADD_DEMONSTRATION)
-    assert learnt.alpha == 0.5
-    assert learnt.prediction == learnable(MOTION, SCRIPTED.autonomous_s)
+    assert (learnt.operator, learnt.alpha) == (SCRIPTED.operator, 0.5)
+    assert learnt.motion.duration == SCRIPTED.autonomous_s
     assert (learnt.kind, learnt.scene, learnt.object_position) == (
         queries.Kind.UPDATE,
         "dishwasher",
         (0.85, 0.05, 0.5),
     )
-
-
-def test_a_refinement_that_is_believed_whole_needs_no_prediction():
-    site = Site(SCRIPTED, [COLLIDED, REACHED, REACHED])
-    site.run_to(Phase.FINISHED)
-    assert [request.prediction for request in site.requests(queries.ADD_DEMONSTRATION)] == [None]
 
 
 def test_too_many_refinements_end_the_run_with_the_reason():

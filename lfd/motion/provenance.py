@@ -1,0 +1,33 @@
+"""Where a demonstration comes from, and how far it is believed."""
+
+from dataclasses import dataclass
+
+from lfd.bounds import FINITE, FRACTION, check_number, check_options
+
+
+@dataclass(frozen=True)
+class Provenance:
+    """Who gave a demonstration or correction, when, and how sure of it they are.
+
+    Attributes:
+        author: Who gave it; empty where that is not known.
+        at_s: When it was given, in seconds since 1970-01-01 UTC; None where that is not known.
+        confidence: How far a correction is to move a prediction towards itself, from 0, not at all, to 1, all the way:
+            alpha of equation (18), which the thesis would have follow "the confidence of the operator in its
+            refinement".
+
+    Raises:
+        OutOfRange: The confidence is not from 0 to 1, or the time not finite.
+    """
+
+    author: str = ""
+    at_s: float | None = None
+    confidence: float = 1.0
+
+    def __post_init__(self) -> None:
+        check_options(self, confidence=FRACTION)
+        if self.at_s is not None:
+            check_number("Provenance.at_s", self.at_s, FINITE)
+
+
+UNKNOWN = Provenance()
