@@ -17,9 +17,11 @@ class Cable:
         self._whole = threading.Event()
         self._whole.set()
         self._ends = []
+        self._carriers = []
         self._listener = socket.create_server(("127.0.0.1", 0))
         self.url = f"http://127.0.0.1:{self._listener.getsockname()[1]}"
-        threading.Thread(target=self._accept, daemon=True).start()
+        self._accepting = threading.Thread(target=self._accept, daemon=True)
+        self._accepting.start()
 
     def cut(self):
         """Carry nothing any more."""
@@ -32,9 +34,16 @@ class Cable:
         self._whole.set()
 
     def close(self):
-        """End every connection."""
+        """End every connection, and let nobody connect any more."""
+        # Closed alone it would go on listening, for the thread that waits there.
+        self._listener.shutdown(socket.SHUT_RDWR)
+        self._accepting.join()
         self._listener.close()
         self.mend(lost=True)
+        for carrier in self._carriers:
+            carrier.join()
+        for end in self._ends:
+            end.close()
 
     def _close_ends(self):
         for end in self._ends:
@@ -48,7 +57,8 @@ class Cable:
                 station = socket.create_connection(self._station)
                 self._ends += [browser, station]
                 for ends in ((browser, station), (station, browser)):
-                    threading.Thread(target=self._carry, args=ends, daemon=True).start()
+                    self._carriers.append(threading.Thread(target=self._carry, args=ends, daemon=True))
+                    self._carriers[-1].start()
 
     def _carry(self, source, sink):
         with contextlib.suppress(OSError):

@@ -78,12 +78,9 @@ class Tab:
         self.page.goto(url)
         self.page.wait_for_selector("body:not([data-link=offline])")
 
-    @property
-    def link(self):
-        return self.page.evaluate("document.body.dataset.link")
-
-    def wait(self, selector):
-        self.page.wait_for_selector(selector, timeout=WITHIN_S * 1e3)
+    def wait(self, selector, state="visible"):
+        """Wait for an element: what the page shows comes to each tab in its own time."""
+        self.page.wait_for_selector(selector, state=state, timeout=WITHIN_S * 1e3)
 
 
 @pytest.fixture

@@ -3,6 +3,8 @@
 import pytest
 from hand import Hand
 
+from protocol.messages import OperatorInput
+
 pytestmark = pytest.mark.browser
 
 AZERTY = {"KeyQ": "a", "KeyW": "z", "KeyE": "e", "KeyA": "q", "KeyS": "s", "KeyD": "d"}
@@ -59,9 +61,9 @@ def test_a_held_key_goes_with_the_focus(tab, hand, station, eventually):
 def test_a_held_key_goes_with_the_tab(tab, hand, station, eventually):
     page, _ = station
     hand.hold("KeyE")
+    eventually(lambda: page.take_input().present)
     tab.page.close()
-    eventually(lambda: page.take_input().keys == () and not page.take_input().focused)
-    assert not page.take_input().present
+    eventually(lambda: page.take_input() == OperatorInput())
 
 
 def test_a_key_that_was_held_while_the_browser_hung_holds_the_robot_and_says_so(tab, hand, station):
@@ -146,14 +148,16 @@ def test_a_button_that_was_clicked_leaves_space_to_finish(tab, pressed):
 
 
 def test_a_key_that_is_held_presses_a_button_once(tab, pressed):
+    taken = []
     tab.page.focus("[data-action=undo]")
     for _ in range(4):
         tab.page.keyboard.down("Enter")
     tab.page.keyboard.up("Enter")
     tab.page.evaluate("document.activeElement.blur()")
     tab.page.keyboard.press("Space")
-    taken = pressed()
-    assert taken in (["undo"], ["undo", "finish"])
+    while "finish" not in taken:
+        taken += pressed()
+    assert taken == ["undo", "finish"]
 
 
 def test_only_keys_that_steer_are_taken_from_the_browser(tab):

@@ -43,8 +43,14 @@ def view(tab, station, recording):
     """The frame's content, loaded."""
     _, feed = station
     feed.view = replace(feed.view, recording=recording)
+    return loaded(tab)
+
+
+def loaded(tab):
+    """The content of a tab's frame, once its script listens."""
     content = tab.page.wait_for_selector("iframe.viewer").content_frame()
     content.wait_for_selector("#view")
+    content.wait_for_load_state("domcontentloaded")
     return content
 
 
@@ -111,7 +117,7 @@ def test_a_lost_link_neither_loads_the_page_anew_nor_the_view(open_seated, stati
     _, feed = station
     tab = open_seated(cable.url)
     feed.view = replace(feed.view, recording=recording)
-    tab.page.wait_for_selector("iframe.viewer").content_frame().wait_for_selector("#view")
+    loaded(tab)
     tab.page.evaluate("window.loadedOnce = true")
     for lost in (True, False):
         cable.cut()
@@ -148,8 +154,7 @@ def test_it_is_seen_from_another_machine_by_the_name_that_its_browser_uses(open_
     recording = Recording(path="a.rrd", viewer_url=serve_frame("0.0.0.0").url, recording_id="first")
     feed.view = replace(feed.view, recording=recording)
     tab = open_tab(f"http://{name}:{port}/")
-    content = tab.page.wait_for_selector("iframe.viewer").content_frame()
-    content.wait_for_selector("#view")
+    content = loaded(tab)
     assert urlsplit(content.url).hostname == name
     assert tab.faults == []
     say_key(content, "keydown", code="KeyD", key="d")
@@ -161,8 +166,7 @@ def test_it_is_seen_under_the_address_on_which_alone_it_is_served(open_station, 
     recording = Recording(path="a.rrd", viewer_url=serve_frame("127.0.0.2").url, recording_id="first")
     feed.view = replace(feed.view, recording=recording)
     tab = open_tab(f"http://tablet.localhost:{port}/")
-    content = tab.page.wait_for_selector("iframe.viewer").content_frame()
-    content.wait_for_selector("#view")
+    content = loaded(tab)
     assert urlsplit(content.url).hostname == "127.0.0.2"
     assert tab.faults == []
 

@@ -33,6 +33,7 @@ def test_loads_without_a_fault_and_asks_nobody_else(tab):
 @pytest.mark.parametrize("size", [(1600, 900), (1280, 720)])
 def test_everything_fits_without_scrolling(tab, size):
     tab.page.set_viewport_size({"width": size[0], "height": size[1]})
+    tab.page.wait_for_function("([width, height]) => innerWidth === width && innerHeight === height", arg=list(size))
     overflowing = tab.page.evaluate(
         """() => [...document.querySelectorAll(".panel, .chip, .header, .stop, .action, .light-words")]
         .filter((e) => e.scrollWidth > e.clientWidth + 1 || e.scrollHeight > e.clientHeight + 1)

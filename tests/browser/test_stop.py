@@ -87,7 +87,7 @@ def test_a_stop_is_unconfirmed_until_the_robot_says_latched_and_standing(tab, ca
     tab.wait(".unconfirmed:visible:has-text('still moves')")
     feed.view = replace(feed.view, safety=SafetyState(emergency_stop=True, by="anna", standing=True))
     tab.wait(".stopped:visible")
-    assert tab.page.locator(".unconfirmed").is_hidden()
+    tab.wait(".unconfirmed", "hidden")
 
 
 def test_who_stopped_when_and_who_released_when_are_shown(tab, calm_station, pressed):
