@@ -96,6 +96,7 @@ scenes = st.builds(
     object_size=vectors,
     ellipsoid_radii=vectors,
     kicked_over_thresholds=vectors,
+    kicked_over_tilt=reals,
     start=poses,
     object_region=st.tuples(vectors, vectors).map(
         lambda corners: (tuple(map(min, *corners)), tuple(map(max, *corners)))
@@ -123,6 +124,7 @@ verdicts = st.builds(
     collision_force=reals,
     ellipsoid_value=reals,
     object_displacement=vectors,
+    object_tilt=reals,
 )
 predictions = st.builds(
     Prediction,

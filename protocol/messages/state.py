@@ -132,6 +132,7 @@ class SceneState(Message, frozen=True, kw_only=True):
         object_size: full edge lengths [m]; zero where there is no object.
         ellipsoid_radii: of the reached ellipsoid about the grasping frame [m].
         kicked_over_thresholds: largest displacement on each axis [m].
+        kicked_over_tilt: largest angle between the object's upright axis and the vertical [rad].
         start: pose of the grasping frame from which the next motion starts.
         object_region: least and greatest corner of where objects may stand [m].
         condition: the external state that the motion depends on; empty where it is the object relative to the gripper
@@ -147,6 +148,7 @@ class SceneState(Message, frozen=True, kw_only=True):
     kicked_over_thresholds: Vector3
     start: Pose
     object_region: tuple[Vector3, Vector3]
+    kicked_over_tilt: Real = 0.0
     variants: Annotated[tuple[Name, ...], msgspec.Meta(max_length=16)] = ()
     condition: Condition = ()
     condition_region: tuple[Condition, Condition] = ((), ())
@@ -162,13 +164,14 @@ class Verdict(Message, frozen=True, kw_only=True):
 
     Attributes:
         reached: the object's centre lies in the gripper's ellipsoid, or all via-points were passed through.
-        kicked_over: the object moved further than its threshold on some axis.
+        kicked_over: the object moved further than its threshold on some axis, or has toppled.
         collision: the robot touched the environment.
         collision_position: where first, base frame [m].
         collision_force: normal force of the first contact [N].
         collision_between: the robot's link and the thing that it touched first.
         ellipsoid_value: of eq. E.1, or the greatest (error / tolerance)^2 at a via-point; at most 1 where reached.
         object_displacement: since the episode started [m].
+        object_tilt: angle between the object's upright axis and the vertical [rad].
     """
 
     reached: bool
@@ -179,6 +182,7 @@ class Verdict(Message, frozen=True, kw_only=True):
     collision_between: tuple[Name, Name] | None = None
     ellipsoid_value: Real = 0.0
     object_displacement: Vector3 = (0.0, 0.0, 0.0)
+    object_tilt: Real = 0.0
 
 
 class ExecutionState(Message, frozen=True, kw_only=True):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -95,7 +96,8 @@ class Attempt:
             force = f" with {verdict.collision_force:.0f} N" if verdict.collision_force else ""
             said.append(f"{_words(link)} hit {_words(thing)}{force}")
         if verdict.kicked_over:
-            said.append(f"kicked over by {1e3 * float(np.max(np.abs(verdict.object_displacement))):.0f} mm")
+            moved = 1e3 * float(np.max(np.abs(verdict.object_displacement)))
+            said.append(f"kicked over by {moved:.0f} mm and {math.degrees(verdict.object_tilt):.0f} degrees")
         if not verdict.reached:
             said.append(f"missed by {1e3 * self.miss:.0f} mm")
         return ", ".join(said)

@@ -253,7 +253,7 @@ class Arm:
         self.observation = self._backend.observe()
         self.measured = self._kinematics.forward(self.observation.q)
         seen = self.observation
-        self._verdict: Verdict = self._judge.judge(self.measured, seen.object_pose.position, seen.touch)
+        self._verdict: Verdict = self._judge.judge(self.measured, seen.object_pose, seen.touch)
 
 
 def _shortfall(commanded: Pose, reference: Pose) -> list[str]:

@@ -74,7 +74,7 @@ def _stage(scene: AnyScene, variant: str, description: RobotDescription) -> tupl
             from services.robot.backends.simulation import Simulation  # noqa: PLC0415 (as above)
             from sim.world.physics import World  # noqa: PLC0415 (as above)
 
-            criteria = ReachingCriteria(scene.reached_radii, scene.kicked_thresholds)
+            criteria = ReachingCriteria(scene.reached_radii, scene.kicked_thresholds, scene.tipping_angle)
             return Simulation(World(scene, variant, description)), criteria
         case ParticleScene():
             return ParticleBackend(scene, variant), ViaPointCriteria(scene.via_x, scene.tolerance)

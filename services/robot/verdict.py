@@ -1,5 +1,6 @@
 """The success criteria, and those of Appendix E: object reached, not kicked over, no collision."""
 
+import math
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -12,6 +13,8 @@ from sim.pose import Pose
 
 Array = NDArray[np.float64]
 
+_UP = np.array([0.0, 0.0, 1.0])
+
 
 @dataclass(frozen=True, eq=False)
 class Verdict:
@@ -19,10 +22,11 @@ class Verdict:
 
     Attributes:
         reached: the target is; the object's centre lies in the ellipsoid or on its boundary.
-        kicked_over: the object moved further than its threshold on some axis.
+        kicked_over: the object moved further than its threshold on some axis, or is tilted further than it stands.
         collision: the first touch of the environment in this episode, None where there was none.
         ellipsoid_value: how far off the target is: left side of the ellipsoid's equation (Fig. E.2); at most 1 inside.
         displacement: of the object since the episode began, shape (3,) [m].
+        tilt: of the object's upright axis from the vertical [rad].
     """
 
     reached: bool
@@ -30,6 +34,7 @@ class Verdict:
     collision: Touch | None
     ellipsoid_value: float
     displacement: Array
+    tilt: float = 0.0
 
     @property
     def success(self) -> bool:
@@ -40,12 +45,12 @@ class Verdict:
 class Judge(Protocol):
     """Judges an episode period by period; a collision stays until the next one begins."""
 
-    def judge(self, grasping: Pose, object_position: Array, touch: Touch | None) -> Verdict:
+    def judge(self, grasping: Pose, object_pose: Pose, touch: Touch | None) -> Verdict:
         """The verdict now.
 
         Args:
             grasping: pose of the grasping frame.
-            object_position: centre of the object, shape (3,) [m].
+            object_pose: of the object's centre, its z axis upright.
             touch: of robot and environment in this period.
         """
         ...
@@ -66,10 +71,12 @@ class ReachingCriteria:
     Attributes:
         radii: of the ellipsoid fixed to the grasping frame, along its axes, shape (3,) [m].
         thresholds: displacement along each base axis beyond which the object counts as kicked over, shape (3,) [m].
+        tipping_angle: tilt beyond which it does too, wherever its centre is: it does not stand up again [rad].
     """
 
     radii: Array
     thresholds: Array
+    tipping_angle: float
 
     def begin(self, seen: Observation) -> "ReachingJudge":
         """See `Criteria.begin`."""
@@ -89,18 +96,30 @@ class ReachingJudge:
         self._initial = object_position
         self._collision: Touch | None = None
 
-    def judge(self, grasping: Pose, object_position: Array, touch: Touch | None) -> Verdict:
+    def judge(self, grasping: Pose, object_pose: Pose, touch: Touch | None) -> Verdict:
         """See `Judge.judge`."""
         self._collision = self._collision or touch
-        value = ellipsoid_value(grasping, object_position, self._criteria.radii)
-        displacement = object_position - self._initial
+        criteria = self._criteria
+        value = ellipsoid_value(grasping, object_pose.position, criteria.radii)
+        displacement, tilt = object_pose.position - self._initial, tilt_of(object_pose.orientation)
         return Verdict(
             reached=value <= 1.0,
-            kicked_over=bool(np.any(np.abs(displacement) > self._criteria.thresholds)),
+            kicked_over=bool(np.any(np.abs(displacement) > criteria.thresholds)) or tilt > criteria.tipping_angle,
             collision=self._collision,
             ellipsoid_value=value,
             displacement=displacement,
+            tilt=tilt,
         )
+
+
+def tilt_of(orientation: Array) -> float:
+    """Angle between a body's z axis and the vertical, from 0 to pi [rad].
+
+    Args:
+        orientation: of the body, shape (4,).
+    """
+    x, y, z = rotate(orientation, _UP)
+    return math.atan2(math.hypot(x, y), z)
 
 
 def ellipsoid_value(grasping: Pose, object_position: Array, radii: Array) -> float:

@@ -48,9 +48,9 @@ class ViaPointJudge:
         self._before: Array | None = None
         self._collision: Touch | None = None
 
-    def judge(self, grasping: Pose, object_position: Array, touch: Touch | None) -> Verdict:
+    def judge(self, grasping: Pose, object_pose: Pose, touch: Touch | None) -> Verdict:
         """See `Judge.judge`; a via-point that lies ahead counts as missed by as much as it would be now."""
-        del object_position
+        del object_pose
         self._collision = self._collision or touch
         self._follow(grasping.position)
         ahead = np.isnan(self._passed_at)

@@ -39,6 +39,7 @@ def verdict(value: Verdict) -> messages.Verdict:
         collision_between=value.collision.between if value.collision is not None else None,
         ellipsoid_value=value.ellipsoid_value,
         object_displacement=vector3(value.displacement),
+        object_tilt=value.tilt,
     )
 
 
@@ -81,6 +82,7 @@ def scene_state(scene: AnyScene, variant: str, start: Pose, condition: Array) ->
         object_size=scene.object_size,
         ellipsoid_radii=scene.tolerances,
         kicked_over_thresholds=scene.kick_limits,
+        kicked_over_tilt=scene.tipping_angle,
         start=pose(start),
         object_region=_corners(region) if scene.has_object else (_NONE, _NONE),
         variants=scene.variants,

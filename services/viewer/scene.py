@@ -76,7 +76,7 @@ def log_kick_limits(run: Run, centre: Vector3, limits: Vector3, *, kicked_over: 
         run: where.
         centre: where the object stood at first [m].
         limits: largest displacement on each axis [m].
-        kicked_over: whether it has left the box.
+        kicked_over: whether it has left the box, or has toppled.
     """
     run.log(
         entities.KICK_LIMITS,

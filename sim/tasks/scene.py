@@ -188,6 +188,16 @@ class Scene(ABC):
         """Displacement along each axis beyond which the object counts as kicked over [m]; nought without one."""
         return (0.0, 0.0, 0.0)
 
+    @property
+    def tipping_angle(self) -> float:
+        """How far the object can be tilted and still fall back onto its foot [rad]; nought where there is none.
+
+        Its weight pulls it back for as long as its centre has not passed over the nearest edge of its foot. Over a
+        corner it could be tilted further, but nothing says that it leans over one.
+        """
+        width, depth, height = self.object_size
+        return math.atan(min(width, depth) / height) if self.has_object else 0.0
+
     def targets(self, place: Array) -> tuple[Box, ...]:
         """Return what shows where the targets are; nothing where an object does.
 

@@ -1,5 +1,6 @@
 """Where the robot touches its environment, and how near it is to doing so."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import mujoco
@@ -35,10 +36,20 @@ def collisions(model: mujoco.MjModel, data: mujoco.MjData) -> tuple[Contact, ...
     """Return the contacts between robot and environment in the current state."""
     if data.ncon == 0:
         return ()
-    pairs = data.contact.geom
-    types = model.geom_contype[pairs]
-    hits = np.flatnonzero(np.bitwise_or.reduce(types, axis=1) == ROBOT | ENVIRONMENT)
-    return tuple(_contact(model, data, int(i)) for i in hits)
+    # Asked at every substep: a list of a few numbers is gone through faster than an array.
+    types = model.geom_contype[data.contact.geom].tolist()
+    hits = [i for i, (first, second) in enumerate(types) if first | second == ROBOT | ENVIRONMENT]
+    return tuple(_contact(model, data, i) for i in hits)
+
+
+def strongest(found: Iterable[Contact]) -> tuple[Contact, ...]:
+    """Return of each link and box that met the contact with the largest force, in the order in which they met."""
+    kept: dict[tuple[str, str], Contact] = {}
+    for contact in found:
+        pair = contact.robot_geom, contact.environment_geom
+        if pair not in kept or contact.force > kept[pair].force:
+            kept[pair] = contact
+    return tuple(kept.values())
 
 
 def _contact(model: mujoco.MjModel, data: mujoco.MjData, index: int) -> Contact:

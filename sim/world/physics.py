@@ -1,5 +1,6 @@
 """The simulated arm in its scene: reset, step, observe."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import mujoco
@@ -9,7 +10,7 @@ from numpy.typing import NDArray
 from sim.robots.description import CONTROLLED_JOINTS, HEAD_JOINTS, RobotDescription
 from sim.tasks.scene import NO_ROTATION, ReachingScene
 from sim.world.assembly import DAMPING, OBJECT, STIFFNESS, TIMESTEP, assemble
-from sim.world.contacts import Contact, clearance, collisions
+from sim.world.contacts import Contact, clearance, collisions, strongest
 from sim.world.staging import select
 
 Array = NDArray[np.float64]
@@ -32,7 +33,8 @@ class Observation:
         qd: Joint velocities, shape (8,) [m/s, rad/s].
         object_position: Centre of the object in the base frame, shape (3,) [m].
         object_orientation: Scalar first, shape (4,).
-        contacts: Of the robot with its environment.
+        contacts: Of the robot with its environment, at any step of physics in the last control period: of each link
+            and box that met the one with the largest force.
     """
 
     time: float
@@ -93,7 +95,7 @@ class World:
         qpos[self._object] = [*object_position, *NO_ROTATION]
         self._data.ctrl[: len(CONTROLLED_JOINTS)] = qpos[self._q]
         self._data.ctrl[len(CONTROLLED_JOINTS) :] = self.scene.head
-        mujoco.mj_forward(self._model, self._data)
+        self._look()
 
     def step(self, q_reference: Array, qd_reference: Array) -> None:
         """Advance one control period of 10 ms.
@@ -105,6 +107,7 @@ class World:
             q_reference: Joint positions, shape (8,) [m, rad].
             qd_reference: Joint velocities, shape (8,) [m/s, rad/s].
         """
+        found: list[Contact] = []
         for remaining in reversed(range(_STEPS)):
             q = self._data.qpos[self._q]
             error = q_reference - remaining * TIMESTEP * qd_reference - q
@@ -113,8 +116,9 @@ class World:
             pull = np.clip(error, -_REACH, _REACH) + free * self._lead * qd_reference
             self._data.ctrl[: len(CONTROLLED_JOINTS)] = q + pull
             mujoco.mj_step(self._model, self._data)
+            found.extend(collisions(self._model, self._data))
         # mj_step leaves poses and contacts one step behind the joints.
-        mujoco.mj_forward(self._model, self._data)
+        self._look(found)
 
     def observe(self) -> Observation:
         """Return what there is to be seen now."""
@@ -125,7 +129,7 @@ class World:
             qd=self._data.qvel[self._qd].copy(),
             object_position=pose[:3].copy(),
             object_orientation=pose[3:].copy(),
-            contacts=collisions(self._model, self._data),
+            contacts=self._contacts,
         )
 
     @property
@@ -142,11 +146,16 @@ class World:
         """
         self._data.qpos[:] = qpos
         self._data.qvel[:] = 0.0
-        mujoco.mj_forward(self._model, self._data)
+        self._look()
 
     def clearance(self, limit: float = 0.1) -> float:
         """Return the smallest distance between robot and environment, at most `limit` [m]."""
         return clearance(self._model, self._data, limit)[0]
+
+    def _look(self, before: Sequence[Contact] = ()) -> None:
+        """Bring poses and contacts up to date; those before, of the same period, count too."""
+        mujoco.mj_forward(self._model, self._data)
+        self._contacts = strongest((*before, *collisions(self._model, self._data)))
 
 
 def _keep_log_out_of_working_directory() -> None:

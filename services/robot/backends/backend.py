@@ -39,7 +39,7 @@ class Observation:
         q: joint positions, in the order of `joint_names`, shape (m,) [rad, torso m].
         qd: joint velocities, shape (m,) [rad/s, torso m/s].
         object_pose: of the object's centre in the base frame.
-        touch: the strongest of this moment, None where there is none.
+        touch: the strongest at any moment of the period, None where there was none.
         world: all generalised positions of a simulated world, to draw it; empty on hardware.
         condition: the external state that motions depend on here, shape (c,); empty where it is the object's.
     """

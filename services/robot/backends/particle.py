@@ -19,6 +19,7 @@ JOINTS = ("particle_x", "particle_y", "particle_z")
 _REACH = 0.5  # [m] of each slide, to both sides
 _SPEED = 1.0  # [m/s] of each slide
 _FLAT = 1e-6  # [m, or of a quaternion] that a start may lie beside the plane
+_STEPS = 5  # of a control period, at which it is looked whether the particle touches something
 _APART = 1e3  # [m] what has one part only is as far from itself as can be said
 
 
@@ -92,10 +93,11 @@ class ParticleBackend:
     def reset(self, place: Array, variant: str, q: Array) -> None:
         """Put the particle at q and the via-points at their y, shape (2,) [m]."""
         solid = tuple(box for box in self._scene.boxes(variant) if box.group is not Group.DETAIL)
-        touch = self._touched(solid, q)
+        touch = self._touched(solid, q[None])
         if touch is not None:
             raise Blocked(*touch.between)
         self._solid = solid
+        self._touch: Touch | None = None
         self._variant = variant
         self._condition = place.copy()
         self._q, self._qd, self._time = q.copy(), np.zeros(3), 0.0
@@ -106,8 +108,11 @@ class ParticleBackend:
         self._command = q.copy(), qd.copy()
 
     def elapse(self) -> None:
-        """One control period."""
+        """One control period, of which the particle spends an equal part on each part of its way."""
+        before = self._q
         self._q, self._qd = self._command
+        shares = np.linspace(0.0, 1.0, _STEPS + 1)[1:, None]
+        self._touch = self._touched(self._solid, before + shares * (self._q - before))
         self._time += CONTROL_PERIOD
 
     def observe(self) -> Observation:
@@ -118,21 +123,22 @@ class ParticleBackend:
             q=self._q.copy(),
             qd=self._qd.copy(),
             object_pose=Pose(goal, np.array(NO_ROTATION)),
-            touch=self._touched(self._solid, self._q),
+            touch=self._touch,
             world=np.concatenate([self._q, self._condition]),
             condition=self._condition.copy(),
         )
 
-    def _touched(self, solid: Sequence[Box], q: Array) -> Touch | None:
-        """The first box that the particle at q reaches into; it weighs nothing, so that no force comes of it."""
+    def _touched(self, solid: Sequence[Box], way: Array) -> Touch | None:
+        """The first box that the particle reaches into on its way, shape (n, 3); it weighs nothing: without a force."""
         for box in solid:
-            nearest = _nearest(box, q)
-            if np.linalg.norm(nearest - q) <= self._scene.radius:
-                return Touch(nearest, 0.0, ("particle", box.name))
+            nearest = _nearest(box, way)
+            (reached,) = np.nonzero(np.linalg.norm(nearest - way, axis=1) <= self._scene.radius)
+            if len(reached):
+                return Touch(nearest[reached[0]], 0.0, ("particle", box.name))
         return None
 
 
-def _nearest(box: Box, point: Array) -> Array:
-    """The point of an upright box that is nearest to another, shape (3,) [m]."""
+def _nearest(box: Box, points: Array) -> Array:
+    """The points of an upright box that are nearest to others, shape (n, 3) [m]."""
     centre, half = np.array(box.centre), np.array(box.half_sizes)
-    return np.clip(point, centre - half, centre + half)
+    return np.clip(points, centre - half, centre + half)

@@ -47,7 +47,7 @@ def criteria(shown: Shown) -> tuple[tuple[bool | None, str], ...]:
     moved = max(abs(d) for d in verdict.object_displacement)
     return (
         (True if verdict.reached else _open_while_moving(shown), f"{verdict.ellipsoid_value:.2f}, at most 1"),
-        (not verdict.kicked_over, f"moved {length(moved)}"),
+        (not verdict.kicked_over, f"moved {length(moved)}, tilted {math.degrees(verdict.object_tilt):.0f}°"),
         (not verdict.collision, _contact(verdict)),
     )
 

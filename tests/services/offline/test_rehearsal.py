@@ -79,8 +79,10 @@ def attempt(mode=Mode.AUTONOMOUS, miss=0.0, **verdict):
         ),
         (attempt(reached=False, miss=0.0123), "missed by 12 mm"),
         (
-            attempt(reached=False, miss=0.2, kicked_over=True, object_displacement=(0.01, -0.16, 0.0)),
-            "kicked over by 160 mm, missed by 200 mm",
+            attempt(
+                reached=False, miss=0.2, kicked_over=True, object_displacement=(0.01, -0.16, 0.0), object_tilt=np.pi / 2
+            ),
+            "kicked over by 160 mm and 90 degrees, missed by 200 mm",
         ),
     ],
 )

@@ -5,12 +5,13 @@ from lfd.motion.resampling import at_phases, from_samples
 from lfd.motion.rotations import rotate
 from lfd.motion.trajectory import Trajectory
 from services.offline.rollout import rollout
+from services.offline.steering import steered
 from services.robot.assembly import simulated_arm
 from services.robot.correction import UNCORRECTED, Correction
 from services.robot.starts import StartImpossible
 from sim.pose import Pose
 from sim.robots.description import prepare
-from sim.tasks import scene
+from sim.tasks import REACHING, scene
 
 pytestmark = pytest.mark.sim
 
@@ -107,3 +108,18 @@ def test_an_impossible_start_is_refused_and_nothing_changes(arm, offset, reason)
 def test_the_same_rollout_twice_is_the_same(arm):
     first, second = (rollout(arm, corridor("b1", 4.0), PLACE, variant="b1") for _ in range(2))
     np.testing.assert_array_equal(first.measured.positions, second.measured.positions)
+
+
+@pytest.mark.parametrize("reaching", REACHING.values(), ids=REACHING)
+def test_an_object_that_topples_is_kicked_over_though_its_centre_moved_less_than_is_allowed(
+    reaching,
+):
+    """On its way down the open gripper moves sideways: a finger tips the object over its edge."""
+    place, trained = reaching.training_positions[0], reaching.variants[0]
+    way = steered(reaching.corridor(trained, place), None)
+    share = np.clip((np.linspace(0.0, 1.0, len(way.positions)) - 0.75) / 0.2, 0.0, 1.0)
+    pushing = Trajectory(way.positions + np.outer(share, [0.0, 0.08, 0.02]), way.orientations, way.duration)
+    verdict = rollout(simulated_arm(reaching, trained, prepare()), pushing, place).verdict
+    assert np.all(np.abs(verdict.displacement) < reaching.kicked_thresholds)
+    assert verdict.tilt > np.radians(60.0)
+    assert verdict.kicked_over

@@ -3,15 +3,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lfd.motion.rotations import exp_map, rotate
+from lfd.motion.rotations import exp_map, multiply, rotate
 from services.robot.backends.backend import Touch
-from services.robot.verdict import ReachingCriteria, ReachingJudge, ellipsoid_value
+from services.robot.verdict import ReachingCriteria, ReachingJudge, ellipsoid_value, tilt_of
 from sim.pose import Pose
 
 RADII = np.array([0.05, 0.065, 0.05])
-CRITERIA = ReachingCriteria(RADII, np.array([0.15, 0.1, 0.05]))
+CRITERIA = ReachingCriteria(RADII, np.array([0.15, 0.1, 0.05]), tipping_angle=0.4)
 UPRIGHT = Pose(np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]))
 VECTORS = st.tuples(*[st.floats(-3.0, 3.0)] * 3).map(np.array)
+
+
+def standing(position):
+    return Pose(position, UPRIGHT.orientation)
 
 
 @given(VECTORS, VECTORS, st.floats(0.0, 3.1), st.floats(0.0, 6.2))
@@ -27,8 +31,8 @@ def test_the_boundary_counts_as_reached(axis):
     judge = ReachingJudge(CRITERIA, np.zeros(3))
     on, outside = np.zeros(3), np.zeros(3)
     on[axis], outside[axis] = RADII[axis], RADII[axis] * 1.001
-    assert judge.judge(UPRIGHT, on, None).reached
-    assert not judge.judge(UPRIGHT, outside, None).reached
+    assert judge.judge(UPRIGHT, standing(on), None).reached
+    assert not judge.judge(UPRIGHT, standing(outside), None).reached
 
 
 @pytest.mark.parametrize("axis", range(3))
@@ -38,17 +42,36 @@ def test_kicked_over_is_more_than_the_threshold_on_any_axis(axis, sign):
     judge = ReachingJudge(CRITERIA, placed)
     moved = placed.copy()
     moved[axis] += sign * CRITERIA.thresholds[axis] * 0.999
-    assert not judge.judge(UPRIGHT, moved, None).kicked_over
+    assert not judge.judge(UPRIGHT, standing(moved), None).kicked_over
     moved[axis] += sign * CRITERIA.thresholds[axis] * 0.002
-    assert judge.judge(UPRIGHT, moved, None).kicked_over
+    assert judge.judge(UPRIGHT, standing(moved), None).kicked_over
+
+
+@given(st.floats(0.0, 3.14), st.floats(0.0, 6.28), st.floats(-3.0, 3.0))
+def test_a_tilt_is_the_angle_of_the_upright_axis_whatever_the_turn_about_it(tilt, azimuth, turn):
+    lean = exp_map(tilt * np.array([np.cos(azimuth), np.sin(azimuth), 0.0]))
+    assert tilt_of(multiply(lean, exp_map(np.array([0.0, 0.0, turn])))) == pytest.approx(tilt, abs=1e-7)
+
+
+@pytest.mark.parametrize("axis", [(1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.6, 0.8, 0.0)])
+def test_an_object_that_has_toppled_is_kicked_over_wherever_its_centre_is(axis):
+    judge = ReachingJudge(CRITERIA, np.zeros(3))
+    just, beyond = (
+        Pose(np.zeros(3), exp_map(share * CRITERIA.tipping_angle * np.array(axis))) for share in (0.99, 1.01)
+    )
+    assert judge.judge(UPRIGHT, just, None).success
+    verdict = judge.judge(UPRIGHT, beyond, None)
+    assert verdict.reached
+    assert verdict.kicked_over
+    assert not verdict.success
 
 
 def test_the_first_collision_stays_with_its_place():
     judge = ReachingJudge(CRITERIA, np.zeros(3))
     first, second = (Touch(np.full(3, x), 10.0 * x, ("finger", "basket")) for x in (1.0, 2.0))
-    assert judge.judge(UPRIGHT, np.zeros(3), None).success
-    judge.judge(UPRIGHT, np.zeros(3), first)
-    judge.judge(UPRIGHT, np.zeros(3), second)
-    verdict = judge.judge(UPRIGHT, np.zeros(3), None)
+    assert judge.judge(UPRIGHT, UPRIGHT, None).success
+    judge.judge(UPRIGHT, UPRIGHT, first)
+    judge.judge(UPRIGHT, UPRIGHT, second)
+    verdict = judge.judge(UPRIGHT, UPRIGHT, None)
     assert verdict.collision is first
     assert not verdict.success

@@ -12,6 +12,7 @@ from sim.pose import Pose
 from sim.tasks import PARTICLE
 
 IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
+NOWHERE = Pose(np.zeros(3), IDENTITY)
 CRITERIA = ViaPointCriteria(PARTICLE.via_x, PARTICLE.tolerance)
 
 
@@ -20,7 +21,7 @@ def passed(y_first, y_second, condition=(0.1, -0.05), touch=None):
     judge = CRITERIA.begin(seen(condition))
     for x in np.arange(0.0, 0.4001, 0.0004):
         y = y_first if x < 0.3 else y_second
-        verdict = judge.judge(Pose(np.array([x, y, 0.0]), IDENTITY), np.zeros(3), touch if x > 0.2 else None)
+        verdict = judge.judge(Pose(np.array([x, y, 0.0]), IDENTITY), NOWHERE, touch if x > 0.2 else None)
     return verdict
 
 
@@ -41,15 +42,15 @@ def test_reached_is_both_via_points_within_the_tolerance():
 def test_nothing_is_reached_before_the_last_via_point_lies_behind():
     judge = CRITERIA.begin(seen((0.0, 0.0)))
     for x in np.arange(0.0, 0.3599, 0.001):
-        assert not judge.judge(Pose(np.array([x, 0.0, 0.0]), IDENTITY), np.zeros(3), None).reached
-    assert judge.judge(Pose(np.array([0.3601, 0.0, 0.0]), IDENTITY), np.zeros(3), None).reached
+        assert not judge.judge(Pose(np.array([x, 0.0, 0.0]), IDENTITY), NOWHERE, None).reached
+    assert judge.judge(Pose(np.array([0.3601, 0.0, 0.0]), IDENTITY), NOWHERE, None).reached
 
 
 @given(st.floats(-0.2, 0.2), st.floats(-3.0, 3.0), st.floats(0.0005, 0.02))
 def test_the_y_at_a_via_point_is_that_of_the_line_between_two_periods(y, slope, step):
     judge = ViaPointJudge(ViaPointCriteria((0.2,), 0.01), np.array([y]))
     for x in np.arange(0.0, 0.25, step):
-        verdict = judge.judge(Pose(np.array([x, y + slope * (x - 0.2), 0.0]), IDENTITY), np.zeros(3), None)
+        verdict = judge.judge(Pose(np.array([x, y + slope * (x - 0.2), 0.0]), IDENTITY), NOWHERE, None)
     assert verdict.ellipsoid_value == pytest.approx(0.0, abs=1e-9)
     assert verdict.reached
 

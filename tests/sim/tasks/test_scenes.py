@@ -96,3 +96,14 @@ def test_an_object_is_missed_along_the_line_to_it_and_a_via_point_beside_it():
     assert scene("dishwasher").missed_by(end, target, 2.0) == pytest.approx(0.25)
     assert scene("particle").missed_by(end, target, 1.0) == 0.0
     assert scene("particle").missed_by(end, target, 3.0) == pytest.approx(2.0 * scene("particle").tolerance)
+
+
+def test_a_block_tips_over_the_nearest_edge_of_its_foot():
+    """At the angle its centre stands above that edge: the lower half of its height over half of its width."""
+    for place in REACHING.values():
+        width, depth, height = place.object_size
+        half, edge = height / 2, min(width, depth) / 2
+        above = half * np.tan(place.tipping_angle)
+        assert above == pytest.approx(edge)
+        assert np.radians(20.0) < place.tipping_angle < np.radians(35.0)
+    assert scene("particle").tipping_angle == 0.0

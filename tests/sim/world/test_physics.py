@@ -1,5 +1,6 @@
 from pathlib import Path
 
+import mujoco
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -8,7 +9,7 @@ from sim.exceptions import UnknownVariant
 from sim.robots.description import CONTROLLED_JOINTS, RobotDescription
 from sim.tasks import REACHING, scene
 from sim.tasks.scene import ReachingScene
-from sim.world.contacts import Contact
+from sim.world.contacts import Contact, collisions
 from sim.world.physics import CONTROL_PERIOD, World
 
 pytestmark = pytest.mark.sim
@@ -79,6 +80,35 @@ def test_contacts_name_link_and_box(description: RobotDescription) -> None:
     assert contacts[0].environment_geom == "table_top"
     assert contacts[0].robot_geom.startswith(("arm", "gripper", "wrist"))
     assert contacts[0].position[2] == pytest.approx(0.66, abs=0.005)
+
+
+def test_whatever_was_touched_within_a_period_counts_with_its_largest_force(
+    description: RobotDescription, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The gripper sinks onto the table and is drawn away: what the physics' own steps saw, the period tells."""
+    place = scene("table")
+    world, still = World(place, "clear", description), World(place, "clear", description)
+    seen: list[Contact] = []
+
+    def stepped(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        mj_step(model, data)
+        seen.extend(collisions(model, data))
+
+    mj_step = mujoco.mj_step
+    monkeypatch.setattr(mujoco, "mj_step", stepped)
+    sinking, q = np.array([-0.05, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]), place.posture
+    left = 0
+    for tick in range(400):
+        speed = sinking if tick < 260 else -4.0 * sinking
+        q = q + CONTROL_PERIOD * speed
+        seen.clear()
+        world.step(q, speed)
+        told = {(one.robot_geom, one.environment_geom): one.force for one in world.observe().contacts}
+        for one in seen:
+            assert told[one.robot_geom, one.environment_geom] >= one.force
+        still.set_state(world.state)
+        left += bool(told) and not still.observe().contacts
+    assert left > 0, "a period at whose end the gripper had left the table was told as one with a contact"
 
 
 def test_a_state_can_be_carried_to_another_world(description: RobotDescription) -> None:

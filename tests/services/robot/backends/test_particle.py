@@ -62,9 +62,22 @@ def test_a_reset_puts_particle_and_via_points_in_place():
 )
 def test_the_particle_touches_the_obstacle_with_its_surface(variant, position, touching):
     backend = ParticleBackend(PARTICLE, variant)
-    backend.command(np.array(position), np.zeros(3))
-    backend.elapse()
+    for way in ((0.0, 0.1, 0.0), (position[0] - 0.001, 0.1, 0.0), position):  # around the obstacle, onto its surface
+        backend.command(np.array(way), np.zeros(3))
+        backend.elapse()
     touch = backend.observe().touch
     assert (touch is not None) == touching
     if touch is not None:
         assert touch.between == ("particle", "block")
+
+
+def test_what_the_particle_passes_through_within_a_period_is_touched():
+    backend = ParticleBackend(PARTICLE, OBSTACLE)
+    backend.command(np.array([0.12, 0.0, 0.0]), np.zeros(3))
+    backend.elapse()
+    touch = backend.observe().touch
+    assert touch is not None
+    assert touch.between == ("particle", "block")
+    backend.command(np.array([0.13, 0.0, 0.0]), np.zeros(3))
+    backend.elapse()
+    assert backend.observe().touch is None
