@@ -2,9 +2,10 @@
 
 import math
 from dataclasses import dataclass
+from enum import Enum
 from numbers import Integral, Real
 
-from lfd.exceptions import OutOfRange
+from lfd.exceptions import OutOfRange, TooFewPoints
 
 
 @dataclass(frozen=True)
@@ -47,6 +48,7 @@ FINITE = Bounds()
 POSITIVE = Bounds(0.0, above=True)
 NOT_NEGATIVE = Bounds(0.0)
 FRACTION = Bounds(0.0, 1.0)
+SHARE = Bounds(0.0, 1.0, above=True)
 
 
 def at_least(least: int, most: float = math.inf) -> Bounds:
@@ -69,15 +71,54 @@ def check_number(name: str, value: object, bounds: Bounds) -> None:
         raise OutOfRange(name, value, str(bounds))
 
 
-def check_options(options: object, **bounds: Bounds) -> None:
-    """Let a set of options pass whose numbers are within their bounds.
+def check_type(name: str, value: object, wanted: type) -> None:
+    """Let a value of a type pass.
+
+    Args:
+        name: What it is called in an error.
+        value: That a caller gave.
+        wanted: Its type; where that is an enumeration, an error lists what there is.
+
+    Raises:
+        OutOfRange: It is of another type.
+    """
+    if not isinstance(value, wanted):
+        choices = [f"{wanted.__name__}.{one.name}" for one in wanted] if issubclass(wanted, Enum) else []
+        raise OutOfRange(name, value, f"one of {', '.join(choices)}" if choices else f"of type {wanted.__name__}")
+
+
+def check_options(options: object, **allowed: Bounds | type) -> None:
+    """Let a set of options pass whose numbers are within their bounds, and whose other values are of their types.
 
     Args:
         options: That have the named attributes.
-        bounds: Of each attribute, by its name.
+        allowed: Bounds or type of each attribute, by its name.
 
     Raises:
-        OutOfRange: One is not within them; named as `Type.attribute`.
+        OutOfRange: One is not what is allowed; named as `Type.attribute`.
     """
-    for name, within in bounds.items():
-        check_number(f"{type(options).__name__}.{name}", getattr(options, name), within)
+    for name, wanted in allowed.items():
+        called, value = f"{type(options).__name__}.{name}", getattr(options, name)
+        if isinstance(wanted, Bounds):
+            check_number(called, value, wanted)
+        else:
+            check_type(called, value, wanted)
+
+
+def check_points(name: str, n: int) -> None:
+    """Let a number of points pass that make a trajectory.
+
+    Args:
+        name: What has them, in an error.
+        n: At least 2.
+
+    Raises:
+        TooFewPoints: There are fewer.
+        OutOfRange: It is no whole number.
+    """
+    check_number(f"the number of points of the {name}", n, _WHOLE)
+    if n < 2:
+        raise TooFewPoints(name, n)
+
+
+_WHOLE = Bounds(whole=True)

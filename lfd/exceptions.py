@@ -10,6 +10,7 @@ LfdError
 ├── NotUnitQuaternion       an orientation is not a unit quaternion
 ├── TimesNotIncreasing      the times of samples do not increase strictly
 ├── OutOfRange              a number lies outside its range
+├── UnreachableViaPoint     a via-point cannot be met without swinging the motion
 ├── NothingToTakeBack       a model without a correction has none to forget
 ├── TableError              a table that a person wrote down cannot be read, or its numbers cannot be meant
 └── StorageError            the store's file cannot be used
@@ -18,6 +19,7 @@ LfdError
     └── NothingToUndo       it holds no active demonstration of a kind
 """
 
+import math
 from collections.abc import Sequence
 from numbers import Real
 from pathlib import Path
@@ -108,6 +110,26 @@ class OutOfRange(LfdError):
         self.allowed = allowed
         shown = f"{value:g}" if isinstance(value, Real) else repr(value)
         super().__init__(f"{name} is {shown}: it must be {allowed}")
+
+
+class UnreachableViaPoint(LfdError):
+    """A via-point cannot be met without swinging the rest of the motion.
+
+    Attributes:
+        phase: Of the via-point.
+        offset: How far it lies off the motion [m].
+        swing: How far the motion would be led away to meet it [m]; infinite where nothing meets it.
+    """
+
+    def __init__(self, phase: float, offset: float, swing: float) -> None:
+        self.phase = phase
+        self.offset = offset
+        self.swing = swing
+        cost = f"would swing it by {swing:.3g} m" if swing < math.inf else "cannot be met: the start is given"
+        super().__init__(
+            f"the via-point at phase {phase:g}, {offset:.3g} m off the motion, {cost};"
+            " give it a later phase or a wider covariance, or let the motion start elsewhere"
+        )
 
 
 class NothingToTakeBack(LfdError):

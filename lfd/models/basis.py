@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lfd.arrays import Array
-from lfd.exceptions import OutOfRange
+from lfd.bounds import Bounds, at_least, check_options
 
 
 @dataclass(frozen=True)
@@ -14,20 +14,19 @@ class GaussianBasis:
 
     Attributes:
         count: N, at least 2.
-        width: Standard deviation of a bump, as a fraction of the trajectory.
+        width: Standard deviation of a bump, as a fraction of the trajectory, at least a fiftieth of the distance
+            between two centres: narrower ones leave phases between them where none says anything.
 
     Raises:
-        OutOfRange: There are fewer than two functions, or the width is not positive.
+        OutOfRange: There are fewer than two functions, or they are too narrow.
     """
 
     count: int = 10
     width: float = 0.1
 
     def __post_init__(self) -> None:
-        if self.count < 2:
-            raise OutOfRange("number of basis functions", self.count, "at least 2")
-        if not self.width > 0.0:
-            raise OutOfRange("width of the basis functions", self.width, "positive")
+        check_options(self, count=at_least(2))
+        check_options(self, width=Bounds(0.02 / (self.count - 1)))
 
     def matrix(self, phases: Array) -> Array:
         """Phi of equation (2): the functions at the phases (T,), shape (T, N); each row sums to one."""

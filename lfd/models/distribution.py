@@ -7,46 +7,16 @@ robotics", Autonomous Robots 42, 2018), for whatever model the distribution come
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
 
 from lfd.arrays import Array, checked, frozen
+from lfd.bounds import NOT_NEGATIVE, at_least, check_number, check_options, check_points
 from lfd.exceptions import OutOfRange
 from lfd.models.encoding import OUTPUTS, Encoding
+from lfd.models.encoding import POSITION as POSITION  # noqa: PLC0414  # others know it from here
+from lfd.models.via_point import ViaPoint, gain_of, position_rows
 from lfd.motion.demonstration import Situation
 from lfd.motion.rotations import rotate, slerp
 from lfd.motion.trajectory import Trajectory
-
-POSITION = 3  # the first outputs
-
-
-@dataclass(frozen=True, eq=False)
-class ViaPoint:
-    """A place where the end effector is to be at a time.
-
-    Attributes:
-        phase: Time as a fraction of the motion, 0 to 1.
-        position: In the base frame, shape (3,) [m].
-        covariance: How exactly, shape (3, 3), symmetric and positive semi-definite; zero for exactly [m^2].
-
-    Raises:
-        OutOfRange: The phase is not in [0, 1], or the covariance not positive semi-definite.
-        WrongShape: An array has the wrong shape.
-        NotFinite: A number is NaN or infinite.
-    """
-
-    phase: float
-    position: Array
-    covariance: Array
-
-    def __post_init__(self) -> None:
-        if not 0.0 <= self.phase <= 1.0:
-            raise OutOfRange("phase of the via-point", self.phase, "from 0 to 1")
-        object.__setattr__(self, "position", checked("position", self.position, (3,)))
-        covariance = checked("covariance", self.covariance, (3, 3))
-        least = float(np.linalg.eigvalsh(0.5 * (covariance + covariance.T)).min())
-        if least < -_ROUNDING * max(1.0, float(np.abs(covariance).max())):
-            raise OutOfRange("least eigenvalue of the via-point's covariance", least, "zero or more")
-        object.__setattr__(self, "covariance", frozen(0.5 * (covariance + covariance.T)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,6 +29,9 @@ class MotionDistribution:
         mean: As `Encoding.encode` gives it, shape (D,).
         covariance: Of it, shape (D, D).
         noise_std: Of each position about the weights' motion (sigma of equation (13)) [m].
+
+    Raises:
+        OutOfRange: `noise_std` is negative.
     """
 
     encoding: Encoding
@@ -67,8 +40,15 @@ class MotionDistribution:
     covariance: Array
     noise_std: float = 0.0
 
+    def __post_init__(self) -> None:
+        check_options(self, noise_std=NOT_NEGATIVE)
+
     def trajectory(self, n: int) -> Trajectory:
-        """The mean motion, n points in the base frame."""
+        """The mean motion, n points in the base frame.
+
+        Raises:
+            TooFewPoints: n is less than 2.
+        """
         return self.encoding.decode(self.mean, self.situation, n)
 
     def position_covariances(self, n: int) -> Array:
@@ -82,7 +62,12 @@ class MotionDistribution:
         return float(np.exp(self.mean[-1]) * np.sqrt(max(self.covariance[-1, -1], 0.0)))
 
     def velocities(self, n: int) -> tuple[Array, Array]:
-        """Linear [m/s] and angular [rad/s] velocities of the mean motion at n equal times, base frame, each (n, 3)."""
+        """Linear [m/s] and angular [rad/s] velocities of the mean motion at n equal times, base frame, each (n, 3).
+
+        Raises:
+            TooFewPoints: n is less than 2.
+        """
+        check_points("motion", n)
         phases, duration = np.linspace(0.0, 1.0, n), float(np.exp(self.mean[-1]))
         outputs = self.encoding.outputs(self.mean, self.situation, phases)
         rates = self.encoding.output_rates(self.mean, self.situation, phases) / duration
@@ -96,33 +81,36 @@ class MotionDistribution:
             rng: Where chance comes from.
             count: Number of motions.
             n: Points of each.
+
+        Raises:
+            OutOfRange: The number of motions is negative.
+            TooFewPoints: n is less than 2.
         """
+        check_number("number of samples", count, at_least(0))
+        check_points("motion", n)
         values, vectors = np.linalg.eigh(self.covariance)
         spread = vectors * np.sqrt(np.maximum(values, 0.0))
         draws = self.mean + rng.standard_normal((count, len(values))) @ spread.T
         return [self.encoding.decode(x, self.situation, n) for x in draws]
 
     def through(self, via: ViaPoint) -> "MotionDistribution":
-        """The distribution given that the motion passes a via-point (Paraschos et al. 2018, eq. 15 and 16)."""
-        rows = self._position_rows(via.phase)
-        at = self.encoding.outputs(self.mean, self.situation, np.array([via.phase]))[0, :POSITION]
-        innovation = via.position - self.situation.origin - at
-        spread = rows @ self.covariance
-        # Where the motion cannot move, as at an anchored start, there is nothing to gain.
-        joint = spread @ rows.T + via.covariance + _ROUNDING * np.trace(self.covariance) * np.eye(POSITION)
-        if not np.any(joint):
-            return self
-        gain = cho_solve(cho_factor(joint), spread).T
-        remaining = np.eye(len(self.mean)) - gain @ rows
-        covariance = remaining @ self.covariance @ remaining.T + gain @ via.covariance @ gain.T
-        return replace(self, mean=frozen(self.mean + gain @ innovation), covariance=frozen(covariance))
+        """The distribution given that the motion passes a via-point (Paraschos et al. 2018, eq. 15 and 16).
 
-    def _position_rows(self, phase: float) -> Array:
-        """The linear map from the vector to the position at a phase, shape (3, D)."""
-        row = self.encoding.rows(np.array([phase]))[0]
-        rows = np.zeros((POSITION, len(self.mean)))
-        rows[:, :-1] = np.kron(row, np.eye(POSITION, OUTPUTS))
-        return rows
+        Those equations are kept to where they lead the motion no further away, anywhere, than `SWING` times as far as
+        the via-point lies off it, and to within `MISSED` of the via-point's own deviations. Elsewhere a local detour is
+        allowed for, as much as that takes; see `lfd.models.via_point`.
+
+        Raises:
+            UnreachableViaPoint: It lies off the motion so near to a start that is given, or at it, that no detour leads
+                there.
+        """
+        at = self.encoding.outputs(self.mean, self.situation, np.array([via.phase]))[0, :POSITION]
+        offset = via.position - self.situation.origin - at
+        gain, rows = gain_of(self.encoding, self.covariance, via, offset), position_rows(self.encoding, via.phase)
+        # (I - G R) Sigma (I - G R)^T + G S G^T, which holds for any gain G: multiplied out, of second order in D.
+        carried = self.covariance @ rows.T @ gain.T
+        covariance = self.covariance - carried - carried.T + gain @ (rows @ carried + via.covariance @ gain.T)
+        return replace(self, mean=frozen(self.mean + gain @ offset), covariance=frozen(covariance))
 
 
 def position_covariances(encoding: Encoding, covariance: Array, n: int) -> Array:
@@ -132,7 +120,11 @@ def position_covariances(encoding: Encoding, covariance: Array, n: int) -> Array
         encoding: Of the vectors.
         covariance: Of a vector, shape (D, D).
         n: Number of points.
+
+    Raises:
+        TooFewPoints: n is less than 2.
     """
+    check_points("motion", n)
     N = encoding.basis.count
     Phi = encoding.rows(np.linspace(0.0, 1.0, n))
     Sigma = covariance[:-1, :-1].reshape(N, OUTPUTS, N, OUTPUTS)[:, :POSITION, :, :POSITION]
@@ -156,13 +148,15 @@ def blend(first: MotionDistribution, second: MotionDistribution, shares: Array) 
 
     Raises:
         OutOfRange: A share is not in [0, 1].
+        TooFewPoints: There are fewer than two shares.
         WrongShape: The shares are no vector.
     """
     activation = checked("shares", shares, (None,))
+    n = len(activation)
+    check_points("blend", n)
     if activation.min() < 0.0 or activation.max() > 1.0:
         wrong = activation.min() if activation.min() < 0.0 else activation.max()
         raise OutOfRange("share", float(wrong), "from 0 to 1")
-    n = len(activation)
     a, b = first.trajectory(n), second.trajectory(n)
     weights = [(1.0 - activation)[:, None, None], activation[:, None, None]]
     information = np.zeros((n, POSITION, POSITION))

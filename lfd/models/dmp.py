@@ -37,7 +37,8 @@ from typing import Self
 import numpy as np
 
 from lfd.arrays import Array, checked, checked_quaternions, frozen
-from lfd.exceptions import OutOfRange, TooFewPoints
+from lfd.bounds import Bounds, at_least, check_options, check_points
+from lfd.exceptions import OutOfRange
 from lfd.motion.resampling import Interpolation, resample
 from lfd.motion.rotations import conjugate, exp_map, log_map, multiply
 from lfd.motion.trajectory import PREDICTION_POINTS, Trajectory
@@ -76,12 +77,13 @@ class DmpOptions:
     scaling: Scaling = Scaling.NONE
 
     def __post_init__(self) -> None:
-        if self.count < 2:
-            raise OutOfRange("number of basis functions", self.count, "at least 2")
-        if not 0.0 < self.alpha_y <= 1000.0:
-            raise OutOfRange("alpha_y", self.alpha_y, "above 0 and at most 1000")
-        if not 0.0 < self.alpha_x <= 20.0:
-            raise OutOfRange("alpha_x", self.alpha_x, "above 0 and at most 20")
+        check_options(
+            self,
+            count=at_least(2),
+            alpha_y=Bounds(0.0, 1000.0, above=True),
+            alpha_x=Bounds(0.0, 20.0, above=True),
+            scaling=Scaling,
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,8 +152,7 @@ class DMP:
             NotUnitQuaternion: An orientation is not a unit quaternion.
             InvalidDuration: The duration is not positive.
         """
-        if n < 2:
-            raise TooFewPoints("reproduction", n)
+        check_points("reproduction", n)
         y0, q0 = _checked_pose("start", start_pose)
         g, q_g = _checked_pose("goal", goal_pose)
         turn = _nearest(log_map(multiply(q0, conjugate(q_g))), self.displacement[3:])

@@ -7,6 +7,7 @@ from functools import lru_cache
 import numpy as np
 
 from lfd.arrays import Array, checked_quaternions, frozen
+from lfd.bounds import at_least, check_options, check_points
 from lfd.models.basis import GaussianBasis, least_squares
 from lfd.motion.demonstration import Demonstration, Situation
 from lfd.motion.resampling import resample
@@ -20,6 +21,7 @@ def reference_rotation(demonstrations: Sequence[Demonstration]) -> Array:
 
 
 OUTPUTS = 6  # x, y, z and the rotation vector
+POSITION = 3  # the first outputs
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +38,11 @@ class Encoding:
         rotation: The reference rotation, unit quaternion (w, x, y, z).
         anchored: Encode what remains after a straight blend-out of the start pose, and put the known start pose back
             at decoding: a prediction then begins exactly where the robot is.
+
+    Raises:
+        OutOfRange: There are fewer than 2 samples.
+        WrongShape: The rotation is no quaternion.
+        NotUnitQuaternion: It is not a unit quaternion.
     """
 
     basis: GaussianBasis
@@ -44,6 +51,7 @@ class Encoding:
     anchored: bool
 
     def __post_init__(self) -> None:
+        check_options(self, basis=GaussianBasis, samples=at_least(2))
         object.__setattr__(self, "rotation", checked_quaternions("rotation", self.rotation, (4,)))
 
     def encode(self, demonstration: Demonstration) -> Array:
@@ -65,9 +73,11 @@ class Encoding:
             n: Number of points.
 
         Raises:
+            TooFewPoints: n is less than 2.
             NotFinite: The vector stands for no motion: its duration is beyond all numbers.
             InvalidDuration: Or it is none.
         """
+        check_points("decoded motion", n)
         outputs = self.outputs(x, situation, np.linspace(0.0, 1.0, n))
         with np.errstate(over="ignore"):
             duration = float(np.exp(x[-1]))

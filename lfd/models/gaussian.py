@@ -6,7 +6,8 @@ import numpy as np
 from scipy.linalg.lapack import dtrtrs
 
 from lfd.arrays import Array, checked, frozen
-from lfd.exceptions import OutOfRange, TooFewDemonstrations
+from lfd.bounds import POSITIVE, SHARE, check_number
+from lfd.exceptions import TooFewDemonstrations
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,8 +68,7 @@ def welford(joint: JointGaussian, x: Array, kept: float = 1.0) -> JointGaussian:
     Raises:
         OutOfRange: The forgetting factor is not in (0, 1].
     """
-    if not 0.0 < kept <= 1.0:
-        raise OutOfRange("forgetting factor", kept, "above 0, at most 1")
+    check_number("kept, the forgetting factor,", kept, SHARE)
     before = kept * joint.count
     M = before + 1.0
     deviation = x - joint.mean
@@ -106,8 +106,7 @@ def condition(joint: JointGaussian, s: Array, noise: float) -> Conditional:
     Raises:
         OutOfRange: The noise is not positive.
     """
-    if not noise > 0.0:
-        raise OutOfRange("conditioning noise", noise, "positive")
+    check_number("noise, of the condition,", noise, POSITIVE)
     k, scale = len(joint.mean) - len(s), 1.0 / joint.divisor
     Sigma_sw = scale * joint.scatter[k:, :k]
     L = np.linalg.cholesky(scale * joint.scatter[k:, k:] + noise * np.eye(len(s)))

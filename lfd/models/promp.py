@@ -7,6 +7,7 @@ from typing import Self
 import numpy as np
 
 from lfd.arrays import Array
+from lfd.bounds import NOT_NEGATIVE, POSITIVE, SHARE, at_least, check_options
 from lfd.models.basis import GaussianBasis
 from lfd.models.distribution import MotionDistribution
 from lfd.models.encoding import OUTPUTS, Encoding, reference_rotation
@@ -33,6 +34,10 @@ class PrompOptions:
         observation_std: sigma of equation (13) [m].
         selection: Of the demonstrations of a condition. The thesis' is `Selection.SIMILAR_PAIR`.
         kept: What an older motion still counts after an update; 1 is Welford's method, as in the thesis.
+
+    Raises:
+        OutOfRange: There are fewer than 2 samples, the conditioning noise is not positive, the observation's deviation
+            negative, `kept` not above 0 and at most 1, or an option of another type.
     """
 
     basis: GaussianBasis = _BASIS
@@ -41,6 +46,17 @@ class PrompOptions:
     observation_std: float = 0.01
     selection: Selection = Selection.ALL
     kept: float = 1.0
+
+    def __post_init__(self) -> None:
+        check_options(
+            self,
+            basis=GaussianBasis,
+            samples=at_least(2),
+            conditioning_noise=POSITIVE,
+            observation_std=NOT_NEGATIVE,
+            selection=Selection,
+            kept=SHARE,
+        )
 
 
 @dataclass(frozen=True, eq=False)

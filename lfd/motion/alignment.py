@@ -7,6 +7,7 @@ from enum import StrEnum
 import numpy as np
 
 from lfd.arrays import Array
+from lfd.bounds import NOT_NEGATIVE, check_number, check_type
 from lfd.distances import squared_distances
 from lfd.motion.demonstration import Demonstration, relative_to_origin, to_base
 from lfd.motion.dtw import dtw
@@ -97,7 +98,12 @@ def align(
         demonstrations: Of any conditions.
         tolerance: See `group_by_condition`.
         selection: Which of them to keep.
+
+    Raises:
+        OutOfRange: The tolerance is negative, or the selection none.
     """
+    check_number("tolerance", tolerance, NOT_NEGATIVE)
+    check_type("selection", selection, Selection)
     aligned: dict[int, Demonstration] = {}
     for group in group_by_condition(np.array([d.condition for d in demonstrations]), tolerance):
         members = [relative_to_origin(demonstrations[i].trajectory, demonstrations[i].origin) for i in group]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from lfd.exceptions import OutOfRange
+from lfd.bounds import FRACTION, check_number, check_points
 from lfd.motion.dtw import dtw
 from lfd.motion.resampling import from_samples, resample
 from lfd.motion.rotations import slerp
@@ -28,8 +28,8 @@ def refine(
         OutOfRange: alpha is not in [0, 1].
         TooFewPoints: n is less than 2.
     """
-    if not 0.0 <= alpha <= 1.0:
-        raise OutOfRange("alpha", alpha, "from 0 to 1")
+    check_number("alpha", alpha, FRACTION)
+    check_points("refined motion", n)
     longer = max(prediction.n_points, refinement.n_points)
     old, human = resample(prediction, longer), resample(refinement, longer)
     i, j = dtw(old.positions, human.positions).path.T

@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lfd.arrays import Array, checked, checked_quaternions
-from lfd.exceptions import TimesNotIncreasing, TooFewPoints, WrongShape
+from lfd.bounds import check_points, check_type
+from lfd.exceptions import TimesNotIncreasing, WrongShape
 from lfd.motion.rotations import sign_continuous, slerp
 from lfd.motion.spline import cubic_spline
 from lfd.motion.trajectory import Trajectory
@@ -29,9 +30,10 @@ def resample(trajectory: Trajectory, n: int, interpolation: Interpolation = Inte
 
     Raises:
         TooFewPoints: n is less than 2.
+        OutOfRange: It is no whole number, or the interpolation none.
     """
-    if n < 2:
-        raise TooFewPoints("resampled trajectory", n)
+    check_points("resampled trajectory", n)
+    check_type("interpolation", interpolation, Interpolation)
     return at_phases(trajectory, np.linspace(0.0, 1.0, n), interpolation)
 
 
@@ -65,8 +67,8 @@ def from_samples(times: ArrayLike, positions: ArrayLike, orientations: ArrayLike
         raise WrongShape("positions", f"({len(t)}, 3)", p.shape)
     if len(q) != len(t):
         raise WrongShape("orientations", f"({len(t)}, 4)", q.shape)
-    if min(len(t), n) < 2:
-        raise TooFewPoints("samples", min(len(t), n))
+    check_points("samples", len(t))
+    check_points("resampled trajectory", n)
     backwards = np.flatnonzero(np.diff(t) <= 0.0)
     if backwards.size:
         i = int(backwards[0])

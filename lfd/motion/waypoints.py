@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lfd.arrays import checked
-from lfd.exceptions import TooFewPoints, TooFewWaypoints
+from lfd.bounds import check_points
+from lfd.exceptions import TooFewWaypoints
 from lfd.motion.resampling import at_phases
 from lfd.motion.spline import quadratic_spline
 from lfd.motion.trajectory import PREDICTION_POINTS, Trajectory
@@ -40,8 +41,7 @@ def through_waypoints(
     y = checked("positions", positions, (None, 3))
     if len(y) < LEAST_WAYPOINTS:
         raise TooFewWaypoints(len(y))
-    if n < 2:
-        raise TooFewPoints("motion through waypoints", n)
+    check_points("motion through waypoints", n)
     waypoints = Trajectory(y, np.asarray(orientations, dtype=np.float64), duration)
     phases = np.linspace(0.0, 1.0, n)
     # Its positions lie on straight lines between the waypoints; only its orientations are kept.

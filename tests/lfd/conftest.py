@@ -14,19 +14,20 @@ def rng():
     return np.random.default_rng(20210301)
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def reach():
     """A function that makes a smooth reaching motion to an object, bulging by `bend` [m] to the side."""
 
-    def make(object_position, bend=0.0, start=(0.5, 0.0, 0.5), duration=5.0, n=60):
-        object_position, start = np.asarray(object_position, float), np.asarray(start, float)
-        t = np.linspace(0.0, 1.0, n)[:, None]
-        smooth = t * t * (3.0 - 2.0 * t)
-        positions = start + smooth * (object_position - start) + np.sin(np.pi * t) * [0.0, bend, 0.1]
-        orientations = exp_map(smooth * [0.2, -0.3, 0.1] + [0.0, 0.4, 0.0])
-        return Demonstration.reaching(Trajectory(positions, orientations, duration), object_position)
+    return _reaching
 
-    return make
+
+def _reaching(object_position, bend=0.0, start=(0.5, 0.0, 0.5), duration=5.0, n=60):
+    object_position, start = np.asarray(object_position, float), np.asarray(start, float)
+    t = np.linspace(0.0, 1.0, n)[:, None]
+    smooth = t * t * (3.0 - 2.0 * t)
+    positions = start + smooth * (object_position - start) + np.sin(np.pi * t) * [0.0, bend, 0.1]
+    orientations = exp_map(smooth * [0.2, -0.3, 0.1] + [0.0, 0.4, 0.0])
+    return Demonstration.reaching(Trajectory(positions, orientations, duration), object_position)
 
 
 @pytest.fixture(scope="session")

@@ -3,10 +3,11 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from lfd.exceptions import OutOfRange, WrongShape
+from lfd.exceptions import OutOfRange, UnreachableViaPoint, WrongShape
 from lfd.models.adaptive.adaptation import AdaptiveProMP
-from lfd.models.distribution import ViaPoint, blend
+from lfd.models.distribution import blend
 from lfd.models.promp import ConditionedProMP
+from lfd.models.via_point import SWING, ViaPoint
 from lfd.motion.rotations import conjugate, log_map, multiply
 
 PLACES = [[0.9, 0.3, 0.6], [0.85, 0.05, 0.62], [0.92, -0.3, 0.58], [0.8, -0.1, 0.65]]
@@ -68,8 +69,9 @@ def test_a_vague_via_point_draws_the_motion_as_a_product_of_gaussians_does(distr
 
 
 def test_the_order_of_via_points_does_not_matter(distribution):
-    vague = 1e-4 * np.eye(3)
-    first, second = ViaPoint(0.3, np.array([0.6, 0.0, 0.6]), vague), ViaPoint(0.7, np.array([0.8, 0.1, 0.65]), vague)
+    """Of those that the motion is led through as the covariance carries them on."""
+    vague, path = 1e-4 * np.eye(3), distribution.trajectory(11).positions
+    first, second = ViaPoint(0.4, path[4] + 0.004, vague), ViaPoint(0.7, path[7] - 0.004, vague)
     there, back = distribution.through(first).through(second), distribution.through(second).through(first)
     np.testing.assert_allclose(there.trajectory(50).positions, back.trajectory(50).positions, atol=1e-7)
 
@@ -77,11 +79,66 @@ def test_the_order_of_via_points_does_not_matter(distribution):
 def test_the_start_of_an_anchored_motion_cannot_be_moved(reach):
     model = AdaptiveProMP.fit([reach(place) for place in PLACES])
     distribution = model.distribution(reach(PLACES[0]).situation)
-    led = distribution.through(exactly(0.0, [0.0, 0.0, 0.0]))
-    np.testing.assert_allclose(led.trajectory(20).positions, distribution.trajectory(20).positions, atol=1e-6)
+    start = distribution.trajectory(20).positions[0]
+    with pytest.raises(UnreachableViaPoint, match="the start is given") as caught:
+        distribution.through(exactly(0.0, start + np.array([0.0, 0.03, 0.04])))
+    assert (caught.value.phase, caught.value.offset, caught.value.swing) == (0.0, pytest.approx(0.05), np.inf)
+    led = distribution.through(exactly(0.0, start))
+    np.testing.assert_allclose(led.trajectory(20).positions, distribution.trajectory(20).positions, atol=1e-9)
 
 
-@given(phase=st.floats(0.0, 1.0), seed=st.integers(0, 2**32 - 1))
+def test_the_start_of_a_motion_that_is_not_anchored_is_moved(reach):
+    distribution = ConditionedProMP.fit([reach(place) for place in PLACES]).distribution(reach(PLACES[0]).situation)
+    place = distribution.trajectory(20).positions[0] + [0.0, 0.03, 0.04]
+    np.testing.assert_allclose(distribution.through(exactly(0.0, place)).trajectory(20).positions[0], place, atol=1e-4)
+
+
+def test_a_via_point_just_after_a_given_start_swings_nothing(reach):
+    """One 5 cm aside at phase 0.002 swung the motion by 5.4 m."""
+    distribution = AdaptiveProMP.fit([reach(PLACES[0])]).distribution(reach(PLACES[0]).situation)
+    with pytest.raises(UnreachableViaPoint, match="later phase") as caught:
+        distribution.through(exactly(0.002, distribution.trajectory(501).positions[1] + [0.0, 0.05, 0.0]))
+    assert 0.05 * SWING < caught.value.swing < np.inf
+
+
+@pytest.fixture(scope="module")
+def taught(reach):
+    """Distributions of both models, of one demonstration and of several."""
+    motions = [reach(place, bend=0.05 * i, duration=4.0 + i) for i, place in enumerate(PLACES)]
+    wanted = reach([0.9, 0.1, 0.6]).situation
+    return [kind.fit(motions[:m]).distribution(wanted) for kind in (AdaptiveProMP, ConditionedProMP) for m in (1, 2, 4)]
+
+
+@given(
+    which=st.integers(0, 5),
+    phase=st.floats(0.0, 1.0) | st.floats(0.0, 0.05),
+    offset=st.tuples(*[st.floats(-0.3, 0.3)] * 3),
+    stds=st.tuples(*[st.sampled_from([0.0, 1e-4, 1e-3, 1e-2, 0.1])] * 3),
+)
+@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_a_via_point_is_met_without_swinging_the_motion_or_refused_near_a_given_start(
+    taught, which, phase, offset, stds
+):
+    """It is met to within three of its own standard deviations, and nothing moves by more than 1.25 times as far."""
+    distribution, covariance = taught[which], np.diag(np.square(stds))
+    before = distribution.encoding.outputs(distribution.mean, distribution.situation, np.array([phase]))[0, :3]
+    away = float(np.linalg.norm(offset))
+    via = ViaPoint(phase, before + offset + distribution.situation.origin, covariance)
+    try:
+        led = distribution.through(via)
+    except UnreachableViaPoint:
+        assert distribution.encoding.anchored
+        assert phase < 0.01
+        return
+    moved = led.trajectory(501).positions - distribution.trajectory(501).positions
+    assert np.linalg.norm(moved, axis=1).max() <= 1.01 * SWING * away + 1e-9
+    at = led.encoding.outputs(led.mean, led.situation, np.array([phase]))[0, :3]
+    missed, deviation = before + offset - at, covariance + (1e-3 * away + 1e-9) ** 2 * np.eye(3)
+    assert missed @ np.linalg.solve(deviation, missed) <= 3.0**2
+    assert np.linalg.eigvalsh(led.position_covariances(25)).min() > -1e-12
+
+
+@given(phase=st.floats(0.01, 1.0), seed=st.integers(0, 2**32 - 1))
 @settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_covariances_stay_positive_whatever_the_via_point(distribution, phase, seed):
     rng = np.random.default_rng(seed)

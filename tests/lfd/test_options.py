@@ -1,0 +1,109 @@
+"""Every option has bounds, and what is beyond them is refused by its name before anything is computed."""
+
+import math
+from dataclasses import fields
+
+import numpy as np
+import pytest
+
+from lfd.exceptions import OutOfRange, TooFewPoints
+from lfd.models.basis import GaussianBasis
+from lfd.models.dmp import DMP, DmpOptions
+from lfd.models.encoding import Encoding
+from lfd.models.gaussian import JointGaussian, condition, welford
+from lfd.models.promp import ConditionedProMP, PrompOptions
+from lfd.motion.alignment import align
+from lfd.motion.refinement import refine
+from lfd.motion.resampling import from_samples, resample
+from lfd.motion.waypoints import through_waypoints
+
+NEVER = [math.nan, math.inf, -math.inf, "ten", None]
+BEYOND = {
+    GaussianBasis: {"count": [1, 0, -3, 2.5], "width": [0.0, -0.1, 0.001]},
+    PrompOptions: {
+        "basis": [10],
+        "samples": [1, 0, 10.0],
+        "conditioning_noise": [0.0, -1.0],
+        "observation_std": [-1e-9],
+        "selection": ["similar pair"],
+        "kept": [0.0, 1.1, -1.0],
+    },
+    DmpOptions: {
+        "count": [1, 9.5],
+        "alpha_y": [0.0, -1.0, 1001.0],
+        "alpha_x": [0.0, -1.0, 21.0],
+        "scaling": ["per axis"],
+    },
+}
+
+
+@pytest.mark.parametrize("kind", BEYOND)
+def test_every_option_is_looked_at(kind):
+    assert set(BEYOND[kind]) == {field.name for field in fields(kind)}
+
+
+@pytest.mark.parametrize(
+    ("kind", "option", "value"),
+    [
+        (kind, option, value)
+        for kind, options in BEYOND.items()
+        for option, values in options.items()
+        for value in [*values, *NEVER]
+    ],
+)
+def test_what_is_beyond_its_bounds_is_refused_by_option_value_and_bound(kind, option, value):
+    with pytest.raises(OutOfRange) as caught:
+        kind(**{option: value})
+    assert caught.value.name == f"{kind.__name__}.{option}"
+    assert caught.value.value is value
+    assert caught.value.allowed in str(caught.value)
+
+
+def test_the_narrowest_basis_says_something_at_every_phase():
+    Phi = GaussianBasis(count=20, width=0.02 / 19).matrix(np.linspace(0.0, 1.0, 1001))
+    np.testing.assert_allclose(Phi.sum(axis=1), 1.0)
+
+
+@pytest.mark.parametrize("n", [1, 0, -1])
+def test_fewer_than_two_points_are_no_motion_whoever_is_asked(reach, n):
+    one = reach([0.9, 0.1, 0.6])
+    model, dmp = ConditionedProMP.fit([one]), DMP.fit(one.trajectory)
+    motion, pose = model.distribution(one.situation), (one.trajectory.positions[0], one.trajectory.orientations[0])
+    still = np.tile([1.0, 0.0, 0.0, 0.0], (3, 1))
+    for asked in (
+        lambda: resample(one.trajectory, n),
+        lambda: refine(one.trajectory, one.trajectory, 0.5, n),
+        lambda: from_samples([0.0, 1.0, 2.0], np.eye(3), still, n),
+        lambda: through_waypoints(np.eye(3), still, 1.0, n),
+        lambda: model.predict(one.situation, n),
+        lambda: motion.trajectory(n),
+        lambda: motion.velocities(n),
+        lambda: motion.position_covariances(n),
+        lambda: motion.sample(np.random.default_rng(1), 2, n),
+        lambda: dmp.reproduce(pose, pose, 1.0, n),
+    ):
+        with pytest.raises(TooFewPoints) as caught:
+            asked()
+        assert caught.value.count == n
+
+
+@pytest.mark.parametrize(
+    ("named", "asked"),
+    [
+        ("tolerance", lambda one: align([one], tolerance=-0.1)),
+        ("selection", lambda one: align([one], selection="all of them")),
+        ("interpolation", lambda one: resample(one.trajectory, 5, "cubic")),
+        ("number of points", lambda one: resample(one.trajectory, 5.0)),
+        ("alpha", lambda one: refine(one.trajectory, one.trajectory, math.nan)),
+        ("samples", lambda one: Encoding(GaussianBasis(), 1, np.array([1.0, 0.0, 0.0, 0.0]), anchored=True)),
+        ("kept", lambda one: welford(JointGaussian(np.zeros(2), np.eye(2), 2), np.ones(2), kept=0.0)),
+        ("noise", lambda one: condition(JointGaussian(np.zeros(2), np.eye(2), 2), np.ones(1), noise=-1.0)),
+        (
+            "number of samples",
+            lambda one: ConditionedProMP.fit([one]).distribution(one.situation).sample(np.random.default_rng(1), -1, 9),
+        ),
+    ],
+)
+def test_what_a_function_is_given_is_refused_by_its_name(reach, named, asked):
+    with pytest.raises(OutOfRange, match=named):
+        asked(reach([0.9, 0.1, 0.6]))
