@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from lfd.exceptions import NotFinite, NotUnitQuaternion, WrongShape
+from lfd.exceptions import NotFinite, NotNumbers, NotUnitQuaternion, WrongShape
 
 Array = NDArray[np.float64]
 
@@ -26,10 +26,14 @@ def checked(name: str, values: ArrayLike, shape: tuple[int | None, ...]) -> Arra
         shape: The wanted shape; None stands for any length.
 
     Raises:
+        NotNumbers: It holds something else than numbers, or rows of different lengths.
         WrongShape: The shape differs.
         NotFinite: A number is NaN or infinite.
     """
-    array = frozen(values)
+    try:
+        array = frozen(values)
+    except (TypeError, ValueError):
+        raise NotNumbers(name) from None
     fits = array.ndim == len(shape) and all(
         want is None or want == have for want, have in zip(shape, array.shape, strict=True)
     )
@@ -46,6 +50,7 @@ def checked_quaternions(name: str, values: ArrayLike, shape: tuple[int | None, .
     """Quaternions (wxyz, in the last axis), checked to be unit and normalised to full precision.
 
     Raises:
+        NotNumbers: It holds something else than numbers, or rows of different lengths.
         WrongShape: The shape differs.
         NotFinite: A number is NaN or infinite.
         NotUnitQuaternion: A norm differs from one by more than rounding does.

@@ -2,6 +2,7 @@
 
 LfdError
 ├── WrongShape              an array has not the shape it must have
+├── NotNumbers              what is to be an array holds something else than numbers, or rows of different lengths
 ├── NotFinite               an array or number contains NaN or infinity
 ├── TooFewPoints            a trajectory needs at least two points
 ├── TooFewWaypoints         a motion through waypoints needs at least three
@@ -12,7 +13,7 @@ LfdError
 ├── OutOfRange              a number lies outside its range
 ├── UnreachableViaPoint     a via-point cannot be met without swinging the motion
 ├── NothingToTakeBack       a model without a correction has none to forget
-├── TableError              a table that a person wrote down cannot be read, or its numbers cannot be meant
+├── TableError              a table cannot be read, or its numbers cannot be meant
 └── StorageError            the store's file cannot be used
     ├── StorageUnavailable  it cannot be opened or written now, through no fault of its own
     ├── BoundElsewhere      what it holds was learnt for another scene or robot
@@ -37,6 +38,14 @@ class WrongShape(LfdError):
         self.expected = expected
         self.actual = actual
         super().__init__(f"{name} has shape {actual}: give an array of shape {expected}")
+
+
+class NotNumbers(LfdError):
+    """What is to be an array holds something else than numbers, or rows of different lengths."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        super().__init__(f"{name} is no array of numbers: give numbers only, and rows of one length")
 
 
 class NotFinite(LfdError):
@@ -94,11 +103,12 @@ class NotUnitQuaternion(LfdError):
 class TimesNotIncreasing(LfdError):
     """The times of samples do not increase strictly."""
 
-    def __init__(self, index: int, previous: float, time: float) -> None:
+    def __init__(self, index: int, previous: float, time: float, name: str = "times") -> None:
+        self.name = name
         self.index = index
         self.previous = previous
         self.time = time
-        super().__init__(f"times[{index}] = {time:g} s follows {previous:g} s: order the samples, one a time")
+        super().__init__(f"{name}[{index}] = {time:g} s follows {previous:g} s: order the samples, one a time")
 
 
 class OutOfRange(LfdError):
@@ -140,12 +150,27 @@ class NothingToTakeBack(LfdError):
 
 
 class TableError(LfdError):
-    """A table that a person wrote down cannot be read, or its numbers cannot be meant."""
+    """A table cannot be read, or its numbers cannot be meant.
 
-    def __init__(self, path: Path, reason: str) -> None:
+    Attributes:
+        path: The file.
+        reason: What is wrong, and what would be right.
+        line: Where, from 1; None where it is the file as a whole.
+        column: By its name; None where it is the line as a whole.
+        value: What stands there; None where nothing does.
+    """
+
+    def __init__(
+        self, path: Path, reason: str, *, line: int | None = None, column: str | None = None, value: str | None = None
+    ) -> None:
         self.path = path
         self.reason = reason
-        super().__init__(f"{path}: {reason}")
+        self.line = line
+        self.column = column
+        self.value = value
+        place = [f"line {line}"] if line is not None else []
+        place += [f"column {column}"] if column is not None else []
+        super().__init__(f"{path}: {', '.join(place)}{': ' if place else ''}{reason}")
 
 
 class StorageError(LfdError):

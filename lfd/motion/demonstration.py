@@ -2,7 +2,11 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from numbers import Real
 from typing import Self
+
+import numpy as np
+from numpy.typing import ArrayLike
 
 from lfd.arrays import Array, checked, checked_quaternions
 from lfd.exceptions import TooFewDemonstrations, WrongShape
@@ -15,7 +19,8 @@ class Situation:
     """What is known before a motion.
 
     Attributes:
-        condition: The external state s on which the motion depends, of any dimension, shape (c,).
+        condition: The external state s on which the motion depends (task parameter, context), of any dimension and in
+            any units, shape (c,); a single number is one of one dimension.
         origin: The point that the motion is learnt relative to (equation (23)): the object; zero where there is none.
             In the base frame, shape (3,) [m].
         start_position: Of the end effector at t = 0 in the base frame, shape (3,) [m].
@@ -93,14 +98,23 @@ class Demonstration:
         return Situation(self.condition, self.origin, start.positions[0], start.orientations[0])
 
 
-def checked_condition(values: Array) -> Array:
-    """A read-only copy of a condition, shape (c,) with c at least 1.
+def checked_condition(values: ArrayLike, name: str = "condition") -> Array:
+    """A read-only copy of a condition, shape (c,) with c at least 1; a single number is a condition of one dimension.
+
+    Args:
+        values: The numbers.
+        name: What it is called in an error.
 
     Raises:
+        NotNumbers: It holds something else than numbers.
         WrongShape: It is no vector, or empty.
         NotFinite: A number is NaN or infinite.
     """
-    return checked("condition", values, (None,)) if len(values) else checked("condition", values, (1,))
+    single = isinstance(values, Real) or (isinstance(values, np.ndarray) and values.ndim == 0)
+    condition = checked(name, np.reshape(values, 1) if single else values, (None,))
+    if not len(condition):
+        raise WrongShape(name, "(c,) with c at least 1", condition.shape)
+    return condition
 
 
 def check_demonstrations(demonstrations: Sequence[Demonstration]) -> None:

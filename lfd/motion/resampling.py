@@ -44,7 +44,9 @@ def at_phases(trajectory: Trajectory, phases: Array, interpolation: Interpolatio
     return Trajectory(positions, orientations, trajectory.duration)
 
 
-def from_samples(times: ArrayLike, positions: ArrayLike, orientations: ArrayLike, n: int) -> Trajectory:
+def from_samples(
+    times: ArrayLike, positions: ArrayLike, orientations: ArrayLike, n: int, *, index: int | None = None
+) -> Trajectory:
     """A trajectory of n points at equal times from raw samples at irregular times (linear, SLERP).
 
     Args:
@@ -52,27 +54,30 @@ def from_samples(times: ArrayLike, positions: ArrayLike, orientations: ArrayLike
         positions: Shape (m, 3) [m].
         orientations: Unit quaternions (w, x, y, z), shape (m, 4).
         n: Number of points of the result, at least 2.
+        index: Of the motion among several, for the names of arrays in an error.
 
     Raises:
         TooFewPoints: There are fewer than two samples, or n is less than 2.
         TimesNotIncreasing: Two samples are out of order or have one time.
+        NotNumbers: An array holds something else than numbers.
         WrongShape: The arrays do not belong together.
         NotFinite: A number is NaN or infinite.
         NotUnitQuaternion: An orientation is not a unit quaternion.
     """
-    t = checked("times", times, (None,))
-    p = checked("positions", positions, (None, 3))
-    q = checked_quaternions("orientations", orientations, (None, 4))
+    of = "" if index is None else f"[{index}]"
+    t = checked(f"times{of}", times, (None,))
+    p = checked(f"positions{of}", positions, (None, 3))
+    q = checked_quaternions(f"orientations{of}", orientations, (None, 4))
     if len(p) != len(t):
-        raise WrongShape("positions", f"({len(t)}, 3)", p.shape)
+        raise WrongShape(f"positions{of}", f"({len(t)}, 3)", p.shape)
     if len(q) != len(t):
-        raise WrongShape("orientations", f"({len(t)}, 4)", q.shape)
-    check_points("samples", len(t))
+        raise WrongShape(f"orientations{of}", f"({len(t)}, 4)", q.shape)
+    check_points(f"positions{of}", len(t))
     check_points("resampled trajectory", n)
     backwards = np.flatnonzero(np.diff(t) <= 0.0)
     if backwards.size:
         i = int(backwards[0])
-        raise TimesNotIncreasing(i + 1, float(t[i]), float(t[i + 1]))
+        raise TimesNotIncreasing(i + 1, float(t[i]), float(t[i + 1]), f"times{of}")
     wanted = np.linspace(t[0], t[-1], n)
     return Trajectory(
         positions=_interpolate(t, p, wanted, Interpolation.LINEAR),

@@ -1,6 +1,5 @@
 """Waypoints that a person wrote down: a table, one pose of the grasping frame a row, in the base frame."""
 
-import math
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -9,11 +8,10 @@ import numpy as np
 from lfd.arrays import Array, checked, frozen
 from lfd.exceptions import TableError
 from lfd.motion.waypoints import LEAST_WAYPOINTS
+from lfd.store.poses import POSITION, UNITS, orientations_of
 from lfd.store.spreadsheet import Row, read_table
 
-COLUMNS = ("x", "y", "z", "qw", "qx", "qy", "qz")
 MOST_WAYPOINTS = 1000
-ROUNDED = 0.02  # [-] how far rounding to two decimals takes a quaternion's norm from one
 STILL = 1e-3  # [m] within which waypoints make no motion
 NEAR = 0.3  # [m] of the object that a motion to it ends
 
@@ -65,25 +63,17 @@ def read_waypoints(path: Path, surroundings: Surroundings) -> Waypoints:
             position is out of reach, there are too few or too many rows, all are the same, or the last one is far from
             the target; says which and where.
     """
-    rows = read_table(path, COLUMNS, "m")
+    table = read_table(path, UNITS)
+    rows = table.rows
     if not LEAST_WAYPOINTS <= len(rows) <= MOST_WAYPOINTS:
         count = f"at least {LEAST_WAYPOINTS}" if len(rows) < LEAST_WAYPOINTS else f"at most {MOST_WAYPOINTS}"
         raise TableError(path, f"{len(rows)} row(s) of poses; a motion needs {count}")
-    table = np.array([[row.number(column) for column in COLUMNS] for row in rows])
-    positions, orientations = table[:, :3], table[:, 3:]
-    for row, orientation in zip(rows, orientations, strict=True):
-        _check_norm(row, orientation)
+    positions, orientations = table.numbers(POSITION), orientations_of(table)
     _check_reach(rows, positions, surroundings)
     if float(np.max(np.ptp(positions, axis=0))) < STILL:
         raise TableError(path, f"all {len(rows)} waypoints are the same point: that is no motion")
     _check_end(rows[-1], positions, surroundings.target)
-    return Waypoints(frozen(positions), frozen(orientations / np.linalg.norm(orientations, axis=1, keepdims=True)))
-
-
-def _check_norm(row: Row, orientation: Array) -> None:
-    norm = math.hypot(*orientation)
-    if abs(norm - 1.0) > ROUNDED:
-        raise TableError(row.path, f"line {row.line}: the quaternion qw,qx,qy,qz has norm {norm:g}, not 1")
+    return Waypoints(frozen(positions), orientations)
 
 
 def _check_reach(rows: list[Row], positions: Array, surroundings: Surroundings) -> None:
@@ -92,10 +82,10 @@ def _check_reach(rows: list[Row], positions: Array, surroundings: Surroundings) 
     if not beyond.size:
         return
     i, axis = beyond[0]
-    raise TableError(
-        rows[i].path,
-        f"line {rows[i].line}, column {COLUMNS[axis]}: {positions[i, axis]:g} m is out of the robot's reach,"
-        f" {low[axis]:g} to {high[axis]:g} m{_looks_like(positions, surroundings)}",
+    raise rows[i].error(
+        f"{positions[i, axis]:g} m is out of the robot's reach, {low[axis]:g} to {high[axis]:g} m"
+        f"{_looks_like(positions, surroundings)}",
+        POSITION[axis],
     )
 
 
@@ -116,8 +106,6 @@ def _check_end(last: Row, positions: Array, target: Array) -> None:
     away = np.linalg.norm(positions - target, axis=1)
     if away[-1] > NEAR:
         order = "; the first one is nearer: is the order reversed?" if away[0] <= NEAR else ""
-        raise TableError(
-            last.path,
-            f"line {last.line}: the last waypoint is {away[-1]:.2f} m away from the object, at most {NEAR:g} m is"
-            f" a motion to it{order}",
+        raise last.error(
+            f"the last waypoint is {away[-1]:.2f} m away from the object, at most {NEAR:g} m is a motion to it{order}"
         )
