@@ -34,7 +34,7 @@ class Command:
         name: as it is typed.
         module: which has what `Action` says; loaded only where the command is meant, for most rooms take long.
         help: one line for `retouch --help`.
-        needs: the extra of the package that holds what the module imports; empty where there is none.
+        needs: the extra of the package that holds what the module imports; empty where it is called as the command.
     """
 
     name: str

@@ -4,16 +4,16 @@ from services.commands.command import Command
 from services.process.processes import PROCESSES
 
 COMMANDS: tuple[Command, ...] = (
-    Command("up", "services.commands.up.command", "start everything and watch over it"),
+    Command("up", "services.commands.up.command", "start everything and watch over it", needs="process"),
     *(Command(p.name, "services.commands.process", p.about) for p in PROCESSES),
-    Command("router", "services.commands.router", "where the processes of a site meet"),
+    Command("router", "services.commands.router", "where the processes of a site meet", needs="process"),
     Command("teach", "services.commands.teach", "give a model its first demonstrations, or a motion", needs="robot"),
     Command("prepare", "services.commands.prepare", "make and keep what every simulated run needs", needs="robot"),
-    Command("echo", "services.commands.echo", "print what passes on a key expression"),
-    Command("top", "services.commands.top", "the live processes of a network"),
-    Command("stop", "services.commands.stop", "emergency stop of a robot, or its release"),
+    Command("echo", "services.commands.echo", "print what passes on a key expression", needs="process"),
+    Command("top", "services.commands.top", "the live processes of a network", needs="process"),
+    Command("stop", "services.commands.stop", "emergency stop of a robot, or its release", needs="process"),
     Command("replay", "services.commands.replay", "open a recording in Rerun", needs="viewer"),
-    Command("topics", "services.commands.topics", "print the table of topics and queries"),
+    Command("topics", "services.commands.topics", "print the table of topics and queries", needs="process"),
     Command("reproduce", "services.commands.reproduce", "the thesis' analyses made again: one report", needs="study"),
     Command("map", "services.commands.map", "where a model succeeds, before and after a correction", needs="study"),
 )

@@ -3,6 +3,7 @@
 import errno
 import subprocess
 import sys
+import tomllib
 from dataclasses import replace
 from pathlib import Path
 
@@ -18,6 +19,7 @@ from services.reproduction.exceptions import CannotKeep
 from services.viewer.exceptions import WebFilesMissing
 from sim.exceptions import DrawingLibraryMissing, UnknownScene
 
+PROJECT = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 SLOW = ("rich", "msgspec.toml", "numpy", "zenoh", "scipy", "mujoco")
 
 
@@ -103,3 +105,8 @@ def test_every_command_has_a_module_that_says_its_flags_and_runs(command):
     action = command.action()
     assert callable(action.add_arguments)
     assert callable(action.run)
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=lambda command: command.name)
+def test_what_a_command_says_to_install_is_there(command):
+    assert (command.needs or command.name) in PROJECT["optional-dependencies"]
