@@ -71,7 +71,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
     model.add_argument("--teach", action="store_true", help="let the scripted operator correct it once first")
     where = parser.add_argument_group("the conditions")
-    where.add_argument("--scene", metavar="S", help="dishwasher or table (default: the database's, or dishwasher)")
+    where.add_argument(
+        "--scene", metavar="S", help="dishwasher, table or post (default: the database's, or dishwasher)"
+    )
     where.add_argument("--variant", metavar="V", help="of the scene (default: the one that was changed)")
     many = where.add_mutually_exclusive_group()
     many.add_argument("--grid", type=whole(1), metavar="N", default=16, help="about N times N, evenly (default: 16)")

@@ -115,11 +115,11 @@ _ABOVE = np.array([-0.025, 0.0, 0.10])  # [m] from the centre of the object: the
 _GRASP = np.array([0.0, 0.0, 0.02])  # [m] from the centre of the object
 
 
-def _route(variant: str, object_position: Array) -> Corridor:
+def _routes(variant: str, object_position: Array) -> tuple[Corridor]:
     sideways = object_position[1] - _START.position[1]
     way = [(x, _START.position[1] + share * sideways, z) for x, z, share in _WAY[variant]]
     positions = np.array([_START.position, *way, object_position + _ABOVE, object_position + _GRASP])
-    return Corridor(positions, np.array([pitched_down(math.radians(pitch)) for pitch in _PITCHES]))
+    return (Corridor(positions, np.array([pitched_down(math.radians(pitch)) for pitch in _PITCHES])),)
 
 
 DISHWASHER = ReachingScene(
@@ -134,5 +134,5 @@ DISHWASHER = ReachingScene(
     reached_radii=np.array([0.05, 0.065, 0.05]),
     kicked_thresholds=np.array([0.15, 0.15, 0.15]),
     layout=_layout,
-    route=_route,
+    routes=_routes,
 )

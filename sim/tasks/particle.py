@@ -138,7 +138,7 @@ def _block() -> list[Box]:
     return [Box("block", (x, y, _BOARD_Z + height), (half_x, half_y, height), _BRICK)]
 
 
-def _route(variant: str, place: Array) -> Corridor:
+def _routes(variant: str, place: Array) -> tuple[Corridor]:
     """A line that is level at its knots, and passes from one to the next as a hand does."""
     (x_1, x_2), (y_1, y_2) = _VIA_X, place.tolist()
     passage = _PASSAGE if variant == _OBSTACLE else ()
@@ -148,7 +148,7 @@ def _route(variant: str, place: Array) -> Corridor:
     (x_from, y_from), (x_to, y_to) = knots[leg].T, knots[leg + 1].T
     y = y_from + (y_to - y_from) * minimum_jerk((x - x_from) / (x_to - x_from))
     positions = np.column_stack([x, y, np.zeros(_WAY_POINTS)])
-    return Corridor(positions, np.tile(NO_ROTATION, (_WAY_POINTS, 1)))
+    return (Corridor(positions, np.tile(NO_ROTATION, (_WAY_POINTS, 1))),)
 
 
 OBSTACLE_TRAINING = Y_UNIT * np.array([[10.0, 10.0], [10.0, -10.0], [-10.0, 0.0]])
@@ -165,7 +165,7 @@ PARTICLE = ParticleScene(
     margin=10.0 * Y_UNIT,
     training_positions=np.zeros((1, 2)),
     layout=_layout,
-    route=_route,
+    routes=_routes,
     freedom=Freedom(axes=(0.0, 1.0, 0.0), tempo=False),
     eye=Eye((0.2, -0.25, 0.58), (0.2, -0.01, 0.0)),
     via_x=_VIA_X,

@@ -114,7 +114,7 @@ class Scene(ABC):
         margin: How far beyond the region a place is allowed, on each axis [m].
         training_positions: Places of the initial demonstrations, shape (n, d) [m].
         layout: Boxes of a variant; call `boxes` instead.
-        route: Way-points of a variant and a place; call `corridor` instead.
+        routes: Of a variant and a place, one or more; call `corridors` instead.
         freedom: Of a person who moves the robot.
         eye: From where one sees all of it.
         has_object: A place is where an object stands, and motions are relative to it; else it is a condition by itself.
@@ -131,7 +131,7 @@ class Scene(ABC):
     margin: float = 0.05
     training_positions: Array
     layout: Callable[[str], tuple[Box, ...]]
-    route: Callable[[str, Array], Corridor]
+    routes: Callable[[str, Array], tuple[Corridor, ...]]
     freedom: Freedom = field(default_factory=Freedom)
     eye: Eye = field(default_factory=Eye)
 
@@ -147,8 +147,8 @@ class Scene(ABC):
         self.check(variant)
         return self.layout(variant)
 
-    def corridor(self, variant: str, place: Array, start: Pose | None = None) -> Corridor:
-        """Return the way-points of a motion from the start to the target, clear of the environment.
+    def corridors(self, variant: str, place: Array, start: Pose | None = None) -> tuple[Corridor, ...]:
+        """Return the ways from the start to the target that are clear of the environment, the shortest first.
 
         The corridors of the two variants pair way-point by way-point, with the same orientations:
         their difference is the correction that an operator has to give.
@@ -165,8 +165,12 @@ class Scene(ABC):
         self.check(variant)
         if len(place) != len(self.region.lower):
             raise WrongPlace(self.name, len(place), len(self.region.lower))
-        route = self.route(variant, place)
-        return route if start is None else _joined(route, start)
+        routes = self.routes(variant, place)
+        return routes if start is None else tuple(_joined(route, start) for route in routes)
+
+    def corridor(self, variant: str, place: Array, start: Pose | None = None) -> Corridor:
+        """Return the shortest of the `corridors`."""
+        return self.corridors(variant, place, start)[0]
 
     @property
     def object_size(self) -> Vector:

@@ -11,34 +11,19 @@ import numpy as np
 from sim.pose import Pose
 from sim.region import Region
 from sim.robots.robot import TIAGO
+from sim.tasks.furniture import table
 from sim.tasks.scene import Array, Box, Corridor, ReachingScene, pitched_down
 
 _CLEAR, _BOX = "clear", "box"
 _TOP_Z = 0.66  # [m]
 _OBJECT_Z = _TOP_Z + 0.05  # [m] of the centre of an object that stands on the table
 
-_WOOD = (0.72, 0.55, 0.38, 1.0)
-_LEG = (0.30, 0.31, 0.33, 1.0)
 _CARDBOARD = (0.80, 0.64, 0.42, 1.0)
 _TAPE = (0.90, 0.82, 0.66, 1.0)
 
 
 def _layout(variant: str) -> tuple[Box, ...]:
-    return (*_table(), *(_parcel() if variant == _BOX else ()))
-
-
-def _table() -> list[Box]:
-    x, y, half_depth, half_width = 0.83, 0.0, 0.40, 0.70
-    legs = [
-        Box(
-            f"leg_{i}",
-            (x + sx * (half_depth - 0.05), y + sy * (half_width - 0.05), (_TOP_Z - 0.04) / 2),
-            (0.025, 0.025, (_TOP_Z - 0.04) / 2),
-            _LEG,
-        )
-        for i, (sx, sy) in enumerate(((1, 1), (1, -1), (-1, 1), (-1, -1)))
-    ]
-    return [Box("table_top", (x, y, _TOP_Z - 0.02), (half_depth, half_width, 0.02), _WOOD), *legs]
+    return (*table((0.83, 0.0, _TOP_Z), 0.80, 1.40), *(_parcel() if variant == _BOX else ()))
 
 
 def _parcel() -> list[Box]:
@@ -62,12 +47,12 @@ _CLOSE = np.array([-0.08, 0.0, 0.035])  # [m] from the centre of the object: the
 _GRASP = np.array([-0.005, 0.0, 0.02])  # [m] from the centre of the object
 
 
-def _route(variant: str, object_position: Array) -> Corridor:
+def _routes(variant: str, object_position: Array) -> tuple[Corridor]:
     start = _START.position
     ahead = object_position[:2] + _BEFORE - start[:2]
     way = [(*(start[:2] + share * ahead), z) for share, z in _WAY[variant]]
     positions = np.array([start, *way, object_position + _CLOSE, object_position + _GRASP])
-    return Corridor(positions, np.array([pitched_down(math.radians(pitch)) for pitch in _PITCHES]))
+    return (Corridor(positions, np.array([pitched_down(math.radians(pitch)) for pitch in _PITCHES])),)
 
 
 TABLE = ReachingScene(
@@ -84,5 +69,5 @@ TABLE = ReachingScene(
     reached_radii=np.array([0.05, 0.065, 0.05]),
     kicked_thresholds=np.array([0.10, 0.10, 0.10]),
     layout=_layout,
-    route=_route,
+    routes=_routes,
 )

@@ -150,7 +150,7 @@ def said(capsys, *flags):
         (["--kind", "dmp"], "invalid choice: 'dmp'"),
         (["--jobs", "0"], "--jobs: must be a whole number"),
         (["--scene", "kitchen"], "kitchen"),
-        (["--scene", "particle"], "scene particle has no object to reach: map one of dishwasher, table"),
+        (["--scene", "particle"], "scene particle has no object to reach: map one of dishwasher, table, post"),
         (["--variant", "b3"], "b3"),
         (["--before", "2"], "--before takes back updates of a database"),
         (["--teach", "--database", "x.sqlite"], "leave out --database, or --teach"),

@@ -12,7 +12,11 @@ from sim.tasks import DISHWASHER, REACHING
 FEEDBACK = 50.0  # [N/m] of equation (14)
 FEEDBACK_DAMPING = 2.0  # [N s/m]
 PERIOD = 0.01
-OBJECT = {"dishwasher": np.array([0.87, 0.07, 0.553]), "table": np.array([0.70, 0.10, 0.71])}
+OBJECT = {
+    "dishwasher": np.array([0.87, 0.07, 0.553]),
+    "table": np.array([0.70, 0.10, 0.71]),
+    "post": np.array([0.89, 0.02, 0.55]),
+}
 
 
 def ways(name):

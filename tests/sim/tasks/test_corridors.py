@@ -18,6 +18,7 @@ SCENE = pytest.mark.parametrize("place", REACHING.values(), ids=REACHING)
 
 DURATION = 10.0  # [s]
 MARGIN = 0.03  # [m]
+NEGLIGIBLE = 0.05  # [m] of a change of the way, without which a motion still succeeds
 OFFSETS = ((0.0, 0.05, 0.05), (-0.1, -0.1, 0.0), (-0.1, 0.05, 0.1), (-0.05, 0.0, 0.0))  # [m]
 
 
@@ -55,8 +56,9 @@ def _along(corridor: Corridor) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _objects(place: ReachingScene) -> list[np.ndarray]:
-    """Two opposite corners of the region and a position inside it."""
-    return [np.array(place.region.lower), np.array(place.region.upper), place.region.sample(np.random.default_rng(3))]
+    """Two opposite corners of the region, its middle, and a position inside it."""
+    lower, upper = np.array(place.region.lower), np.array(place.region.upper)
+    return [lower, upper, (lower + upper) / 2, place.region.sample(np.random.default_rng(3))]
 
 
 @pytest.fixture(scope="module", params=REACHING.values(), ids=REACHING)
@@ -70,12 +72,13 @@ def test_each_variants_own_corridor_reaches_with_room_to_spare(stage: tuple[Worl
     world, kinematics = stage
     variant = world.scene.variants[changed]
     for position in _objects(world.scene):
-        world.reset(position, variant)
-        rollout = Rollout(world, kinematics, world.scene.corridor(variant, position), margins=True)
-        assert not rollout.collided
-        assert rollout.margin >= MARGIN
-        assert rollout.reached
-        assert np.all(rollout.displacement < world.scene.kicked_thresholds / 10)
+        for corridor in world.scene.corridors(variant, position):
+            world.reset(position, variant)
+            rollout = Rollout(world, kinematics, corridor, margins=True)
+            assert not rollout.collided
+            assert rollout.margin >= MARGIN
+            assert rollout.reached
+            assert np.all(rollout.displacement < world.scene.kicked_thresholds / 10)
 
 
 def test_a_corridor_from_any_free_start_reaches(stage: tuple[World, Kinematics]) -> None:
@@ -93,9 +96,15 @@ def test_a_corridor_from_any_free_start_reaches(stage: tuple[World, Kinematics])
         assert np.all(rollout.displacement < scene.kicked_thresholds / 10)
 
 
-def test_the_trained_motion_collides_in_the_changed_scene(stage: tuple[World, Kinematics]) -> None:
+def test_the_trained_motion_collides_in_the_changed_scene_where_the_safe_way_is_another(
+    stage: tuple[World, Kinematics],
+) -> None:
     world, kinematics = stage
     trained, changed = world.scene.variants
+    collided = []
     for position in _objects(world.scene):
+        before, after = (world.scene.corridor(variant, position).positions for variant in (trained, changed))
         world.reset(position, changed)
-        assert Rollout(world, kinematics, world.scene.corridor(trained, position), margins=False).collided
+        collided.append(Rollout(world, kinematics, world.scene.corridor(trained, position), margins=False).collided)
+        assert collided[-1] == (np.max(np.linalg.norm(after - before, axis=1)) > NEGLIGIBLE)
+    assert sum(collided) > 1
