@@ -11,7 +11,7 @@ UNIT_TOLERANCE = 1e-3  # [-] what rounding to a few decimals in a recording does
 
 
 def frozen(values: ArrayLike) -> Array:
-    """A read-only copy of `values` as 64-bit floats."""
+    """A read-only copy of `values` as 64-bit floats, of the same shape."""
     array = np.array(values, dtype=np.float64)
     array.setflags(write=False)
     return array
@@ -48,6 +48,11 @@ def checked(name: str, values: ArrayLike, shape: tuple[int | None, ...]) -> Arra
 
 def checked_quaternions(name: str, values: ArrayLike, shape: tuple[int | None, ...]) -> Array:
     """Quaternions (wxyz, in the last axis), checked to be unit and normalised to full precision.
+
+    Args:
+        name: What the array is called in an error.
+        values: The numbers.
+        shape: The wanted shape; None stands for any length.
 
     Raises:
         NotNumbers: It holds something else than numbers, or rows of different lengths.

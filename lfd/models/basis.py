@@ -10,7 +10,7 @@ from lfd.bounds import Bounds, at_least, check_options
 
 @dataclass(frozen=True)
 class GaussianBasis:
-    """N Gaussian bumps, evenly centred on the phases 0 to 1, that sum to one at every phase.
+    """N Gaussian bumps, evenly centred on the phases 0 to 1, that sum to one at every phase (normalised radial basis).
 
     Attributes:
         count: N, at least 2.
@@ -35,7 +35,7 @@ class GaussianBasis:
         return Phi
 
     def derivative(self, phases: Array) -> Array:
-        """Of the functions by the phase, shape (T, N); each row sums to zero."""
+        """Of the functions by the phase, at the phases (T,), shape (T, N); each row sums to zero."""
         bumps = self._bumps(phases)
         slopes = -self._distances(phases) / self.width * bumps
         total, total_slope = bumps.sum(axis=1, keepdims=True), slopes.sum(axis=1, keepdims=True)

@@ -21,7 +21,7 @@ from lfd.motion.trajectory import Trajectory
 
 @dataclass(frozen=True, eq=False)
 class MotionDistribution:
-    """A Gaussian over the weights of a motion in one situation.
+    """A Gaussian over the weights of a motion in one situation: a probabilistic movement primitive, conditioned.
 
     Attributes:
         encoding: Between weights and motions.
@@ -44,7 +44,7 @@ class MotionDistribution:
         check_options(self, noise_std=NOT_NEGATIVE)
 
     def trajectory(self, n: int) -> Trajectory:
-        """The mean motion, n points in the base frame.
+        """The mean motion, n points at equal times in the base frame.
 
         Raises:
             TooFewPoints: n is less than 2.
@@ -94,11 +94,14 @@ class MotionDistribution:
         return [self.encoding.decode(x, self.situation, n) for x in draws]
 
     def through(self, via: ViaPoint) -> "MotionDistribution":
-        """The distribution given that the motion passes a via-point (Paraschos et al. 2018, eq. 15 and 16).
+        """The distribution given that the motion passes a via-point: conditioning (Paraschos et al. 2018, eq. 15, 16).
 
         Those equations are kept to where they lead the motion no further away, anywhere, than `SWING` times as far as
         the via-point lies off it, and to within `MISSED` of the via-point's own deviations. Elsewhere a local detour is
         allowed for, as much as that takes; see `lfd.models.via_point`.
+
+        Args:
+            via: Position in the base frame, phase and covariance.
 
         Raises:
             UnreachableViaPoint: It lies off the motion so near to a start that is given, or at it, that no detour leads

@@ -28,6 +28,8 @@ POSITION = 3  # the first outputs
 class Encoding:
     """Weights of positions relative to the origin, of orientations, and the duration, in one vector.
 
+    What movement primitives call the weight vector w of a trajectory.
+
     Orientations enter as rotation vectors about one reference rotation (log map), not as the quaternion components
     of the thesis: those lose their unit norm when averaged and mix up q with -q. Durations enter as logarithms, so
     that no prediction is negative.
@@ -55,7 +57,10 @@ class Encoding:
         object.__setattr__(self, "rotation", checked_quaternions("rotation", self.rotation, (4,)))
 
     def encode(self, demonstration: Demonstration) -> Array:
-        """The vector of a demonstration, shape (6 N + 1,): N x 6 weights row by row, then ln(duration / s)."""
+        """The vector of a demonstration, shape (6 N + 1,): N x 6 weights row by row, then ln(duration / s).
+
+        The weights are the least squares of equation (3), of positions less the origin [m] and rotation vectors [rad].
+        """
         trajectory = resample(demonstration.trajectory, self.samples)
         relative = trajectory.positions - demonstration.origin  # equation (23)
         outputs = np.hstack([relative, self._rotation_vectors(trajectory.orientations)])
@@ -93,14 +98,20 @@ class Encoding:
         return np.asarray(self.rows(np.linspace(0.0, 1.0, n)) @ weights_of_positions, dtype=np.float64)
 
     def outputs(self, x: Array, situation: Situation, phases: Array) -> Array:
-        """Positions relative to the origin [m] and rotation vectors [rad] at phases (T,), shape (T, 6)."""
+        """Positions relative to the origin [m], base axes, and rotation vectors [rad] at phases (T,), shape (T, 6).
+
+        Args:
+            x: As of `encode`.
+            situation: See `decode`.
+            phases: From 0 to 1.
+        """
         outputs = self.rows(phases) @ x[:-1].reshape(self.basis.count, OUTPUTS)
         if self.anchored:
             outputs = outputs + np.outer(1.0 - phases, self._start(situation))
         return outputs
 
     def output_rates(self, x: Array, situation: Situation, phases: Array) -> Array:
-        """Derivatives of `outputs` by the phase, shape (T, 6)."""
+        """Derivatives of `outputs` by the phase, shape (T, 6); see there for the arguments x, situation and phases."""
         rates = self.basis.derivative(phases) @ x[:-1].reshape(self.basis.count, OUTPUTS)
         if self.anchored:
             first = self.basis.matrix(np.zeros(1))[0] @ x[:-1].reshape(self.basis.count, OUTPUTS)

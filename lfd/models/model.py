@@ -14,12 +14,17 @@ from lfd.motion.trajectory import PREDICTION_POINTS, Trajectory
 
 @dataclass(frozen=True, eq=False)
 class Prediction:
-    """A motion that the model expects to reach the object, and how sure it is.
+    """A motion that the model expects to reach the object, and how sure it is (the predictive mean and covariance).
 
     Attributes:
         trajectory: In the base frame, n points.
         position_covariances: Of each point in the base frame, shape (n, 3, 3) [m^2].
         duration_std: Standard deviation of the duration [s].
+
+    Raises:
+        WrongShape: There are not as many covariances as points.
+        NotFinite: A number is NaN or infinite.
+        OutOfRange: The duration's deviation is negative.
     """
 
     trajectory: Trajectory
@@ -35,14 +40,18 @@ class Prediction:
 
 
 class MovementModel(Protocol):
-    """A model of reaching motions. A value: an update returns a new model and leaves the old one as it was."""
+    """A model of motions over a condition (contextual movement primitive).
+
+    A value: an update returns a new model and leaves the old one as it was.
+    """
 
     @classmethod
     def fit(cls, demonstrations: Sequence[Demonstration]) -> Self:
-        """A model of demonstrations, at least one.
+        """A model of demonstrations, at least one, all as old as each other.
 
         Raises:
             TooFewDemonstrations: There is none.
+            WrongShape: Two conditions differ in dimension.
         """
         ...
 
@@ -50,6 +59,9 @@ class MovementModel(Protocol):
         """The model that has also learnt `demonstration`, the motion that a refinement led to.
 
         How far it moves the prediction at its condition, its provenance's confidence says.
+
+        Raises:
+            WrongShape: Its condition has another dimension than those before.
         """
         ...
 
@@ -57,8 +69,8 @@ class MovementModel(Protocol):
         """The motion for a situation.
 
         Args:
-            situation: Condition, origin and start pose.
-            n: Number of points.
+            situation: Condition, origin and start pose, all in the frame of the demonstrations.
+            n: Number of points, at least 2, at equal times.
 
         Raises:
             WrongShape: The condition has another dimension than those of the demonstrations.
@@ -68,6 +80,9 @@ class MovementModel(Protocol):
 
     def distribution(self, situation: Situation) -> MotionDistribution:
         """Everything the model expects for a situation: to sample, differentiate, lead through via-points, blend.
+
+        Args:
+            situation: See `predict`.
 
         Raises:
             WrongShape: The condition has another dimension than those of the demonstrations.

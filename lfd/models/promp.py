@@ -79,7 +79,11 @@ class ConditionedProMP:
 
     @classmethod
     def fit(cls, demonstrations: Sequence[Demonstration], options: PrompOptions | None = None) -> Self:
-        """The model of demonstrations, those of one condition aligned in time.
+        """The model of demonstrations, those of one condition aligned in time: equations (1) to (7).
+
+        Args:
+            demonstrations: At least one, of conditions (contexts) of one dimension.
+            options: The thesis', where none are given.
 
         Raises:
             TooFewDemonstrations: There is none.
@@ -97,6 +101,9 @@ class ConditionedProMP:
 
         One that is believed in part is moved towards the prediction first, by equation (18).
 
+        Args:
+            demonstration: The newer motion (a correction, incremental learning).
+
         Raises:
             WrongShape: Its condition has another dimension than those before.
         """
@@ -105,12 +112,25 @@ class ConditionedProMP:
         return replace(self, joint=welford(self.joint, sample, self.options.kept))
 
     def predict(self, situation: Situation, n: int = PREDICTION_POINTS) -> Prediction:
-        """Equations (12) and (13), see `MovementModel.predict`; the start orientation is not used."""
+        """Equations (12) and (13), see `MovementModel.predict`; the situation's start pose is not used.
+
+        Args:
+            situation: Condition and origin.
+            n: Number of points, at least 2.
+
+        Raises:
+            WrongShape: The condition has another dimension than those of the demonstrations.
+            TooFewPoints: n is less than 2.
+        """
         motion = self.distribution(situation)
         return Prediction(motion.trajectory(n), motion.position_covariances(n), motion.duration_std)
 
     def distribution(self, situation: Situation) -> MotionDistribution:
-        """Equations (8) to (11), see `MovementModel.distribution`."""
+        """Equations (8) to (11): the Gaussian of the weights given the situation's condition.
+
+        Raises:
+            WrongShape: The condition has another dimension than those of the demonstrations.
+        """
         self._check(situation.condition)
         s = CONDITION_SCALE * situation.condition
         given = condition(self.joint, s, self.options.conditioning_noise)

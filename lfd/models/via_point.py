@@ -56,7 +56,7 @@ class ViaPoint:
 
 
 def position_rows(encoding: Encoding, phase: float) -> Array:
-    """The linear map from a vector (D,) to the position at a phase, shape (3, D)."""
+    """The linear map from a vector (D,) of an encoding to the position at a phase from 0 to 1, shape (3, D)."""
     row = encoding.rows(np.array([phase]))[0]
     rows = np.zeros((POSITION, OUTPUTS * encoding.basis.count + 1))
     rows[:, :-1] = np.kron(row, np.eye(POSITION, OUTPUTS))

@@ -19,7 +19,7 @@ COMPARED = 30  # demonstrations of one condition among which the reference is so
 
 
 class Selection(StrEnum):
-    """Which demonstrations of a condition are learnt from."""
+    """Which demonstrations of a condition (context) are learnt from."""
 
     ALL = "all"
     SIMILAR_PAIR = "similar pair"  # the thesis': the reference, and the one most similar to it
@@ -47,7 +47,11 @@ def distance_matrix(trajectories: Sequence[Trajectory]) -> Array:
 
 
 def reference(distances: Array) -> int:
-    """Index of the trajectory with the least summed distance to all others (equation (22)), from all of them (M, M)."""
+    """Index of the trajectory with the least summed distance to all others: the medoid, equation (22).
+
+    Args:
+        distances: Of each to each, shape (M, M) [m].
+    """
     return int(np.argmin(distances.sum(axis=1)))
 
 
@@ -95,8 +99,8 @@ def align(
     `COMPARED` at one condition, that many, evenly taken, compete for being the reference.
 
     Args:
-        demonstrations: Of any conditions.
-        tolerance: See `group_by_condition`.
+        demonstrations: Of any conditions, all of one dimension.
+        tolerance: Within which conditions count as one, in their own unit, zero or more; see `group_by_condition`.
         selection: Which of them to keep.
 
     Raises:

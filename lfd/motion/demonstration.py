@@ -16,7 +16,7 @@ from lfd.motion.trajectory import Trajectory
 
 @dataclass(frozen=True, eq=False)
 class Situation:
-    """What is known before a motion.
+    """What is known before a motion: the query of a prediction (context and initial state).
 
     Attributes:
         condition: The external state s on which the motion depends (task parameter, context), of any dimension and in
@@ -50,8 +50,13 @@ class Situation:
 
         Args:
             object_position: In the base frame, shape (3,) [m].
-            start_position: See the class.
-            start_orientation: See the class.
+            start_position: Of the end effector in the base frame, shape (3,) [m].
+            start_orientation: The same, unit quaternion (w, x, y, z).
+
+        Raises:
+            WrongShape: An array has the wrong shape.
+            NotFinite: A number is NaN or infinite.
+            NotUnitQuaternion: The orientation is not a unit quaternion.
         """
         target = checked("object_position", object_position, (3,))
         start = checked("start_position", start_position, (3,))
@@ -60,7 +65,9 @@ class Situation:
 
 @dataclass(frozen=True, eq=False)
 class Demonstration:
-    """One motion and the external state that it was right for, in the robot's base frame.
+    """One motion and the external state (context) that it was right for, in the robot's base frame.
+
+    A newer one that a model is updated with is called a correction: it overrules older ones near its condition.
 
     The thesis multiplies the condition by 10. That is no property of the condition: it only divides the conditioning
     noise of equation (10) by 100, so it stands with that noise (`lfd.models.promp`) and not here.
@@ -87,7 +94,17 @@ class Demonstration:
 
     @classmethod
     def reaching(cls, trajectory: Trajectory, object_position: Array, provenance: Provenance = UNKNOWN) -> Self:
-        """A motion that reached an object at a position in the base frame, shape (3,) [m]."""
+        """A motion that reached an object: its condition is the object relative to the motion's first point.
+
+        Args:
+            trajectory: The motion of the end effector in the base frame.
+            object_position: In the base frame, shape (3,) [m]; the motion's origin, too.
+            provenance: Whose it is, since when, and how far it is believed.
+
+        Raises:
+            WrongShape: The position has the wrong shape.
+            NotFinite: A number of it is NaN or infinite.
+        """
         target = checked("object_position", object_position, (3,))
         return cls(trajectory, target, target - trajectory.positions[0], provenance)
 
@@ -118,7 +135,7 @@ def checked_condition(values: ArrayLike, name: str = "condition") -> Array:
 
 
 def check_demonstrations(demonstrations: Sequence[Demonstration]) -> None:
-    """Let pass what a model can be fitted to.
+    """Let pass demonstrations that a model can be fitted to.
 
     Raises:
         TooFewDemonstrations: There is none.
@@ -131,7 +148,11 @@ def check_demonstrations(demonstrations: Sequence[Demonstration]) -> None:
 
 
 def check_dimension(condition: Array, dimension: int) -> None:
-    """Raise WrongShape unless a condition has that dimension."""
+    """Let pass a condition (c,) of a dimension.
+
+    Raises:
+        WrongShape: It is of another one.
+    """
     if len(condition) != dimension:
         raise WrongShape("condition", f"({dimension},)", condition.shape)
 
@@ -147,5 +168,5 @@ def relative_to_origin(trajectory: Trajectory, origin: Array) -> Trajectory:
 
 
 def to_base(trajectory: Trajectory, origin: Array) -> Trajectory:
-    """The inverse of `relative_to_origin`, for an origin (3,) [m] in the base frame."""
+    """The inverse of `relative_to_origin`: a trajectory relative to an origin (3,) [m], in the base frame again."""
     return replace(trajectory, positions=trajectory.positions + origin)

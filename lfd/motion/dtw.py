@@ -43,7 +43,7 @@ class Alignment:
 
 
 def dtw(a: ArrayLike, b: ArrayLike) -> Alignment:
-    """Exact dynamic time warping of a (n, d) and b (m, d): equation (D.1) with the Euclidean distance.
+    """Exact dynamic time warping of a (n, d) and b (m, d): equation (D.1) with the Euclidean distance, in their unit.
 
     Time is O(n m); memory is one byte for each of the n m cells, and a few rows. Of equally cheap paths the one is
     taken that goes, from the end, diagonally where it can, and else back in a.

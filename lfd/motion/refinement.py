@@ -14,6 +14,8 @@ def refine(
 ) -> Trajectory:
     """The prediction moved by the fraction alpha towards the refinement: tau_d + alpha (tau_hr - tau_d).
 
+    A refinement is the execution that an operator corrected while it ran (teleoperated or kinesthetic correction).
+
     Both are brought to the number of points of the longer and matched by dynamic time warping, since points at equal
     times do not correspond (thesis, fig. 11). Matched points are blended in position, orientation, time and, for the
     whole, duration; so alpha = 0 is the prediction and alpha = 1 the refinement, each in its own tempo.

@@ -38,7 +38,10 @@ def resample(trajectory: Trajectory, n: int, interpolation: Interpolation = Inte
 
 
 def at_phases(trajectory: Trajectory, phases: Array, interpolation: Interpolation = Interpolation.LINEAR) -> Trajectory:
-    """The poses of a trajectory at given phases in [0, 1], shape (n,), with the trajectory's own duration."""
+    """The poses of a trajectory at given phases in [0, 1], shape (n,), with the trajectory's own duration.
+
+    Positions by the interpolation, orientations by SLERP, both in the trajectory's frame.
+    """
     positions = _interpolate(trajectory.phases, trajectory.positions, phases, interpolation)
     orientations = _slerp_at(trajectory.phases, trajectory.orientations, phases)
     return Trajectory(positions, orientations, trajectory.duration)

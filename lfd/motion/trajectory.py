@@ -14,7 +14,7 @@ PREDICTION_POINTS = 75  # the thesis' number of way-points in a prediction
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:
-    """Poses of the end effector at n equally spaced times from 0 to `duration`, in one frame.
+    """Poses of the end effector at n equally spaced times from 0 to `duration`, in one frame, the base frame mostly.
 
     The arrays are copied and read-only; orientations are normalised and made sign-continuous.
 

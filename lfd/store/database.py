@@ -121,6 +121,9 @@ class DemonstrationStore:
     def check(self, wanted: Binding) -> None:
         """Let pass what the active demonstrations are good for; anything is, where there are none.
 
+        Args:
+            wanted: Scene and robot that they are wanted for.
+
         Raises:
             BoundElsewhere: They are of another scene or robot.
         """

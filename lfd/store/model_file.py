@@ -68,6 +68,9 @@ def save(model: AdaptiveProMP | ConditionedProMP, path: Path) -> None:
 def load(path: Path) -> AdaptiveProMP | ConditionedProMP:
     """Read a model that `save` wrote; it predicts and learns as the one that was saved.
 
+    Args:
+        path: The file.
+
     Raises:
         StorageError: There is no such file, or it is no model.
     """

@@ -1,6 +1,8 @@
 """The library alone: its public names, what importing it costs, and that it runs without what only processes need."""
 
 import ast
+import dataclasses
+import inspect
 import json
 import re
 import subprocess
@@ -72,6 +74,31 @@ def test_what_a_type_checker_reads_is_what_is_loaded():
     assert read == {name: f"lfd.{module}" for name, module in lfd._HOMES.items()}
     assert set(read) == set(lfd.__all__)
     assert (ROOT / "lfd" / "py.typed").is_file()
+
+
+def documented():
+    """Public functions, and public classes with their public methods."""
+    for name in lfd.__all__:
+        value = getattr(lfd, name)
+        yield name, value
+        for called, method in vars(value).items() if inspect.isclass(value) else ():
+            function = getattr(method, "__func__", method)
+            if not called.startswith("_") and inspect.isfunction(function):
+                yield f"{name}.{called}", function
+
+
+@pytest.mark.parametrize(("name", "value"), list(documented()), ids=lambda one: one if isinstance(one, str) else "")
+def test_a_docstring_explains_what_is_given_and_what_is_held(name, value):
+    if dataclasses.is_dataclass(value):
+        given = [field.name for field in dataclasses.fields(value)]
+    elif inspect.isclass(value):
+        given = []
+    else:
+        given = [one for one in inspect.signature(value).parameters if one not in ("self", "cls")]
+    owner, _, method = name.partition(".")
+    # What its class holds, or every model has, is explained there.
+    explained = value.__doc__ + getattr(lfd, owner).__doc__ + (getattr(lfd.MovementModel, method, value).__doc__ or "")
+    assert [one for one in given if not re.search(rf"\b{one}\b", explained)] == []
 
 
 def test_a_name_that_is_none_is_no_attribute():
