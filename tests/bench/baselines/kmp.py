@@ -1,0 +1,154 @@
+"""Kernelised movement primitives (Huang, Rozo, Silverio and Caldwell, Int. J. Robotics Research 38(7), 2019).
+
+A mixture of inputs and outputs, and regression on it, give a reference at given inputs (section 2.1); a kernel carries
+it to any input: means by eq. 20, covariances by eq. 24. The inputs are the phase and the condition (section 4 of the
+paper has inputs of several dimensions). A correction is what the paper calls modulation (eq. 28 and 29): new reference
+points, in place of those near to them.
+
+The outputs are positions after a straight blend-out of their start, so the prior's zero is the straight line from the
+start to the object. Orientation and duration are the mean's.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+from scipy.linalg import cho_factor, cho_solve
+
+from lfd.arrays import Array
+from lfd.distances import squared_distances
+from lfd.models.model import Prediction
+from lfd.motion.alignment import SAME_CONDITION, group_by_condition
+from lfd.motion.resampling import resample
+from tests.bench.baselines.anchored import AnchoredMean
+from tests.bench.baselines.mixture import Mixture, regress
+
+PHASES = 25  # at which a reference is given, for each condition
+
+
+@dataclass(frozen=True)
+class KmpOptions:
+    """Parameters.
+
+    Attributes:
+        components: Of the mixture.
+        floor: Variance added to the outputs [m^2].
+        condition_floor: The same to the condition, relative to its variance [-].
+        phase_length: Of the kernel, in phase.
+        condition_length: Of the kernel, relative to the root mean square spread of the conditions.
+        regularisation: lambda of eq. 20 and 24 [1/m^2].
+        exactness: Variance of a new reference point [m^2].
+    """
+
+    components: int = 8
+    floor: float = 1e-5
+    condition_floor: float = 1e-2
+    phase_length: float = 0.1
+    condition_length: float = 3.0
+    regularisation: float = 1e3
+    exactness: float = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class Reference:
+    """Means (N, 3) [m] and covariances (N, 3, 3) [m^2] wanted at phases (N,) and conditions (N, c)."""
+
+    phases: Array
+    conditions: Array
+    means: Array
+    covariances: Array
+
+    def with_motion(self, condition, path, variance) -> Self:
+        """The reference with a path (T, 3) at a condition (c,), in place of what was there."""
+        kept = squared_distances(condition[None], self.conditions)[0] > SAME_CONDITION**2
+        T = len(path)
+        return replace(
+            self,
+            phases=np.append(self.phases[kept], np.linspace(0.0, 1.0, T)),
+            conditions=np.vstack([self.conditions[kept], np.tile(condition, (T, 1))]),
+            means=np.vstack([self.means[kept], path]),
+            covariances=np.concatenate([self.covariances[kept], np.tile(variance * np.eye(3), (T, 1, 1))]),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class KMP:
+    """A reference, carried over by a kernel; `rest` gives orientations and durations."""
+
+    reference: Reference
+    length: float
+    rest: AnchoredMean
+    options: KmpOptions
+
+    def __post_init__(self):
+        r, N = self.reference, len(self.reference.phases)
+        K = np.kron(self._kernel(r.phases, r.conditions), np.eye(3))
+        blocks = self.options.regularisation * r.covariances
+        K.reshape(N, 3, N, 3)[np.arange(N), :, np.arange(N), :] += blocks
+        object.__setattr__(self, "_factor", cho_factor(K))
+        object.__setattr__(self, "_solved", cho_solve(self._factor, r.means.ravel()).reshape(N, 3))
+
+    @classmethod
+    def fit(cls, demonstrations, options=None) -> Self:
+        options = options or KmpOptions()
+        conditions = np.array([d.condition for d in demonstrations])
+        spread = float(np.sqrt(np.mean(np.sum((conditions - conditions.mean(axis=0)) ** 2, axis=1))))
+        length = options.condition_length * max(spread, SAME_CONDITION)
+        reference = _reference(demonstrations, conditions, options)
+        return cls(reference, length, AnchoredMean.fit(demonstrations), options)
+
+    def updated(self, demonstration) -> Self:
+        path = anchored_path(demonstration, PHASES)
+        reference = self.reference.with_motion(demonstration.condition, path, self.options.exactness)
+        return replace(self, reference=reference, rest=self.rest.updated(demonstration))
+
+    def predict(self, situation, n) -> Prediction:
+        phases = np.linspace(0.0, 1.0, n)
+        means, covariances = self.regress(phases, np.tile(situation.condition, (n, 1)))
+        start = situation.start_position - situation.origin
+        rest = self.rest.predict(situation, n)
+        # Where the robot stands it begins.
+        means = means - np.outer(1.0 - phases, means[0]) + np.outer(1.0 - phases, start)
+        return replace(
+            rest,
+            trajectory=replace(rest.trajectory, positions=means + situation.origin),
+            position_covariances=covariances,
+        )
+
+    def regress(self, phases, conditions) -> tuple[Array, Array]:
+        """Means (n, 3) and covariances (n, 3, 3) at inputs (n,) and (n, c): eq. 20 and 24."""
+        n, N = len(phases), len(self.reference.phases)
+        k = self._kernel(phases, conditions)
+        wide = np.kron(k, np.eye(3))
+        explained = wide @ cho_solve(self._factor, wide.T)
+        diagonal = explained.reshape(n, 3, n, 3)[np.arange(n), :, np.arange(n), :]
+        covariances = N / self.options.regularisation * (np.eye(3) - diagonal)
+        return k @ self._solved, 0.5 * (covariances + covariances.transpose(0, 2, 1))
+
+    def _kernel(self, phases, conditions) -> Array:
+        """Of inputs with those of the reference, shape (n, N)."""
+        r = self.reference
+        by_phase = ((phases[:, None] - r.phases) / self.options.phase_length) ** 2
+        return np.exp(-0.5 * (by_phase + squared_distances(conditions, r.conditions) / self.length**2))
+
+
+def anchored_path(demonstration, n) -> Array:
+    """Positions (n, 3) relative to the origin, after a straight blend-out of the start [m]."""
+    trajectory = resample(demonstration.trajectory, n)
+    relative = trajectory.positions - demonstration.origin
+    return relative - np.outer(1.0 - trajectory.phases, relative[0])
+
+
+def _reference(demonstrations, conditions, options) -> Reference:
+    """At each condition, from a mixture over phase, condition and position."""
+    phases, c = np.linspace(0.0, 1.0, PHASES), conditions.shape[1]
+    rows = [
+        np.column_stack([phases, np.tile(d.condition, (PHASES, 1)), anchored_path(d, PHASES)]) for d in demonstrations
+    ]
+    s_floor = np.maximum(options.condition_floor * conditions.var(axis=0), 1e-6)
+    floor = np.concatenate([[1e-4], s_floor, np.full(3, options.floor)])
+    mixture = Mixture.fit(np.vstack(rows)[None], options.components, floor)
+    places = [conditions[group].mean(axis=0) for group in group_by_condition(conditions)]
+    inputs = np.vstack([np.column_stack([phases, np.tile(s, (PHASES, 1))]) for s in places])
+    wanted = regress(mixture.priors, mixture.means[0], mixture.covariances[0], inputs)
+    return Reference(inputs[:, 0], inputs[:, 1 : 1 + c], wanted.means, wanted.covariances)

@@ -1,0 +1,128 @@
+"""The benchmark's text: one table a question."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from rich.table import Table
+from rich.text import Text
+
+from tests.bench.baselines.models import DEFAULT, MODELS
+from tests.bench.evaluation.summary import DEGENERATE, bests, first_shares, means, next_gaps
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Everything that was measured, and on which recordings."""
+
+    part: str
+    sets: tuple[str, ...]
+    operators: tuple[str, ...]
+    adaptations: list
+    transfers: list
+    left_out: list
+
+
+def show(console, measured, figures):
+    """All tables, to a rich console without markup: units stand in brackets."""
+    adaptations, transfers, left_out = measured.adaptations, measured.transfers, measured.left_out
+    sets, operators = ", ".join(measured.sets) or "none", ", ".join(measured.operators) or "nobody"
+    console.print(f"Part {measured.part}: sets {sets}; refinements of {operators}.")
+    if left_out:
+        for error, asked in (
+            ("time", "How far at equal times is a prediction at a condition that was left out? [m]"),
+            ("path", "How far is its path, whatever the time? [m]"),
+            ("end", "How far does it end? [m]"),
+            ("coverage", "How many coordinates lie inside the model's own 90 % intervals? [-]"),
+        ):
+            console.print(_by_set(left_out, error, asked))
+        console.print("A mean over the demonstrations of each left-out condition; * marks sets of two conditions.")
+        console.print(_bests(left_out), _means(left_out))
+    if adaptations:
+        console.print(_corrections(adaptations))
+        console.print(
+            "Each operator's sequences are replayed from the initial model; next: all corrections but first ones."
+        )
+    if transfers:
+        console.print(_transfers(transfers))
+        console.print(
+            "Pairs of first corrections, each by another person at the same condition, from the initial model."
+        )
+    console.print(_figures(figures))
+
+
+def _by_set(left_out, error, asked):
+    names = list(dict.fromkeys(r.name for r in left_out))
+    values = {(r.model, r.name): getattr(r, error) for r in left_out}
+    few = {r.name for r in left_out if r.conditions <= DEGENERATE}
+    counted = {r.name: f"{r.conditions} / {r.demonstrations}" for r in left_out}
+    table = Table(title=asked)
+    table.add_column("set", no_wrap=True)
+    table.add_column("conditions / motions", width=12)
+    for model in MODELS:
+        table.add_column(model, width=9)
+    for name in names:
+        row = [values[m, name] for m in MODELS]
+        table.add_row(name + "*" * (name in few), counted[name], *_marked(row, error == "coverage"))
+    return table
+
+
+def _bests(left_out):
+    table = Table(
+        "set", "error", "best baseline", "its [m]", "default [m]", "ratio", title="Is it worse than the best?"
+    )
+    for error in ("time", "path"):
+        for b in bests(left_out, error):
+            table.add_row(b.name, error, b.best_model, f"{b.best:.4f}", f"{b.default:.4f}", f"{b.ratio:.3f}")
+    return table
+
+
+def _means(left_out):
+    title = f"Mean over the sets / over those of more than {DEGENERATE} conditions [m]"
+    table = Table("model", "time", "path", "end", title=title)
+    for m in means(left_out):
+        pairs = ((m.time, m.time_of_several), (m.path, m.path_of_several), (m.end, m.end_of_several))
+        table.add_row(m.model, *(f"{a:.4f} / {'-' if b is None else f'{b:.4f}'}" for a, b in pairs))
+    return table
+
+
+def _corrections(adaptations):
+    columns = (
+        "model",
+        "first gap [m]",
+        "left after it [-]",
+        "nine in ten [-]",
+        "next gap [m]",
+        "nine in ten [m]",
+        "next",
+    )
+    table = Table(*columns, title="How much do a person's own corrections leave, and how far is the next? (medians)")
+    for model in MODELS:
+        firsts = [a.before[0] for a in adaptations if a.model == model]
+        left, following = first_shares(adaptations, model), next_gaps(adaptations, model)
+        cells = [np.median(firsts), np.median(left), np.quantile(left, 0.9)]
+        if len(following):
+            cells += [np.median(following), np.quantile(following, 0.9)]
+        table.add_row(model, *(f"{x:.3f}" for x in cells), *[""] * (5 - len(cells)), str(len(following)))
+    return table
+
+
+def _transfers(transfers):
+    title = "How much does somebody else's correction at the same condition leave of the gap? [-]"
+    table = Table("model", "median", "nine in ten", "worse than before", "pairs", title=title)
+    for t in transfers:
+        table.add_row(t.model, f"{t.median:.3f}", f"{t.nine_in_ten:.3f}", f"{t.worse:.1%}", str(t.pairs))
+    return table
+
+
+def _figures(figures):
+    table = Table("figure", DEFAULT, "thesis", "best baseline", "", "goal", "", title="What the default model reaches")
+    for f in figures:
+        best = f"{f.best:.4f} {f.best_model}"
+        table.add_row(f.name, f"{f.default:.4f}", f"{f.thesis:.4f}", best, f.unit, f.goal, "met" if f.met else "MISSED")
+    return table
+
+
+def _marked(values, is_coverage):
+    if is_coverage:
+        return [f"{x:.2f}" for x in values]
+    return [Text(f"{x:.4f}", style="bold" if x == min(values) else "") for x in values]
