@@ -30,6 +30,15 @@ MARK = "RETOUCH_SYSTEM_TEST"
 
 EVERYBODY = {"router", *PROCESS_NAMES}
 
+STATES = (
+    topics.ROBOT_STATE,
+    topics.TEACHING_STATE,
+    topics.AUTHORITY_STATE,
+    topics.SAFETY_STATE,
+    topics.MODEL_STATE,
+)
+"""What a witness hears, of processes on this machine."""
+
 
 def eventually(seen, within_s, what):
     """The first true value of `seen()`; `what` is waited for, as text or as a function that gives it."""
@@ -211,11 +220,7 @@ class Witness:
     def __init__(self, endpoint, robot="robot1"):
         session = open_session(endpoint, START_S)
         self.bus = ZenohBus(session, robot, f"witness-{secrets.token_hex(4)}", SystemClock())
-        self._robot = self.bus.subscribe(topics.ROBOT_STATE)
-        self._teaching = self.bus.subscribe(topics.TEACHING_STATE)
-        self._authority = self.bus.subscribe(topics.AUTHORITY_STATE)
-        self._safety = self.bus.subscribe(topics.SAFETY_STATE)
-        self._model = self.bus.subscribe(topics.MODEL_STATE)
+        self._states = {topic: self.bus.subscribe(topic) for topic in STATES}
         self._heartbeats = self.bus.subscribe(topics.HEARTBEAT)
         self._beats = {}
 
@@ -228,27 +233,33 @@ class Witness:
     @property
     def robot(self):
         """The robot's fresh state, or None."""
-        return self._robot.fresh(SystemClock().now_ns())
+        return self._fresh(topics.ROBOT_STATE)
 
     @property
     def teaching(self):
         """The workflow's fresh state, or None."""
-        return self._teaching.fresh(SystemClock().now_ns())
+        return self._fresh(topics.TEACHING_STATE)
 
     @property
     def authority(self):
         """Who may command, or None."""
-        return self._authority.fresh(SystemClock().now_ns())
+        return self._fresh(topics.AUTHORITY_STATE)
 
-    @property
-    def safety(self):
-        """The robot's safety state, or None."""
-        return self._safety.fresh(SystemClock().now_ns())
+    def _fresh(self, topic):
+        return self._states[topic].fresh(SystemClock().now_ns())
 
-    @property
-    def model(self):
-        """The model's state, or None."""
-        return self._model.fresh(SystemClock().now_ns())
+    def next(self, topic, seen=lambda state: True, within_s=10.0):
+        """The first of a process' states that is sent after this call and of which `seen` is true.
+
+        What was heard on another topic says nothing of whether this one's newest has come.
+        """
+        called_ns = SystemClock().now_ns()
+
+        def sent_since():
+            state = self._fresh(topic)
+            return state if state is not None and state.stamp_ns > called_ns and seen(state) else None
+
+        return eventually(sent_since, within_s, f"the next {topic.name}")
 
     def beats(self):
         """The newest heartbeat of each process."""

@@ -101,21 +101,21 @@ def test_one_correction_by_keyboard_is_learnt(tmp_path, page):
         page.goto(f"http://{station.host}:{station.port}/")
 
         press(page, "execute")
-        eventually(lambda: decides(page, witness, 1), EPISODE_S, up.tail)
-        assert witness.teaching.attempts[0].verdict.collision
+        teaching = eventually(lambda: decides(page, witness, 1), EPISODE_S, up.tail)
+        assert teaching.attempts[0].verdict.collision
         press(page, "refine")
         person = Person(page, witness)
-        eventually(lambda: person.correct() or decides(page, witness, 2), EPISODE_S, up.tail)
-        assert witness.teaching.updates == 1
+        teaching = eventually(lambda: person.correct() or decides(page, witness, 2), EPISODE_S, up.tail)
+        assert teaching.updates == 1
         press(page, "execute")
-        eventually(lambda: decides(page, witness, 3), EPISODE_S, up.tail)
+        teaching = eventually(lambda: decides(page, witness, 3), EPISODE_S, up.tail)
 
-        _, refined, last = witness.teaching.attempts
+        _, refined, last = teaching.attempts
         assert refined.operator_input
         assert refined.verdict.success
         assert last.verdict.success
         assert not last.operator_input
-        assert witness.teaching.loop_closed
+        assert teaching.loop_closed
 
 
 def press(page, action):
@@ -124,7 +124,8 @@ def press(page, action):
 
 
 def decides(page, witness, attempts):
-    """The workflow waits for the operator after so many episodes; the browser lives on meanwhile."""
+    """The workflow that waits for the operator after so many episodes, or None; the browser lives on meanwhile."""
     page.wait_for_timeout(20)
     teaching = witness.teaching
-    return teaching is not None and teaching.phase == "deciding" and len(teaching.attempts) >= attempts
+    waits = teaching is not None and teaching.phase == "deciding" and len(teaching.attempts) >= attempts
+    return teaching if waits else None

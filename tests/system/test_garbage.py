@@ -103,17 +103,19 @@ def unmoved(network):
     """All processes live on as the same ones, the robot stands, the authority and the model are as they were."""
     witness = network.witness
     before = witness.next_beats(PROCESS_NAMES)
-    authority, model, robot = witness.authority, witness.model, witness.robot
+    authority, model, robot = map(witness.next, (topics.AUTHORITY_STATE, topics.MODEL_STATE, topics.ROBOT_STATE))
     yield before
     after = witness.next_beats(PROCESS_NAMES)
     assert {name: beat.pid for name, beat in after.items()} == {name: beat.pid for name, beat in before.items()}
     told = lambda state: msgspec.structs.replace(state, publisher=0, sequence=0, stamp_ns=0)  # noqa: E731
-    assert told(eventually(lambda: witness.model, 5.0, "the model's state")) == told(model)
-    assert (witness.authority.holder, witness.authority.epoch) == (authority.holder, authority.epoch)
-    assert witness.robot.phase is Phase.IDLE
-    assert witness.robot.episode == robot.episode
-    assert np.abs(np.subtract(witness.robot.q, robot.q)).max() < STILL_RAD
-    assert not eventually(lambda: witness.safety, 5.0, "the safety state").emergency_stop
+    assert told(witness.next(topics.MODEL_STATE)) == told(model)
+    holder = witness.next(topics.AUTHORITY_STATE)
+    assert (holder.holder, holder.epoch) == (authority.holder, authority.epoch)
+    standing = witness.next(topics.ROBOT_STATE)
+    assert standing.phase is Phase.IDLE
+    assert standing.episode == robot.episode
+    assert np.abs(np.subtract(standing.q, robot.q)).max() < STILL_RAD
+    assert not witness.next(topics.SAFETY_STATE).emergency_stop
     assert "Traceback" not in network.up.out + network.up.err
 
 

@@ -8,7 +8,7 @@ import time
 import numpy as np
 import pytest
 
-from protocol import queries
+from protocol import queries, topics
 from protocol.messages import Mode, Phase
 from services.bus.arrays import motion_to_wire
 from tests.system.harness import (
@@ -98,11 +98,11 @@ def test_each_process_is_killed_in_turn_and_the_loop_still_closes(tmp_path):
         first = up.pids()
         assert set(first) >= EVERYBODY
 
-        epoch = witness.authority.epoch
+        epoch = witness.next(topics.AUTHORITY_STATE).epoch
         run.kill("station")
         run.holds("nobody holds the authority")
         run.back("station", first["station"])
-        up.until(lambda: witness.authority and witness.authority.epoch > epoch + 1, BACK_S, "a new authority")
+        witness.next(topics.AUTHORITY_STATE, lambda state: state.epoch > epoch + 1, BACK_S)
 
         run.executing(Mode.AUTONOMOUS)
         run.kill("robot")
@@ -121,7 +121,7 @@ def test_each_process_is_killed_in_turn_and_the_loop_still_closes(tmp_path):
         run.holds("keys or device were not heard")
         run.back("master", first["master"])
 
-        up.until(lambda: witness.teaching and witness.teaching.updates, 2 * EPISODE_S, "a refinement is learnt")
+        up.until(lambda: (state := witness.teaching) and state.updates, 2 * EPISODE_S, "a refinement is learnt")
         learnt = witness.asked(queries.DESCRIBE, queries.Describe()).state
         run.kill("model")
         run.back("model", first["model"])

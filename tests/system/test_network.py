@@ -194,9 +194,9 @@ def test_two_robots_under_one_router_do_not_hear_each_other(tmp_path, router):
         left.asked(queries.ADD_DEMONSTRATION, demonstration())
         assert left.asked(queries.DESCRIBE, queries.Describe()).state.version == 1
         assert right.asked(queries.DESCRIBE, queries.Describe()).state.version == 0
-        eventually(lambda: left.model and left.model.version == 1, WITHIN_S, "left's state")
+        left.next(topics.MODEL_STATE, lambda state: state.version == 1)
         assert right.next_beats({"model"})["model"].pid == beats[1].pid
-        assert right.model.version == 0
+        assert right.next(topics.MODEL_STATE).version == 0
         assert isinstance(none.ask(queries.DESCRIBE, queries.Describe()), Failed)
         assert none.beats() == {}
 

@@ -11,27 +11,38 @@ pytestmark = [pytest.mark.system, pytest.mark.zenoh]
 WITHIN_S = 10.0
 
 
+def heard_hz(witness):
+    """At which rate the robot hears of the stop [Hz]."""
+    beat = witness.next_beats({"robot"})["robot"]
+    return next(figures.rate_hz for figures in beat.topics if figures.topic == topics.EMERGENCY_STOP.name)
+
+
 @pytest.mark.sim
 def test_stop_latches_and_release_releases(tmp_path, router):
     with Command("robot", "--connect", router, folder=tmp_path), Witness(router) as witness:
         granted = witness.asked(queries.ACQUIRE, queries.AcquireAuthority("witness"), 30.0)
         with Command("stop", "--operator", "bob", "--connect", router, folder=tmp_path) as stop:
             assert stop.ended(20.0) == 0, stop.tail()
-        eventually(lambda: witness.safety and witness.safety.emergency_stop, WITHIN_S, "the stop has latched")
-        eventually(lambda: witness.robot.phase is Phase.STOPPED, WITHIN_S, "the robot says so")
+        witness.next(topics.SAFETY_STATE, lambda state: state.emergency_stop)
+        witness.next(topics.ROBOT_STATE, lambda state: state.phase is Phase.STOPPED)
         refused = witness.ask(queries.ACQUIRE, queries.AcquireAuthority("witness"))
         assert isinstance(refused, queries.Refused)
         assert "emergency stop" in refused.reason
         # Not pressing any more is no release.
-        witness.bus.publish(topics.EMERGENCY_STOP, EmergencyStop(pressed=False, by="witness"))
-        witness.next_beats({"robot"})
-        assert witness.safety.emergency_stop
+        eventually(lambda: not heard_hz(witness), WITHIN_S, "nobody presses any more")
+
+        def lets_go():
+            witness.bus.publish(topics.EMERGENCY_STOP, EmergencyStop(pressed=False, by="witness"))
+            return heard_hz(witness)
+
+        eventually(lets_go, WITHIN_S, "the robot hears that it is not pressed")
+        assert witness.next(topics.SAFETY_STATE).emergency_stop
 
         arguments = ("--release", "--operator", "anna", "--connect", router)
         with Command("stop", *arguments, folder=tmp_path) as release:
             assert release.ended(20.0) == 0, release.tail()
         assert "released by anna; bob had pressed it at 20" in release.err
-        eventually(lambda: witness.safety and not witness.safety.emergency_stop, WITHIN_S, "the stop is released")
+        witness.next(topics.SAFETY_STATE, lambda state: not state.emergency_stop)
         stale = witness.ask(queries.RESET, queries.Reset(granted.epoch))
         assert isinstance(stale, queries.Refused), "who held the authority before has to ask for it again"
         assert witness.asked(queries.ACQUIRE, queries.AcquireAuthority("witness")).epoch > granted.epoch

@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from tests.system.harness import EVERYBODY, START_S, Command, Witness, configured, free_endpoint
+from tests.system.harness import EVERYBODY, START_S, Command, Witness, configured, eventually, free_endpoint
 from tests.system.onlooker import STANDING, Onlooker
 
 pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.sim]
@@ -83,7 +83,8 @@ def test_a_latched_stop_outlives_the_robots_process(up, onlooker, endpoint, tmp_
         killed(up, "robot")
         onlooker.safety.clear()
         assert onlooker.phases_of(1.0) == {"stopped"}
-        assert onlooker.safety["emergency_stop"]
-        assert onlooker.safety["by"] == "anna"
+        safety = eventually(lambda: onlooker.safety, BACK_S, "its safety state is heard")
+        assert safety["emergency_stop"]
+        assert safety["by"] == "anna"
     pressed(endpoint, tmp_path, "--release")
     onlooker.until(lambda seen: seen.phase == "idle", BACK_S, "it is released")
