@@ -1,27 +1,17 @@
 """One real page for all browser tests, and a fresh tab for each."""
 
-import socket
 import sys
 import time
 from pathlib import Path
 
 import pytest
 
+from tests.ports import free_port
+
 sys.path.insert(0, str(Path(__file__).parent))
 
 WITHIN_S = 20.0
 SEAT = "the-seat-of-all-tests"
-
-
-def _free_port():
-    with socket.create_server(("127.0.0.1", 0)) as probe:
-        return probe.getsockname()[1]
-
-
-@pytest.fixture(scope="session")
-def free_port():
-    """A function that finds a port where nobody listens."""
-    return _free_port
 
 
 @pytest.fixture(scope="session")
@@ -47,7 +37,7 @@ def station():
     from services.process.config import StationSection
     from services.station.page.page import Page
 
-    page = Page(StationSection(port=_free_port()), "robot1", SystemClock())
+    page = Page(StationSection(port=free_port()), "robot1", SystemClock())
     page.start()
     feed = Feed(page, working_view())
     feed.start()

@@ -9,12 +9,13 @@ from frame import Frame
 
 from protocol.messages import Recording
 from services.process.clock import SystemClock
+from tests.ports import free_port
 
 pytestmark = pytest.mark.browser
 
 
 @pytest.fixture
-def serve_frame(tmp_path, free_port):
+def serve_frame(tmp_path):
     """A function that serves a live view on an address of this machine."""
     served = []
 
@@ -131,7 +132,7 @@ def test_a_lost_link_neither_loads_the_page_anew_nor_the_view(open_seated, stati
 
 
 @pytest.fixture
-def open_station(free_port):
+def open_station():
     """A station that listens on every address: its port and its feed."""
     from harness import Feed, working_view
 

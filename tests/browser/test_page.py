@@ -17,6 +17,7 @@ from protocol.messages import Light
 from services.process.clock import SystemClock
 from services.process.config import StationSection
 from services.process.exceptions import PortInUse
+from tests.ports import free_port
 
 pytestmark = pytest.mark.browser
 
@@ -99,7 +100,7 @@ def test_a_port_in_use_is_one_line_that_names_port_and_setting():
     page.close()
 
 
-def test_sigterm_ends_it_within_two_seconds_and_it_writes_nothing(browser, free_port, tmp_path):
+def test_sigterm_ends_it_within_two_seconds_and_it_writes_nothing(browser, tmp_path):
     port = free_port()
     process = subprocess.Popen([sys.executable, HARNESS, str(port)], cwd=tmp_path, stdout=subprocess.PIPE)
     try:

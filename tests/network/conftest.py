@@ -3,7 +3,8 @@
 import pytest
 
 from tests.network.link import Impossible, Link
-from tests.system.harness import Command, free_port, reachable
+from tests.ports import free_port
+from tests.system.harness import Command, reachable
 
 
 @pytest.fixture

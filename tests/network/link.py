@@ -1,7 +1,9 @@
 """A network that can be impaired: this machine, a far one in a namespace of its own, and a link between them."""
 
+import itertools
 import json
 import os
+import random
 import secrets
 import subprocess
 import sys
@@ -9,6 +11,9 @@ import time
 from pathlib import Path
 
 _FORWARDER = Path(__file__).with_name("forwarder.py")
+
+_numbers = itertools.cycle(random.SystemRandom().sample(range(2, 252), 250))
+"""Several links of one machine have networks of their own."""
 
 _PRIVATE_MEMORY = ("sh", "-c", 'mount -t tmpfs tmpfs /dev/shm && exec "$@"', "sh")
 """Zenoh uses shared memory across the namespaces of one kernel, which no link can cut."""
@@ -31,7 +36,7 @@ class Link:
     """
 
     def __init__(self):
-        number = secrets.randbelow(250) + 2
+        number = next(_numbers)
         self.near, self.far = f"10.97.{number}.1", f"10.97.{number}.2"
         self._tag = secrets.token_hex(3)
         self._namespace = f"far{self._tag}"

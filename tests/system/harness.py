@@ -20,6 +20,7 @@ from services.bus.bus import Failed
 from services.bus.zenoh import ZenohBus, open_session
 from services.process.clock import SystemClock
 from services.process.processes import PROCESS_NAMES
+from tests.ports import free_port
 
 POLL_S = 0.01
 START_S = 120.0
@@ -48,12 +49,6 @@ def eventually(seen, within_s, what):
             raise AssertionError(f"not within {within_s:g} s: {what() if callable(what) else what}")
         time.sleep(POLL_S)
     return value
-
-
-def free_port():
-    """A TCP port of this machine where nobody listens."""
-    with socket.create_server(("127.0.0.1", 0)) as probe:
-        return probe.getsockname()[1]
 
 
 def free_endpoint():

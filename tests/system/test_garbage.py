@@ -63,6 +63,11 @@ def decides(witness, attempts):
     return teaching is not None and teaching.phase == "deciding" and len(teaching.attempts) == attempts
 
 
+def subject(key):
+    """The topic's name in a key expression."""
+    return "/".join(key.split("/")[3:5])
+
+
 @pytest.fixture(scope="module")
 def network(tmp_path_factory):
     folder = tmp_path_factory.mktemp("garbage")
@@ -75,15 +80,15 @@ def network(tmp_path_factory):
         Stranger(endpoint) as stranger,
         Somebody(station.host, station.port) as somebody,
     ):
-        heard = stranger.listen("retouch/@v1/robot1/**", kept=20_000)
+        newest = {}
+        stranger.watch("retouch/@v1/robot1/**", lambda passing: newest.update({subject(passing.key): passing.payload}))
         up.until(lambda: decides(witness, attempts=0), START_S, "the operator is asked")
         somebody.press("execute")
         up.until(lambda: decides(witness, attempts=1), EPISODE_S, "a prediction is executed, and the operator is asked")
-        samples = {}
-        for passing in list(heard):
-            subject = "/".join(passing.key.split("/")[3:5])
-            samples[subject] = passing.payload
-        # The only topic on which nothing has passed yet.
+        # The only topic on which nothing passes.
+        passed = {topic.name for topic in TOPICS if topic is not topics.EMERGENCY_STOP}
+        up.until(lambda: passed <= set(newest), START_S, "something has passed on every topic")
+        samples = dict(newest)
         press = messages.EmergencyStop(
             robot="robot1", topic=topics.EMERGENCY_STOP.name, pressed=True, by="stranger", sequence=1
         )

@@ -1,7 +1,6 @@
 """A viewer that is stepped by hand: free ports, a folder of its own, a web viewer's files that weigh nothing."""
 
 import gzip
-import socket
 
 import msgspec
 import pytest
@@ -9,12 +8,7 @@ import pytest
 from services.bus.memory import MemoryNetwork
 from services.process.clock import ManualClock
 from services.process.config import Configuration, RobotSection, ViewerSection
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
+from tests.ports import free_port
 
 
 @pytest.fixture
