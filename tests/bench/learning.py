@@ -21,6 +21,7 @@ from pathlib import Path
 
 from rich.console import Console
 from rich.progress import track
+from threadpoolctl import threadpool_limits
 
 from tests import recordings
 from tests.bench.baselines.models import MODELS
@@ -51,7 +52,7 @@ def measure(folder, initial, part):
     for name, model in track(work, "leaving out", console=console, disable=not work):
         left_out.append(leave_out(model, name, chosen.sets[name]))
     transfers, left_out = ([row for row in rows if row is not None] for rows in (transfers, left_out))
-    return Measured(part, tuple(chosen.sets), tuple(chosen.operators), adaptations, transfers, left_out)
+    return Measured(part, chosen, every.part(Part.TUNE), adaptations, transfers, left_out)
 
 
 def _initial(folder, paths):
@@ -75,7 +76,8 @@ def main():
     try:
         if not (arguments.data / "demonstrations").is_dir():
             raise UnusableRecording(arguments.data, "has no folder demonstrations/")
-        measured = measure(arguments.data, arguments.initial, arguments.part)
+        with threadpool_limits(1):  # as the processes of retouch have it; the matrices are small
+            measured = measure(arguments.data, arguments.initial, arguments.part)
     except UnusableRecording as error:
         sys.exit(f"bench: {error}")
     results = figures(measured.adaptations, measured.transfers, measured.left_out)
@@ -83,7 +85,8 @@ def main():
     if arguments.json is not None:
         content = {
             "part": measured.part,
-            "operators": measured.operators,
+            "operators": measured.chosen.operators,
+            "tuned_on": {"sets": list(measured.tuned_on.sets), "operators": measured.tuned_on.operators},
             "figures": [asdict(f) for f in results],
             "sequences": [{**asdict(a), "left": a.left} for a in measured.adaptations],
             "sets": [asdict(r) for r in measured.left_out],

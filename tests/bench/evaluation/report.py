@@ -7,16 +7,17 @@ from rich.table import Table
 from rich.text import Text
 
 from tests.bench.baselines.models import DEFAULT, MODELS
+from tests.bench.evaluation.parts import Recordings
 from tests.bench.evaluation.summary import DEGENERATE, bests, first_shares, means, next_gaps
 
 
 @dataclass(frozen=True)
 class Measured:
-    """Everything that was measured, and on which recordings."""
+    """Everything that was measured: on which recordings, and on which of all the options may have been chosen."""
 
     part: str
-    sets: tuple[str, ...]
-    operators: tuple[str, ...]
+    chosen: Recordings
+    tuned_on: Recordings
     adaptations: list
     transfers: list
     left_out: list
@@ -25,8 +26,8 @@ class Measured:
 def show(console, measured, figures):
     """All tables, to a rich console without markup: units stand in brackets."""
     adaptations, transfers, left_out = measured.adaptations, measured.transfers, measured.left_out
-    sets, operators = ", ".join(measured.sets) or "none", ", ".join(measured.operators) or "nobody"
-    console.print(f"Part {measured.part}: sets {sets}; refinements of {operators}.")
+    console.print(f"Measured, part {measured.part}: {_named(measured.chosen)}.")
+    console.print(f"Options may have been chosen on {_named(measured.tuned_on)}; all else is for reporting only.")
     if left_out:
         for error, asked in (
             ("time", "How far at equal times is a prediction at a condition that was left out? [m]"),
@@ -35,7 +36,9 @@ def show(console, measured, figures):
             ("coverage", "How many coordinates lie inside the model's own 90 % intervals? [-]"),
         ):
             console.print(_by_set(left_out, error, asked))
-        console.print("A mean over the demonstrations of each left-out condition; * marks sets of two conditions.")
+        console.print(
+            "Each condition is left out once; means over the demonstrations; bold: least; *: a set of two conditions."
+        )
         console.print(_bests(left_out), _means(left_out))
     if adaptations:
         console.print(_corrections(adaptations))
@@ -48,6 +51,11 @@ def show(console, measured, figures):
             "Pairs of first corrections, each by another person at the same condition, from the initial model."
         )
     console.print(_figures(figures))
+
+
+def _named(recordings):
+    sets, operators = ", ".join(recordings.sets) or "none", ", ".join(recordings.operators) or "nobody"
+    return f"the sets {sets} and the refinements of {operators}"
 
 
 def _by_set(left_out, error, asked):

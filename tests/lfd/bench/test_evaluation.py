@@ -137,3 +137,11 @@ def test_sets_of_two_conditions_are_told_apart():
 
 def test_every_model_but_the_default_is_a_baseline():
     assert {*BASELINES, DEFAULT} == set(MODELS)
+
+
+def test_the_coverage_of_the_worst_set_is_the_one_farthest_from_what_is_promised():
+    left_out = []
+    for name, conditions, coverage in (("a", 6, 0.93), ("b", 7, 0.86), ("few", 4, 0.1)):
+        left_out += [LeftOut(m, name, conditions, 6, 1.0, 1.0, 1.0, coverage) for m in MODELS]
+    worst = next(f for f in figures([], [], left_out) if "worst set of 6" in f.name)
+    assert (worst.default, worst.met) == (0.86, True)
