@@ -135,10 +135,10 @@ class UnreachableViaPoint(LfdError):
         self.phase = phase
         self.offset = offset
         self.swing = swing
-        cost = f"would swing it by {swing:.3g} m" if swing < math.inf else "cannot be met: the start is given"
+        cost = f"would swing it by {swing:.3g} m" if swing < math.inf else "cannot be met: the motion is fixed there"
         super().__init__(
             f"the via-point at phase {phase:g}, {offset:.3g} m off the motion, {cost};"
-            " give it a later phase or a wider covariance, or let the motion start elsewhere"
+            " put it farther from the start and from other via-points in time, or give it a wider covariance"
         )
 
 

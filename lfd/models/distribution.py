@@ -29,6 +29,7 @@ class MotionDistribution:
         mean: As `Encoding.encode` gives it, shape (D,).
         covariance: Of it, shape (D, D).
         noise_std: Of each position about the weights' motion (sigma of equation (13)) [m].
+        via_points: That it was led through.
 
     Raises:
         OutOfRange: `noise_std` is negative.
@@ -39,6 +40,7 @@ class MotionDistribution:
     mean: Array
     covariance: Array
     noise_std: float = 0.0
+    via_points: tuple[ViaPoint, ...] = ()
 
     def __post_init__(self) -> None:
         check_options(self, noise_std=NOT_NEGATIVE)
@@ -98,22 +100,24 @@ class MotionDistribution:
 
         Those equations are kept to where they lead the motion no further away, anywhere, than `SWING` times as far as
         the via-point lies off it, and to within `MISSED` of the via-point's own deviations. Elsewhere a local detour is
-        allowed for, as much as that takes; see `lfd.models.via_point`.
+        allowed for, as much as that takes, which leaves earlier via-points alone; see `lfd.models.via_point`.
 
         Args:
             via: Position in the base frame, phase and covariance.
 
         Raises:
-            UnreachableViaPoint: It lies off the motion so near to a start that is given, or at it, that no detour leads
-                there.
+            UnreachableViaPoint: It lies off the motion so near to a start that is given, or to an earlier via-point,
+                that no detour leads there.
         """
         at = self.encoding.outputs(self.mean, self.situation, np.array([via.phase]))[0, :POSITION]
         offset = via.position - self.situation.origin - at
-        gain, rows = gain_of(self.encoding, self.covariance, via, offset), position_rows(self.encoding, via.phase)
+        rows = position_rows(self.encoding, via.phase)
+        gain = gain_of(self.encoding, self.covariance, via, offset, self.via_points)
         # (I - G R) Sigma (I - G R)^T + G S G^T, which holds for any gain G: multiplied out, of second order in D.
         carried = self.covariance @ rows.T @ gain.T
         covariance = self.covariance - carried - carried.T + gain @ (rows @ carried + via.covariance @ gain.T)
-        return replace(self, mean=frozen(self.mean + gain @ offset), covariance=frozen(covariance))
+        mean, led = frozen(self.mean + gain @ offset), (*self.via_points, via)
+        return replace(self, mean=mean, covariance=frozen(covariance), via_points=led)
 
 
 def position_covariances(encoding: Encoding, covariance: Array, n: int) -> Array:

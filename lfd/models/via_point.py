@@ -4,9 +4,10 @@ Conditioning a Gaussian moves the whole motion by what the via-point says and th
 variance at the via-point's phase is small beside that elsewhere, a small shift there stands for a large one elsewhere:
 a motion whose start is given, led aside just after it, would swing by many times as much; and a model of few
 demonstrations knows so few ways to move that it does so at any phase. There the prior is widened by a detour: one more
-way to move, local, smooth, and as narrow as it must be to leave the start where it is.
+way to move, local, smooth, and as narrow as it must be to leave a given start and earlier via-points where they are.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,7 +21,7 @@ from lfd.models.encoding import OUTPUTS, POSITION, Encoding
 SWING = 1.25  # how far a motion may be led away from where it was, in units of the via-point's distance from it [-]
 MISSED = 3.0  # by how many of its own standard deviations a via-point may be missed [-]
 
-_WIDTH = 0.1  # phase: standard deviation of a detour with room on all sides
+_REACH = 0.25  # phase: how far a detour leads to both sides where there is room
 _SHARES = 10.0 ** np.arange(-3.0, 9.0, 0.5)  # of the detour's variance in all there is, tried in turn
 _EXACT = 3e-4  # of the distance of a via-point, within which it is met exactly
 _PHASES = np.linspace(0.0, 1.0, 101)
@@ -63,7 +64,9 @@ def position_rows(encoding: Encoding, phase: float) -> Array:
     return rows
 
 
-def gain_of(encoding: Encoding, covariance: Array, via: ViaPoint, offset: Array) -> Array:
+def gain_of(
+    encoding: Encoding, covariance: Array, via: ViaPoint, offset: Array, earlier: Sequence[ViaPoint] = ()
+) -> Array:
     """How a vector follows a via-point, shape (D, 3): by `gain @ offset`.
 
     Args:
@@ -71,20 +74,23 @@ def gain_of(encoding: Encoding, covariance: Array, via: ViaPoint, offset: Array)
         covariance: Of a vector before, shape (D, D).
         via: That the motion is led through.
         offset: Of its position from the motion's at its phase, shape (3,) [m].
+        earlier: Via-points that no detour leads away from.
 
     Raises:
         UnreachableViaPoint: No detour leads there without swinging the motion.
     """
-    rows, detour = position_rows(encoding, via.phase), _detour(encoding, via.phase)
+    rows = position_rows(encoding, via.phase)
+    detour = _detour(encoding, via.phase, np.array([one.phase for one in earlier]))
     cross = covariance @ rows.T
     own, away = rows @ cross, float(np.linalg.norm(offset))
     # Exact is what cannot be told from it: rounding, not a wish of the caller's.
     deviation = via.covariance + (_EXACT * away) ** 2 * np.eye(POSITION)
+    rounding = _ROUNDING * float(np.trace(covariance))  # where the motion is fixed, that is all that is left
     scale = away**2 + float(np.trace(own + via.covariance))
     least = np.inf
     for variance in [0.0, *(scale * _SHARES)]:
         joint = own + variance * rows @ detour + via.covariance
-        gain: Array = (cross + variance * detour) @ np.linalg.pinv(joint, rcond=_ROUNDING, hermitian=True)
+        gain: Array = (cross + variance * detour) @ _inverse(joint, rounding)
         change = gain @ offset
         missed = offset - rows @ change
         if away > 0.0 and missed @ np.linalg.solve(deviation, missed) > MISSED**2:
@@ -96,20 +102,30 @@ def gain_of(encoding: Encoding, covariance: Array, via: ViaPoint, offset: Array)
     raise UnreachableViaPoint(via.phase, away, least)
 
 
-def _detour(encoding: Encoding, phase: float) -> Array:
+def _inverse(joint: Array, rounding: float) -> Array:
+    """Of a covariance (3, 3), in the directions in which it is more than rounding; in the others zero."""
+    values, vectors = np.linalg.eigh(joint)
+    kept = values > rounding
+    return np.asarray(vectors[:, kept] / values[kept] @ vectors[:, kept].T, dtype=np.float64)
+
+
+def _detour(encoding: Encoding, phase: float, kept: Array) -> Array:
     """A smooth bump of each axis about a phase, of height one there, as vectors (D, 3).
 
-    Zero at the start of an anchored motion, and so near to it that no basis function moves it.
+    It is zero at the kept phases (k,), and as narrow as that takes; where there is no room for one it is zero.
     """
     N = encoding.basis.count
-    width = max(_WIDTH, 1.0 / (N - 1))
-    if encoding.anchored:
-        width = min(width, 0.5 * phase)
+    fixed = np.append(kept, 0.0) if encoding.anchored else kept
+    reach = min([max(_REACH, 2.0 / (N - 1)), *np.abs(fixed - phase)])
     bumps = np.zeros((N, OUTPUTS, POSITION))
-    here = encoding.rows(np.array([phase]))[0]
-    if width > _ROUNDING:
-        bump = least_squares(encoding.rows(_PHASES)) @ np.exp(-0.5 * ((_PHASES - phase) / width) ** 2)
-        bumps[:, :POSITION] = (bump / (here @ bump))[:, None, None] * np.eye(POSITION)
+    if reach > _ROUNDING:
+        near = np.clip((_PHASES - phase) / reach, -1.0, 1.0)
+        bump = least_squares(encoding.rows(_PHASES)) @ (0.5 + 0.5 * np.cos(np.pi * near))
+        at_kept = encoding.rows(kept)
+        bump -= np.linalg.pinv(at_kept) @ (at_kept @ bump)
+        height = float(encoding.rows(np.array([phase]))[0] @ bump)
+        if height > _ROUNDING:
+            bumps[:, :POSITION] = (bump / height)[:, None, None] * np.eye(POSITION)
     return np.vstack([bumps.reshape(-1, POSITION), np.zeros((1, POSITION))])
 
 

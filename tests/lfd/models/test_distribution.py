@@ -80,7 +80,7 @@ def test_the_start_of_an_anchored_motion_cannot_be_moved(reach):
     model = AdaptiveProMP.fit([reach(place) for place in PLACES])
     distribution = model.distribution(reach(PLACES[0]).situation)
     start = distribution.trajectory(20).positions[0]
-    with pytest.raises(UnreachableViaPoint, match="the start is given") as caught:
+    with pytest.raises(UnreachableViaPoint, match="the motion is fixed there") as caught:
         distribution.through(exactly(0.0, start + np.array([0.0, 0.03, 0.04])))
     assert (caught.value.phase, caught.value.offset, caught.value.swing) == (0.0, pytest.approx(0.05), np.inf)
     led = distribution.through(exactly(0.0, start))
@@ -96,7 +96,7 @@ def test_the_start_of_a_motion_that_is_not_anchored_is_moved(reach):
 def test_a_via_point_just_after_a_given_start_swings_nothing(reach):
     """One 5 cm aside at phase 0.002 swung the motion by 5.4 m."""
     distribution = AdaptiveProMP.fit([reach(PLACES[0])]).distribution(reach(PLACES[0]).situation)
-    with pytest.raises(UnreachableViaPoint, match="later phase") as caught:
+    with pytest.raises(UnreachableViaPoint, match="farther from the start") as caught:
         distribution.through(exactly(0.002, distribution.trajectory(501).positions[1] + [0.0, 0.05, 0.0]))
     assert 0.05 * SWING < caught.value.swing < np.inf
 
@@ -136,6 +136,35 @@ def test_a_via_point_is_met_without_swinging_the_motion_or_refused_near_a_given_
     missed, deviation = before + offset - at, covariance + (1e-3 * away + 1e-9) ** 2 * np.eye(3)
     assert missed @ np.linalg.solve(deviation, missed) <= 3.0**2
     assert np.linalg.eigvalsh(led.position_covariances(25)).min() > -1e-12
+
+
+@given(
+    which=st.integers(0, 5),
+    phases=st.tuples(st.floats(0.05, 1.0), st.floats(0.05, 1.0)),
+    offsets=st.tuples(*[st.tuples(*[st.floats(-0.1, 0.1)] * 3)] * 2),
+)
+@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_a_later_via_point_leads_away_from_no_earlier_one(taught, which, phases, offsets):
+    led = taught[which]
+    path = led.encoding.outputs(led.mean, led.situation, np.array(phases))[:, :3] + led.situation.origin
+    places = path + np.array(offsets)
+    led = led.through(exactly(phases[0], places[0]))
+    try:
+        led = led.through(exactly(phases[1], places[1]))
+    except UnreachableViaPoint:
+        assert abs(phases[0] - phases[1]) < 0.1
+    at = led.encoding.outputs(led.mean, led.situation, np.array(phases))[:, :3] + led.situation.origin
+    count = len(led.via_points)
+    np.testing.assert_allclose(at[:count], places[:count], atol=3e-4)
+
+
+def test_two_via_points_at_one_time_contradict_each_other(taught):
+    here = taught[0].trajectory(3).positions[1]
+    led = taught[0].through(exactly(0.5, here))
+    with pytest.raises(UnreachableViaPoint, match="other via-points"):
+        led.through(exactly(0.5, here + np.array([0.0, 0.05, 0.0])))
+    vague = ViaPoint(0.5, here + np.array([0.0, 0.05, 0.0]), 0.1**2 * np.eye(3))
+    np.testing.assert_allclose(led.through(vague).trajectory(3).positions[1], here, atol=1e-6)
 
 
 @given(phase=st.floats(0.01, 1.0), seed=st.integers(0, 2**32 - 1))
