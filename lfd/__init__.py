@@ -113,7 +113,12 @@ if not TYPE_CHECKING:  # a type checker knows the names from above, and what is 
         """A public name, from its module (PEP 562)."""
         if name not in _HOMES:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        value = globals()[name] = getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
+        try:
+            module = import_module(f"{__name__}.{_HOMES[name]}")
+        except ModuleNotFoundError as error:
+            needs = f"{__name__}.{name} needs the package {error.name!r}: install retouch[lfd]"
+            raise ModuleNotFoundError(needs, name=error.name) from error
+        value = globals()[name] = getattr(module, name)
         return value
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.linalg.lapack import dtrtrs
 
 from lfd.arrays import Array, checked, frozen
-from lfd.bounds import POSITIVE, SHARE, check_number
+from lfd.bounds import POSITIVE, SHARE, check_number, check_options
 from lfd.exceptions import TooFewDemonstrations
 
 
@@ -18,6 +18,11 @@ class JointGaussian:
         mean: Shape (d,).
         scatter: Psi, the sum of the outer products of the deviations from the mean, shape (d, d).
         count: M, the number of samples seen; with forgetting, the sum of their weights.
+
+    Raises:
+        OutOfRange: The count is not positive.
+        WrongShape: The scatter is not of the mean's dimension.
+        NotFinite: A number is NaN or infinite.
     """
 
     mean: Array
@@ -25,6 +30,7 @@ class JointGaussian:
     count: float
 
     def __post_init__(self) -> None:
+        check_options(self, count=POSITIVE)
         mean = checked("mean", self.mean, (None,))
         object.__setattr__(self, "mean", mean)
         object.__setattr__(self, "scatter", checked("scatter", self.scatter, (len(mean), len(mean))))

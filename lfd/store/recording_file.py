@@ -30,17 +30,17 @@ class Recording:
         times: Strictly increasing, shape (T,) [s].
         positions: Shape (T, D), D from 1 to 3: as many axes as the file names [m].
         orientations: Unit quaternions (w, x, y, z), shape (T, 4); None where the file names none.
-        constants: What else was asked for, shape (C,): numbers that are the same in every line.
+        others: Further columns that were asked for, in the units of the file, shape (T, C).
     """
 
     times: Array
     positions: Array
     orientations: Array | None
-    constants: Array
+    others: Array
 
 
 def read_recording(
-    path: Path, constants: Sequence[str] = (), *, largest_m: float = LARGEST_M, largest_s: float = LARGEST_S
+    path: Path, others: Sequence[str] = (), *, largest_m: float = LARGEST_M, largest_s: float = LARGEST_S
 ) -> Recording:
     """Read a file whose first line names the columns t [s], x [m] and, where there are any, y, z, qw, qx, qy and qz.
 
@@ -48,17 +48,17 @@ def read_recording(
 
     Args:
         path: The file.
-        constants: Further columns whose number is the same in every line, as the condition may be.
+        others: Further columns, as where an object was seen.
         largest_m: What is farther from the origin is taken for another unit than metres [m].
         largest_s: What takes longer is taken for another unit than seconds [s].
 
     Raises:
         TableError: It cannot be read, a column is missing, a cell is not a number, two lines have one time or are out
-            of order, a quaternion is not of unit norm, a position or time is beyond what can be meant, a constant
-            changes, or there are fewer than two samples; says which, where, and what would be right.
+            of order, a quaternion is not of unit norm, a position or time is beyond what can be meant, or there are
+            fewer than two samples; says which, where, and what would be right.
     """
     path = Path(path)
-    names = [name.casefold() for name in constants]
+    names = [name.casefold() for name in others]
     table = read_table(path, {"t": "s"} | UNITS | dict.fromkeys(names, ""), _OPTIONAL, LARGEST_BYTES)
     _check_axes(path, table)
     if len(table.rows) < 2:
@@ -68,7 +68,7 @@ def read_recording(
     _check_times(table.rows, times, largest_s)
     _check_positions(table.rows, positions, axes, largest_m)
     turns = orientations_of(table) if "qw" in table.columns else None
-    return Recording(frozen(times), frozen(positions), turns, _constants(table, names))
+    return Recording(frozen(times), frozen(positions), turns, frozen(table.numbers(names)))
 
 
 def read_demonstration(
@@ -84,7 +84,7 @@ def read_demonstration(
     Args:
         path: The file.
         condition: External state that the motion was right for (task parameter, context), shape (C,), or one number.
-        condition_columns: Of the file, that hold it instead.
+        condition_columns: Of the file, that hold it instead; in its first line, as it was before the motion.
         origin: Point that the motion is learnt relative to, shape (D,) [m]; zero where there is none.
         provenance: Whose it is.
     """
@@ -92,7 +92,7 @@ def read_demonstration(
     return demonstration_from_arrays(
         recording.times,
         recording.positions,
-        recording.constants if condition is None else condition,
+        recording.others[0] if condition is None else condition,
         recording.orientations,
         origin,
         provenance=provenance,
@@ -132,15 +132,3 @@ def _check_positions(rows: list[Row], positions: Array, axes: list[str], largest
         if float(np.max(np.abs(positions))) <= 1000.0 * largest:
             guess = f": this looks like millimetres; write metres, {value / 1000.0:.6g} for {value:.6g}"
         raise rows[i].error(f"{value:.6g} m is farther from the origin than {largest:g} m{guess}", axes[axis])
-
-
-def _constants(table: Table, names: list[str]) -> Array:
-    values = table.numbers(names)
-    changed = np.argwhere(values != values[0])
-    if changed.size:
-        i, column = changed[0]
-        reason = (
-            f"{values[i, column]:g} was {values[0, column]:g} in line {table.rows[0].line}: it has to stay the same"
-        )
-        raise table.rows[i].error(reason, names[column])
-    return frozen(values[0])

@@ -121,6 +121,18 @@ print(json.dumps("scipy" in sys.modules))
     assert run(program, {"lfd", "numpy"}) is False
 
 
+def test_a_model_without_scipy_says_what_to_install():
+    program = """
+import lfd
+try:
+    lfd.ConditionedProMP
+except ModuleNotFoundError as error:
+    print(json.dumps(str(error)))
+"""
+    expected = "lfd.ConditionedProMP needs the package 'scipy': install retouch[lfd]"
+    assert run(program, {"lfd", "numpy"}) == expected
+
+
 def test_everything_runs_where_only_numpy_and_scipy_are_installed():
     program = """
 import importlib, pkgutil, lfd

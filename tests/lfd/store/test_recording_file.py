@@ -7,9 +7,10 @@ from lfd.exceptions import LfdError, TableError
 from lfd.motion.provenance import Provenance
 from lfd.motion.recording import demonstration_from_arrays
 from lfd.store.recording_file import read_demonstration, read_recording
+from tests import recordings as recorded
 
 HEADER = "t,x,y,z,qw,qx,qy,qz,place"
-ROWS = ("0,0.5,0.0,0.4,1,0,0,0,7", "0.5,0.6,0.1,0.5,0.8,0,0.6,0,7", "1.5,0.8,0.05,0.5,0,0,1,0,7")
+ROWS = ("0,0.5,0.0,0.4,1,0,0,0,7", "0.5,0.6,0.1,0.5,0.8,0,0.6,0,7.5", "1.5,0.8,0.05,0.5,0,0,1,0,8")
 
 
 @pytest.fixture
@@ -27,7 +28,7 @@ def test_columns_become_arrays(write):
     np.testing.assert_array_equal(recording.times, [0.0, 0.5, 1.5])
     np.testing.assert_array_equal(recording.positions, [[0.5, 0.0, 0.4], [0.6, 0.1, 0.5], [0.8, 0.05, 0.5]])
     np.testing.assert_array_equal(recording.orientations, [[1, 0, 0, 0], [0.8, 0, 0.6, 0], [0, 0, 1, 0]])
-    np.testing.assert_array_equal(recording.constants, [7.0])
+    np.testing.assert_array_equal(recording.others, [[7.0], [7.5], [8.0]])
 
 
 @pytest.mark.parametrize("axes", ["x", "x,y", "x,y,z"])
@@ -54,7 +55,7 @@ def test_a_file_is_read_whichever_way_it_is_written(write, separator, decimal, e
     plain = read_recording(write(HEADER, *ROWS), ["place"])
     lines = [row.replace(",", separator).replace(".", decimal) for row in (HEADER, *ROWS)]
     other = read_recording(write(*lines, separator * 8, "", encoding=encoding), ["place"])
-    for name in ("times", "positions", "orientations", "constants"):
+    for name in ("times", "positions", "orientations", "others"):
         np.testing.assert_array_equal(getattr(other, name), getattr(plain, name))
 
 
@@ -93,7 +94,7 @@ def test_a_demonstration_without_a_condition_is_refused(write):
         (("t [ms],x", "0,1"), (1, None, None), ("column t is in 'ms'", "give s")),
         (("t,x [mm]", "0,1"), (1, None, None), ("column x is in 'mm'", "give m")),
         ((HEADER, ROWS[0], "0.5,left,0,0.4,1,0,0,0,7"), (3, "x", "left"), ("'left' is not a number",)),
-        ((HEADER, ROWS[0], "0.5,0.6,0,0.4,1,0,0,0,8"), (3, "place", "8"), ("was 7 in line 2", "stay the same")),
+        ((HEADER, ROWS[0], "0.5,0.6,0,0.4,1,0,0,0,here"), (3, "place", "here"), ("'here' is not a number",)),
         ((HEADER, ROWS[0], "0.5,0.6,0"), (3, "z", ""), ("the line has too few",)),
         ((HEADER, ROWS[0], f"{ROWS[1]},5"), (3, None, None), ("10 cell(s) under 9 columns",)),
         ((HEADER, ROWS[0], "0,5,0,6,0,1,0,5,0,8,0,0,6,0,7"), (3, None, None), ("decimal commas", "semicolons")),
@@ -117,3 +118,16 @@ def test_what_is_wrong_is_named_with_its_place_and_what_would_be_right(write, li
 def test_what_is_expected_can_be_widened(write):
     path = write("t,x", "0,1", "7200,50")
     assert read_recording(path, largest_m=100.0, largest_s=1e4).positions[1, 0] == 50.0
+
+
+@pytest.mark.data
+def test_recordings_of_people_are_read_as_they_are():
+    """Every sample of a set, the object's place as the camera saw it before the motion."""
+    files = sorted((recorded.FOLDER / "demonstrations").glob("*/*.csv"))
+    if not files:
+        pytest.skip(f"the recordings are not at {recorded.FOLDER}")
+    for path in files[::12]:
+        read = read_recording(path, ["object_x", "object_y", "object_z"])
+        expected = recorded.demonstration(path)
+        np.testing.assert_allclose(read.others[0] - read.positions[0], expected.condition, atol=1e-12)
+        assert read.times[-1] - read.times[0] == pytest.approx(expected.trajectory.duration)
