@@ -1,5 +1,6 @@
 """One real page for all browser tests, and a fresh tab for each."""
 
+import contextlib
 import sys
 import time
 from pathlib import Path
@@ -11,6 +12,8 @@ from tests.ports import free_port
 sys.path.insert(0, str(Path(__file__).parent))
 
 WITHIN_S = 20.0
+HEARD_WITHIN_S = 1.5
+POLL_S = 0.02
 SEAT = "the-seat-of-all-tests"
 
 
@@ -71,6 +74,25 @@ class Tab:
     def wait(self, selector, state="visible"):
         """Wait for an element: what the page shows comes to each tab in its own time."""
         self.page.wait_for_selector(selector, state=state, timeout=WITHIN_S * 1e3)
+
+    def press(self, action, seen):
+        """Press a button until `seen()`; as a person does, again where the press came too late to be done."""
+        from playwright.sync_api import TimeoutError as NotThere
+
+        deadline = time.monotonic() + WITHIN_S
+        while True:
+            with contextlib.suppress(NotThere):  # it may be gone meanwhile: what it asks for is done
+                self.page.click(f"[data-action={action}]:enabled", timeout=HEARD_WITHIN_S * 1e3)
+            pressed = time.monotonic()
+            while time.monotonic() < pressed + HEARD_WITHIN_S:
+                if seen():
+                    return
+                self.page.wait_for_timeout(POLL_S * 1e3)
+            assert time.monotonic() < deadline, f"{action} does not count"
+
+    def shows(self, selector):
+        """Whether an element is seen now."""
+        return self.page.locator(selector).locator("visible=true").count() > 0
 
 
 @pytest.fixture

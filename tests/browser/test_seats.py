@@ -15,6 +15,17 @@ def second(tab, open_tab):
     return opened
 
 
+def take(tab):
+    """Ask for the input."""
+    tab.press("take_input", lambda: tab.shows(".banner-view-only:has-text('without an answer'), body[data-link=armed]"))
+
+
+def give(tab):
+    """Give the input to who asks for it."""
+    tab.wait(".banner-asked:has-text('asks for the input')")
+    tab.press("give_input", lambda: tab.shows("body[data-link=view-only]"))
+
+
 def test_a_second_tab_looks_on_and_the_first_keeps_the_input(tab, second, station):
     _, feed = station
     second.wait(".light[data-light=red]")
@@ -23,35 +34,32 @@ def test_a_second_tab_looks_on_and_the_first_keeps_the_input(tab, second, statio
 
 
 def test_whoever_sits_is_asked_and_may_keep_the_input(tab, second):
-    second.page.click("[data-action=take_input]")
-    tab.wait(".banner-asked:visible:has-text('asks for the input')")
-    second.wait(".banner-view-only:has-text('without an answer')")
-    tab.page.click("[data-action=keep_input]")
+    take(second)
+    tab.wait(".banner-asked:has-text('asks for the input')")
+    tab.press("keep_input", lambda: not tab.shows(".banner-asked"))
     second.wait(".banner-view-only:has-text('keeps it')")
-    tab.wait(".banner-asked", "hidden")
     tab.wait("body[data-link=armed]")
     second.wait("body[data-link=view-only]")
 
 
 def test_given_input_moves_and_counts_and_can_be_given_back(tab, second, station, eventually):
     page, _ = station
-    second.page.click("[data-action=take_input]")
-    tab.page.click("[data-action=give_input]")
+    take(second)
+    give(tab)
     second.wait("body[data-link=armed]")
-    tab.wait("body[data-link=view-only]")
     second.page.keyboard.press("KeyA")
     eventually(lambda: page.take_input().focused)
-    tab.page.click("[data-action=take_input]")
-    second.page.click("[data-action=give_input]")
+    take(tab)
+    give(second)
     tab.wait("body[data-link=armed]")
 
 
 def test_silence_gives_the_input(tab, second):
-    second.page.click("[data-action=take_input]")
+    take(second)
     second.wait("body[data-link=armed]")
     tab.wait("body[data-link=view-only]")
-    tab.page.click("[data-action=take_input]")
-    second.page.click("[data-action=give_input]")
+    take(tab)
+    give(second)
     tab.wait("body[data-link=armed]")
 
 
