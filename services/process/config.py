@@ -101,11 +101,16 @@ class Scripted(_Section, frozen=True, tag_field="kind", tag="scripted"):
         stiffness: of the force feedback (eq. 14) [N/m].
         damping: of the force feedback [N s/m].
         exaggeration: of the correction; 1 is natural.
+        scatter: root mean square of the distance between two ways that the person means alike; people's are 0.018 to
+            0.052 [m].
+        misjudgement: standard deviation of the error of the depth that they see [m].
     """
 
     stiffness: Positive = 50.0
     damping: Positive = 2.0
     exaggeration: Positive = 1.0
+    scatter: Annotated[float, msgspec.Meta(ge=0.0, le=0.2)] = 0.030
+    misjudgement: Annotated[float, msgspec.Meta(ge=0.0, le=0.1)] = 0.010
 
 
 class MasterSection(_Section, frozen=True):

@@ -1,4 +1,4 @@
-"""A scripted operator's hand and eyes: sees late, moves smoothly, trembles, and pushes until the robot is right.
+"""A scripted operator's hand and eyes: sees late and not quite, moves smoothly, trembles, pushes until all seems right.
 
 The arm is an impedance about the place where it wants the stylus to be (Hogan 1985). The wrist turns the stylus, whose
 gimbal has neither motors nor inertia worth mentioning: what the wrist does is what the stylus does (thesis, V-B: the
@@ -6,7 +6,7 @@ device has no torque feedback). The hand has no access to anything that a person
 """
 
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -14,19 +14,23 @@ from numpy.typing import NDArray
 
 from sim.person.intention import Intention
 from sim.person.limb import DELAY, Ability, Limb
+from sim.person.sight import Sight
 from sim.person.stylus import StylusState, Vector
 from sim.pose import Pose
 from sim.rotations import rotation_to
+from sim.tasks.scene import Eye
 
 Array = NDArray[np.float64]
 
-REACTION = 0.2  # [s] from seeing to acting on what was not expected
+REACTION = 0.2  # [s] from seeing to acting on it: 0.19 to 0.26 s (Keele and Posner 1968)
+_GLANCE = 0.2  # [s] over which it is seen how fast something moves
 STIFFNESS = 500.0  # [N/m]
 DAMPING = 15.0  # [N s/m]
 ARM = Ability(speed=0.25, push=0.06, tremor=0.0015)  # [m]
 WRIST = Ability(speed=1.0, push=0.2, tremor=0.005)  # [rad]
 _ROBOT_DELAY = 0.3  # [s] that a person learns to expect between the stylus and the robot
 _LEAD = DELAY + _ROBOT_DELAY  # [s] that a practised person acts ahead of a motion they know
+_STANDS = 1e-6  # [1/s] of progress, below which the robot is seen to stand
 _GRIP_TOLERANCE = 0.01  # [m] between stylus and robot at which the clutch is closed
 _GRIP_TURN_TOLERANCE = 0.05  # [rad] the same of their rotations
 _LONGEST_STEP = 0.05  # [s] a hand that was not asked for longer did not move meanwhile
@@ -64,12 +68,16 @@ class Hand:
     Between `grip` and `release` call `observe` at about 100 Hz, and `force` at the device's own rate.
 
     Args:
-        seed: Of the tremor.
+        seed: Of the tremor, and of what is misjudged.
+        misjudgement: Of depth, see `Sight` [m].
     """
 
-    def __init__(self, seed: int) -> None:
+    def __init__(self, seed: int, misjudgement: float = 0.0) -> None:
         self._arm = Limb(ARM, np.random.default_rng(seed))
         self._wrist = Limb(WRIST, np.random.default_rng((seed, 1)))
+        self._of_sight = np.random.default_rng((seed, 2))
+        self._misjudgement = misjudgement
+        self._sight: Sight | None = None
         self._correction: Intention | None = None
         self._memory: deque[tuple[float, Seen]] = deque()
         self._target: Vector | None = None
@@ -86,9 +94,16 @@ class Hand:
         """How the wrist turns the stylus, rotation vector in base axes; None while the hand is off [rad]."""
         return self._rotation
 
-    def grip(self, correction: Intention, stylus: StylusState) -> None:
-        """Take the stylus where it is, with a correction in mind."""
+    def grip(self, correction: Intention, stylus: StylusState, eye: Eye | None = None) -> None:
+        """Take the stylus where it is, with a correction in mind.
+
+        Args:
+            correction: What the operator wants.
+            stylus: Where it is.
+            eye: From where they look; a bystander's by default.
+        """
         self._correction = correction
+        self._sight = Sight(np.array((eye or Eye()).position), self._misjudgement, self._of_sight)
         self._memory.clear()
         self._arm.rest(np.array(stylus.position))
         self._wrist.rest(np.array(stylus.rotation))
@@ -111,11 +126,12 @@ class Hand:
         if self._correction is None:
             return None
         dt = min(time - self._memory[-1][0], _LONGEST_STEP) if self._memory else 0.0
-        self._memory.append((time, seen))
-        while len(self._memory) > 1 and self._memory[1][0] <= time - REACTION:
+        self._memory.append((time, self._look(seen, dt)))
+        while len(self._memory) > 1 and self._memory[1][0] <= time - REACTION - _GLANCE:
             self._memory.popleft()
+        noticed = max((i for i, (then, _) in enumerate(self._memory) if then <= time - REACTION), default=0)
         self._clutched = self._clutched or _together(seen)
-        arm, wrist = self._follow(self._correction) if self._clutched else self._take_over()
+        arm, wrist = self._follow(self._correction, noticed) if self._clutched else self._take_over(noticed)
         self._arm.move(*arm, dt)
         self._wrist.move(*wrist, dt)
         self._target, self._rotation = _vector(self._arm.position), _vector(self._wrist.position)
@@ -133,18 +149,24 @@ class Hand:
             STIFFNESS * (tz - z) - DAMPING * vz,
         )
 
-    def _take_over(self) -> tuple[_Aim, _Aim]:
+    def _look(self, seen: Seen, dt: float) -> Seen:
+        """What of the screen reaches the person."""
+        if self._sight is None:
+            return seen
+        return replace(seen, robot=Pose(self._sight.look(seen.robot.position, dt), seen.robot.orientation))
+
+    def _take_over(self, noticed: int) -> tuple[_Aim, _Aim]:
         """Before the clutch closes: bring the stylus to where the robot stands."""
-        _, seen = self._memory[0]
+        _, seen = self._memory[noticed]
         return _Aim(seen.offset, seen.offset - seen.stylus.position), _Aim(seen.turn, seen.turn - seen.stylus.rotation)
 
-    def _follow(self, correction: Intention) -> tuple[_Aim, _Aim]:
-        """Act ahead of what is known, the way; react to what is not, where the robot really went."""
-        (then, seen), (now, newest) = self._memory[0], self._memory[-1]
-        pace = (newest.progress - seen.progress) / (now - then) if now > then else 0.0
-        ahead = newest.progress + _LEAD * pace
+    def _follow(self, correction: Intention, noticed: int) -> tuple[_Aim, _Aim]:
+        """Act ahead of what is known, the way, from the pace that was seen; react to where the robot seemed to go."""
+        (before, glimpsed), (then, seen), (now, _) = self._memory[0], self._memory[noticed], self._memory[-1]
+        pace = (seen.progress - glimpsed.progress) / (then - before) if then > before else 0.0
+        ahead = seen.progress + (now - then + _LEAD) * pace
         away = turned = np.zeros(3)
-        if pace > 0.0:  # a robot that stands still is waiting: pushing harder would only make it jump later
+        if pace > _STANDS:  # a robot that stands still is waiting: pushing harder would only make it jump later
             place = correction.pose(seen.progress)
             away = place.position - seen.robot.position
             turned = rotation_to(seen.robot.orientation, place.orientation)

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.interpolation import covered_shares, numbers_at, through
+from sim.person.imagination import departure
 from sim.pose import Pose
 from sim.rotations import rotated, rotation_to
 from sim.tasks.scene import Corridor
@@ -59,15 +60,11 @@ def plan(
         orientations: The same, shape (n, 4); neighbours in one hemisphere.
         safe: Way-points from the start to the object; they turn by a few degrees only, so that their quaternions are
             interpolated like positions.
-        known: Ways that the robot may have learnt; `safe` is one of them.
+        known: Ways that the robot may have learnt.
         exaggeration: Of the correction; 1 is natural.
     """
-    covered = covered_shares(positions)
-
-    def departure(way: Corridor) -> float:
-        return float(np.sum((through(way.positions, numbers_at(way.positions, covered)) - positions) ** 2))
-
-    numbers = numbers_at(min(known, key=departure).positions, covered)
+    recognised = min(known, key=lambda way: departure(way, positions))
+    numbers = numbers_at(recognised.positions, covered_shares(positions))
     turned = through(safe.orientations, numbers)
     turned /= np.linalg.norm(turned, axis=1, keepdims=True)
     return Intention(

@@ -166,7 +166,7 @@ PARTICLE = ParticleScene(
     training_positions=np.zeros((1, 2)),
     layout=_layout,
     routes=_routes,
-    freedom=Freedom(axes=(0.0, 1.0, 0.0), tempo=False),
+    freedom=Freedom(axes=(0.0, 1.0, 0.0), tempo=False, targets=tuple(x / _END for x in _VIA_X)),
     eye=Eye((0.2, -0.25, 0.58), (0.2, -0.01, 0.0)),
     via_x=_VIA_X,
     tolerance=1.0 * Y_UNIT,

@@ -85,10 +85,13 @@ class Freedom(NamedTuple):
     Attributes:
         axes: Base axes along which they can move it off its way, 1 or 0 each.
         tempo: They decide when it is where; else a corridor's way-points are passed at equal steps of time.
+        targets: Shares of a corridor, beside its end, at which they aim at something: of its length, or of its time
+            where the tempo is not theirs.
     """
 
     axes: Vector = (1.0, 1.0, 1.0)
     tempo: bool = True
+    targets: tuple[float, ...] = ()
 
 
 class Eye(NamedTuple):

@@ -22,9 +22,11 @@ from services.process.exceptions import ServiceError
 from sim import tasks as scenes
 from sim.exceptions import SimError
 from sim.person.hand import Hand, Seen
+from sim.person.imagination import chosen, imagined
 from sim.person.intention import Intention, plan, plan_at_equal_progress
 from sim.person.stylus import Stylus
 from sim.pose import Pose
+from sim.tasks.scene import Eye
 
 log = logging.getLogger(__name__)
 
@@ -45,7 +47,7 @@ class ScriptedMaster:
         bus: where the hand's eyes are.
         clock: of the process.
         settings: of feedback and hand.
-        seed: of the tremor.
+        seed: of all that is a person's: tremor, scatter, choice of a way, misjudged depth.
     """
 
     name = "stylus"
@@ -55,8 +57,9 @@ class ScriptedMaster:
         self._predictions = Predictions(bus)
         self._scene = bus.subscribe(SCENE_STATE)
         self._object = bus.subscribe(OBJECT_POSE)
-        self._exaggeration = settings.exaggeration
-        self._hand = Hand(seed)
+        self._settings = settings
+        self._hand = Hand(seed, settings.misjudgement)
+        self._rng = np.random.default_rng((seed, 3))
         self._loop = HapticLoop(Stylus(), self._hand, settings.stiffness, settings.damping, clock.now_ns())
         self._thread = HapticThread(self._loop, clock) if isinstance(clock, SystemClock) else None
         self._gripped: Episode | None = None
@@ -105,17 +108,18 @@ class ScriptedMaster:
             return
         self._gripped = episode
         try:
-            correction = self._plan(received.message)
+            planned = self._plan(received.message)
         except (SimError, ServiceError, LfdError) as error:
             log.warning("episode %d is not corrected: %s", robot.episode, error)
             return
-        if correction is None:
+        if planned is None:
             self._gripped = None
             return
-        self._hand.grip(correction, self._loop.newest.stylus)
+        correction, eye = planned
+        self._hand.grip(correction, self._loop.newest.stylus, eye)
 
-    def _plan(self, execution: ExecutionState) -> Intention | None:
-        """The correction of an episode; None while the scene or the prediction has not been seen."""
+    def _plan(self, execution: ExecutionState) -> tuple[Intention, Eye] | None:
+        """The correction of an episode, and from where it is watched; None while not all has been seen."""
         scene_state, predicted = self._scene.latest(), self._predictions.motion(execution.prediction)
         if scene_state is None or predicted is None:
             return None
@@ -124,11 +128,13 @@ class ScriptedMaster:
         scene = scenes.scene(arrangement.name)
         place = np.array(arrangement.condition or self._object_position(prediction.positions))
         start = Pose(np.array(arrangement.start.position), np.array(arrangement.start.orientation))
-        safe = scene.corridor(arrangement.variant, place, start)
+        safe = chosen(scene.corridors(arrangement.variant, place, start), prediction.positions, self._rng)
+        meant = imagined(safe, prediction.positions, self._settings.scatter, self._rng, scene.freedom)
+        poses, exaggeration = (prediction.positions, prediction.orientations), self._settings.exaggeration
         if not scene.freedom.tempo:
-            return plan_at_equal_progress(prediction.positions, prediction.orientations, safe, self._exaggeration)
-        ways = [scene.corridor(variant, place, start) for variant in scene.variants]
-        return plan(prediction.positions, prediction.orientations, safe, ways, self._exaggeration)
+            return plan_at_equal_progress(*poses, meant, exaggeration), scene.eye
+        known = [way for variant in scene.variants for way in scene.corridors(variant, place, start)]
+        return plan(*poses, meant, known, exaggeration), scene.eye
 
     def _object_position(self, prediction: NDArray[np.float64]) -> NDArray[np.float64]:
         """Where the object was seen last; where it never was, the robot's guess is as good as any."""
