@@ -67,7 +67,7 @@ def test_the_narrowest_basis_says_something_at_every_phase():
 @pytest.mark.parametrize("n", [1, 0, -1])
 def test_fewer_than_two_points_are_no_motion_whoever_is_asked(reach, n):
     one = reach([0.9, 0.1, 0.6])
-    model, dmp = ConditionedProMP.fit([one]), DMP.fit(one.trajectory)
+    model, dmp = ConditionedProMP.fit([one]), DMP.fit(one.trajectory, DmpOptions(count=10))
     motion, pose = model.distribution(one.situation), (one.trajectory.positions[0], one.trajectory.orientations[0])
     still = np.tile([1.0, 0.0, 0.0, 0.0], (3, 1))
     for asked in (
