@@ -118,7 +118,7 @@ AUTHORITY_STATE = Topic("authority/state", messages.AuthorityState, 10.0, QoS.ST
 EMERGENCY_STOP = Topic(
     "safety/emergency_stop",
     messages.EmergencyStop,
-    10.0,
+    50.0,
     QoS.SAFETY,
     "any",
     20_480,

@@ -21,7 +21,7 @@ log = logging.getLogger(__name__)
 LEASE_MS = 1000
 """A link on which nothing was heard for so long is given up; a shorter cut TCP bridges by itself."""
 
-REDIAL_MS = 50
+REDIAL_MS = 20
 """Between two attempts to open a link again."""
 
 FULL_LINK_US = 200_000

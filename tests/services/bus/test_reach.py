@@ -15,6 +15,47 @@ def test_somebody_who_listens_is_reached():
         assert isinstance(probe(parse(f"tcp/127.0.0.1:{server.getsockname()[1]}")), float)
 
 
+@pytest.fixture
+def way(monkeypatch):
+    """Where every trip takes as long as a test says, in turn; an error is one that fails."""
+
+    def says(*trips):
+        turn = iter(trips)
+        passed = [0.0]
+
+        def race(_):
+            trip = next(turn)
+            if isinstance(trip, OSError):
+                raise trip
+            passed[0] += trip
+            return trip
+
+        monkeypatch.setattr(reach, "_race", race)
+        monkeypatch.setattr(reach.time, "monotonic", lambda: passed[0])
+        return probe(parse("tcp/127.0.0.1:7447"))
+
+    return says
+
+
+def test_the_shortest_trip_counts_for_a_busy_machine_makes_single_ones_long(way):
+    assert way(0.13, 0.02, 0.004, 0.03, 0.02) == 0.004
+
+
+def test_a_packet_that_was_sent_again_makes_no_long_way(way):
+    """The link came back after the first packet was lost: it was sent again a second later."""
+    assert way(1.01, 0.004, 0.004, 0.004, 0.004) == 0.004
+
+
+def test_a_long_way_is_not_measured_for_long(way):
+    assert way(0.6, 0.5) == 0.5
+
+
+def test_a_trip_that_fails_after_one_that_did_not_takes_nothing_back(way):
+    lost = TimeoutError("no answer")
+    assert way(0.01, lost, lost, lost, lost) == 0.01
+    assert way(lost) == Silence("no answer")
+
+
 def test_a_port_where_nobody_listens_is_waited_for_with_its_reason():
     with socket.socket() as bound:
         bound.bind(("127.0.0.1", 0))

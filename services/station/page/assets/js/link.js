@@ -1,20 +1,24 @@
 // The WebSocket to the station: connects again when it is lost or silent, and never lets input pile up.
 
-const WATCH_MS = 100;
+const WATCH_MS = 50;
 const RETRY_MS = 200;
 const SILENT_MS = 1000;
 const STOOD_STILL_MS = 500;
 const BACKLOG_BYTES = 2048;
 
-// For how long a connection may take to come about: short, so that a link that is back is found at once, and every
-// fourth time long, so that a slow one is found at all.
-const CONNECT_MS = [500, 500, 500, 4000];
+// For how long a connection may take to come about: short, so that a link that is back is found at once, but a few times
+// as long as the last one took, and the longer the longer the outage, so that a slow way is found at all. Not shorter:
+// browsers put off what is tried again after many failures.
+const CONNECT_MS = 500;
+const CONNECT_MOST_MS = 4000;
+const CONNECT_TIMES = 4;
+const CONNECT_SHARE = 0.1;
 
 export class Link {
   constructor(tab, { onOpen, onNews, onPicture, onSilence }) {
     Object.assign(this, { tab, onOpen, onNews, onPicture, onSilence });
-    this.attempts = 0;
-    this.watched = performance.now();
+    this.watched = this.openUntil = performance.now();
+    this.opening = CONNECT_MOST_MS;
     this.connect();
     setInterval(() => this.watch(), WATCH_MS);
     window.addEventListener("pagehide", () => this.abandon());
@@ -36,18 +40,18 @@ export class Link {
     socket.onmessage = ({ data }) => this.received(data);
     socket.onclose = () => this.lost();
     Object.assign(this, { socket, sequence: 0, told: false, since: performance.now() });
-    this.attempts += 1;
   }
 
   opened() {
-    this.attempts = 0;
-    this.since = performance.now();
+    const now = performance.now();
+    this.opening = now - this.since;
+    this.since = this.openUntil = now;
     this.send({ kind: "hello", seat: this.tab.seat, load: this.tab.load });
     this.onOpen();
   }
 
   received(data) {
-    this.since = performance.now();
+    this.since = this.openUntil = performance.now();
     if (typeof data !== "string") return this.onPicture(data);
     this.told = true;
     return this.onNews(JSON.parse(data));
@@ -77,8 +81,10 @@ export class Link {
 
   get patience() {
     if (this.isOpen) return SILENT_MS;
-    const connecting = this.socket.readyState === WebSocket.CONNECTING;
-    return connecting ? CONNECT_MS[(this.attempts - 1) % CONNECT_MS.length] : RETRY_MS;
+    if (this.socket.readyState !== WebSocket.CONNECTING) return RETRY_MS;
+    const outage = performance.now() - this.openUntil;
+    const needed = Math.max(CONNECT_MS, CONNECT_TIMES * this.opening, CONNECT_SHARE * outage);
+    return Math.min(needed, CONNECT_MOST_MS);
   }
 
   // A state that cannot leave at once is not worth sending: a newer one follows within 20 ms.
