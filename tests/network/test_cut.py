@@ -1,15 +1,12 @@
 """A link is cut in the middle of a motion: the robot holds, no stop is lost, nothing goes on by itself."""
 
-import subprocess
-import sys
-import threading
 import time
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from tests.network.far_operator import MOTION_S, STRAIGHT_M
+from tests.network.operator import Operator
 from tests.system.harness import START_S, Command, eventually
 from tests.system.onlooker import Onlooker
 
@@ -21,48 +18,6 @@ SETTLED_S = 1.0
 
 STILL_M = 1e-4
 WITHIN_S = 10.0
-
-
-class Operator:
-    """The far operator's process; a context manager.
-
-    Args:
-        link: to the far machine.
-        router: its endpoint.
-    """
-
-    def __init__(self, link, router):
-        program = Path(__file__).with_name("far_operator.py")
-        self._process = subprocess.Popen(
-            [*link.there, sys.executable, program, router], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-        )
-
-        self._said = []
-        self._listening = threading.Thread(target=self._listen, daemon=True)
-        self._listening.start()
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self._process.kill()
-        self._process.wait()
-        self._listening.join()
-        self._process.stdin.close()
-        self._process.stdout.close()
-
-    def _listen(self):
-        for line in self._process.stdout:
-            self._said.append(line.strip())
-
-    def says(self, word):
-        """Wait for its word."""
-        eventually(lambda: word in self._said, START_S, f"the far operator says {word}")
-
-    def press(self):
-        """Let it press the stop until it is confirmed."""
-        self._process.stdin.write("stop\n")
-        self._process.stdin.flush()
 
 
 @pytest.fixture
