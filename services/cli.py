@@ -16,6 +16,8 @@ from services.commands.table import COMMANDS
 from services.process.exceptions import CannotWrite, EnvironmentFault, ServiceError
 from services.process.exit_codes import Exit
 from services.process.lifeline import die_with_parent
+from services.process.limits import limit_reached
+from services.process.lines import one_line
 from services.process.logs import Unhurried, own_stderr
 from sim.exceptions import CacheUnusable, DescriptionMissing, DrawingLibraryMissing, SimError
 
@@ -43,10 +45,8 @@ exit codes: 0 done, 1 crashed or aim not reached, 2 wrong input, 3 machine or ne
 _QUIET = ("httpx", "httpcore", "asyncio", "uvicorn", "websockets", "matplotlib", "OpenGL")
 """Libraries that log what nobody asked for."""
 
-_ERRNOS_OF_THE_MACHINE = frozenset(
-    (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACCES, errno.EPERM, errno.ENOTDIR, errno.EMFILE, errno.ENFILE)
-)
-"""Errors of files that tell of a disk, of rights or of limits, and of no fault in the code."""
+_ERRNOS_OF_THE_MACHINE = frozenset((errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACCES, errno.EPERM, errno.ENOTDIR))
+"""Errors of files that tell of a disk or of rights, and of no fault in the code."""
 
 
 def parser() -> argparse.ArgumentParser:
@@ -79,7 +79,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         for handler in logging.getLogger().handlers:
             handler.flush()
         with contextlib.suppress(OSError):
-            sys.stderr.write(f"retouch: {' '.join(line.split())}\n")
+            sys.stderr.write(f"retouch: {one_line(line)}\n")
         return Exit.TRY_AGAIN if supervised and _passes(error) else code
 
 
@@ -93,6 +93,9 @@ def _log_to_stderr(level: int) -> None:
 
 def _ending(error: Exception) -> tuple[str, Exit]:
     """What a person reads of an error, and the exit code."""
+    limit = limit_reached(error)
+    if limit is not None:
+        return str(limit), Exit.ENVIRONMENT
     match error:
         case (
             EnvironmentFault() | StorageUnavailable() | CacheUnusable() | DescriptionMissing() | DrawingLibraryMissing()

@@ -8,6 +8,7 @@ from functools import partial
 from typing import Any, NoReturn
 
 from services.process.exit_codes import Exit
+from services.process.lines import one_line
 
 
 class Parser(ArgumentParser):
@@ -28,11 +29,14 @@ class Parser(ArgumentParser):
     def parse_known_args(  # type: ignore[override]  # of the base's overloads the one that argparse itself calls
         self, args: Sequence[str] | None = None, namespace: Namespace | None = None
     ) -> tuple[Namespace, list[str]]:
-        """As of any parser, its arguments added first."""
+        """As of any parser, its arguments added first; a command knows all of its own, and says so itself."""
         if self._fill is not None:
             fill, self._fill = self._fill, None
             fill(self)
-        return super().parse_known_args(args, namespace)
+        known, unknown = super().parse_known_args(args, namespace)
+        if unknown:
+            self.error(f"unrecognized arguments: {' '.join(unknown)}")
+        return known, unknown
 
     def format_help(self) -> str:
         """As of any parser, with the last lines."""
@@ -42,4 +46,4 @@ class Parser(ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """End with one line instead of the usage."""
-        self.exit(Exit.BAD_INPUT, f"{self.prog}: {' '.join(message.split())}; see '{self.prog} --help'\n")
+        self.exit(Exit.BAD_INPUT, f"{self.prog}: {one_line(message)}; see '{self.prog} --help'\n")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from ipaddress import ip_address
 
 from services.process.exceptions import BadEndpoint
 
@@ -36,6 +37,15 @@ class Endpoint:
     protocol: str
     host: str
     port: int
+
+    @property
+    def is_address(self) -> bool:
+        """Whether the host is an address, and no name that has to be looked up."""
+        try:
+            ip_address(self.host)
+        except ValueError:
+            return False
+        return True
 
 
 def parse(text: str) -> Endpoint:

@@ -12,6 +12,7 @@ ServiceError
 │   ├── RoomMissing          a role whose packages are not installed
 │   ├── FolderUnusable       a folder of the user's that cannot be made or written
 │   ├── CannotWrite          a file that cannot be written: a full disk, no rights
+│   ├── LimitReached         no more memory, open files or processes, of the machine's or of this user's
 │   ├── NotConfirmed         a robot did not confirm its stop, or the stop's release
 │   ├── NoAnswer             a process that was asked and did not answer
 │   └── KeepsFailing         a process that ends again and again, for a reason that does not go away
@@ -155,6 +156,14 @@ class CannotWrite(EnvironmentFault):
         self.path = path
         self.reason = reason
         super().__init__(f"cannot use {path}: {reason.lower()}; make room or rights there, or name another place")
+
+
+class LimitReached(EnvironmentFault):
+    """The machine, or a limit of this user's, gives no more of something."""
+
+    def __init__(self, what: str, remedy: str) -> None:
+        self.what = what
+        super().__init__(f"this machine gives no more {what}: {remedy}")
 
 
 class NotConfirmed(EnvironmentFault):

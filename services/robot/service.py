@@ -20,6 +20,7 @@ from services.bus.server import Server
 from services.bus.subscription import Received
 from services.process.clock import Clock
 from services.process.config import Configuration
+from services.process.lines import one_line
 from services.robot.assembly import kinematics_of, simulated_arm
 from services.robot.backends.backend import CONTROL_PERIOD
 from services.robot.control import Control
@@ -222,7 +223,7 @@ class RobotService:
 
     def _refuse(self, reason: str) -> Refused:
         self._refused += 1
-        line = " ".join(reason.split())
+        line = one_line(reason)
         log.warning("refused: %s", line)
         return Refused(line)
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import socket
-
 import rerun as rr
 
-from services.process.addresses import EVERYWHERE, LOOPBACK_NAMES, family, in_url
+from services.process.addresses import EVERYWHERE, LOOPBACK_NAMES, in_url
 from services.process.config import ViewerSection
-from services.process.exceptions import PortInUse
+from services.process.ports import check_port
 
 APPLICATION = "retouch"
 
@@ -29,7 +27,7 @@ def open_live(section: ViewerSection, identity: str) -> rr.RecordingStream:
     Raises:
         PortInUse: nothing can listen at the stream's port.
     """
-    _check_free(section.host, section.stream_port, "[viewer] stream_port")
+    check_port("the live stream", section.host, section.stream_port, "[viewer] stream_port")
     stream = rr.RecordingStream(
         APPLICATION, recording_id=identity, batcher_config=rr.ChunkBatcherConfig(flush_tick=_FLUSH_S)
     )
@@ -55,13 +53,3 @@ def page_origins(section: ViewerSection) -> list[str]:
     """The pages that may read the stream: the viewer's own, under any name where it listens on every address."""
     names = ["*"] if section.host in EVERYWHERE else sorted(in_url(name) for name in {section.host, *LOOPBACK_NAMES})
     return [f"http://{name}:{section.web_port}" for name in names]
-
-
-def _check_free(host: str, port: int, setting: str) -> None:
-    # The SDK's server says so in its own log only.
-    with socket.socket(family(host)) as probe:
-        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        try:
-            probe.bind((host, port))
-        except OSError as error:
-            raise PortInUse("the live stream", host, port, setting, error.strerror or "") from None

@@ -110,3 +110,21 @@ def test_every_command_has_a_module_that_says_its_flags_and_runs(command):
 @pytest.mark.parametrize("command", COMMANDS, ids=lambda command: command.name)
 def test_what_a_command_says_to_install_is_there(command):
     assert (command.needs or command.name) in PROJECT["optional-dependencies"]
+
+
+def test_an_unknown_flag_is_named_with_the_help_of_its_command(capsys):
+    with pytest.raises(SystemExit) as left:
+        cli.main(["robot", "--headless"])
+    assert left.value.code == Exit.BAD_INPUT
+    assert capsys.readouterr().err == "retouch robot: unrecognized arguments: --headless; see 'retouch robot --help'\n"
+
+
+def test_a_name_of_thousands_of_characters_is_not_echoed_whole(capsys):
+    with pytest.raises(SystemExit):
+        cli.main(["robot", f"--{'x' * 3000}"])
+    assert len(capsys.readouterr().err) < 400
+
+
+def test_a_limit_of_the_machine_is_named(failing, capsys):
+    assert failing(MemoryError()) == Exit.ENVIRONMENT
+    assert "ulimit -v" in capsys.readouterr().err

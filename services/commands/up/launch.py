@@ -21,12 +21,19 @@ from services.commands.up.network import Page
 from services.commands.up.supervisor import ROUTER, Supervisor
 from services.commands.up.voice import Spoken, Voice
 from services.process.config import FOLDER_SETTING, Configuration, save
-from services.process.exceptions import CommandFailed, FolderUnusable
+from services.process.endpoint import OVER_TCP, parse
+from services.process.exceptions import CommandFailed, EndpointInUse, FolderUnusable, PortInUse
 from services.process.exit_codes import Exit
+from services.process.ports import check_port
 from services.process.processes import PROCESS_NAMES
 from services.process.runner import stop_on_signals
 
 TEACHER = "teach"
+
+FREED_S = 1.0
+"""A run that has just ended frees its ports within this time."""
+
+POLL_S = 0.1
 
 
 @dataclass(frozen=True)
@@ -92,6 +99,7 @@ def launch(configuration: Configuration, options: Launch) -> int:
     """
     started = time.monotonic()
     stop = stop_on_signals()
+    _await_ports(configuration, options)
     folder = _run_folder(Path(configuration.viewer.folder))
     configuration = _for_run(configuration, folder, options)
     resolved = folder / "configuration.json"
@@ -125,6 +133,41 @@ def launch(configuration: Configuration, options: Launch) -> int:
         with contextlib.suppress(OSError):
             sys.stderr.write(f"retouch: {end.line}\n")
     return end.code
+
+
+def _await_ports(configuration: Configuration, options: Launch) -> None:
+    """Let pass where the run can listen; what another one holds is said before anything is started."""
+    deadline = time.monotonic() + FREED_S
+    while True:
+        try:
+            check_ports(configuration, options)
+        except (EndpointInUse, PortInUse):
+            if time.monotonic() > deadline:
+                raise
+            time.sleep(POLL_S)
+        else:
+            return
+
+
+def check_ports(configuration: Configuration, options: Launch) -> None:
+    """Let pass where everything that is to be started could listen now.
+
+    Raises:
+        EndpointInUse: the router could not.
+        PortInUse: a page could not.
+    """
+    station, viewer = configuration.station, configuration.viewer
+    endpoint = parse(configuration.listen)
+    if options.router and endpoint.protocol in OVER_TCP and endpoint.is_address:  # a name's the router looks up
+        try:
+            check_port("the router", endpoint.host, endpoint.port, "--listen")
+        except PortInUse:
+            raise EndpointInUse(configuration.listen) from None
+    if "station" in options.processes:
+        check_port("the operator's page", station.host, station.port, "[station] port")
+    if "viewer" in options.processes:
+        check_port("the live view", viewer.host, viewer.web_port, "[viewer] web_port")
+        check_port("the live stream", viewer.host, viewer.stream_port, "[viewer] stream_port")
 
 
 def _run_folder(parent: Path) -> Path:

@@ -1,14 +1,15 @@
 """What `retouch up` starts follows from its arguments."""
 
 import re
+import socket
 
 import pytest
 
 from services.cli import parser
 from services.commands.settings import configuration, reachable
-from services.commands.up.launch import Launch
-from services.process.config import Keyboard, Scripted
-from services.process.exceptions import CommandFailed
+from services.commands.up.launch import Launch, check_ports
+from services.process.config import Configuration, Keyboard, Scripted, StationSection, ViewerSection
+from services.process.exceptions import CommandFailed, EndpointInUse, PortInUse
 from services.process.processes import PROCESS_NAMES
 from sim.exceptions import SimError
 
@@ -84,3 +85,31 @@ def test_flags_stand_above_the_file(tmp_path):
 def test_this_machines_processes_reach_their_own_router(listen, own):
     assert reachable(listen) == own
     assert configuration(arguments("--listen", listen)).connect == own
+
+
+@pytest.fixture
+def taken():
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        yield server.getsockname()[1]
+
+
+def test_a_router_that_could_not_listen_is_refused_before_anything_starts(taken):
+    configured = Configuration(listen=f"tcp/127.0.0.1:{taken}")
+    with pytest.raises(EndpointInUse, match=f"{taken}.*--listen"):
+        check_ports(configured, launch("--only", "robot"))
+    check_ports(configured, launch("--only", "robot", "--connect", "tcp/127.0.0.1:7447"))
+
+
+@pytest.mark.parametrize(
+    ("process", "sections", "setting"),
+    [
+        ("station", lambda port: {"station": StationSection(port=port)}, "[station] port"),
+        ("viewer", lambda port: {"viewer": ViewerSection(web_port=port)}, "[viewer] web_port"),
+        ("viewer", lambda port: {"viewer": ViewerSection(stream_port=port, web_port=1024)}, "[viewer] stream_port"),
+    ],
+)
+def test_a_page_that_could_not_be_served_is_refused_before_anything_starts(taken, process, sections, setting):
+    configured = Configuration(**sections(taken))
+    with pytest.raises(PortInUse, match=re.escape(setting)):
+        check_ports(configured, launch("--only", process, "--connect", "tcp/127.0.0.1:7447"))
+    check_ports(configured, launch("--only", "robot", "--connect", "tcp/127.0.0.1:7447"))

@@ -1,0 +1,27 @@
+"""One line for people, whatever went into it."""
+
+from __future__ import annotations
+
+LONGEST_WORD = 200
+"""Characters; longer than any name and most paths."""
+
+LONGEST_LINE = 1000
+
+_CUT = " ... "
+
+
+def one_line(text: str) -> str:
+    """The text in one line; of what is too long to be read its begin and its end.
+
+    Args:
+        text: of any length, that may echo what somebody wrote.
+    """
+    return _shortened(" ".join(_shortened(word, LONGEST_WORD) for word in text.split()), LONGEST_LINE)
+
+
+def _shortened(text: str, most: int) -> str:
+    if len(text) <= most:
+        return text
+    kept = most - len(_CUT)
+    end = kept // 3
+    return text[: kept - end] + _CUT + text[-end:]
