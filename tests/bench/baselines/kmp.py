@@ -1,15 +1,20 @@
 """Kernelised movement primitives (Huang, Rozo, Silverio and Caldwell, Int. J. Robotics Research 38(7), 2019).
 
-A mixture of inputs and outputs, and regression on it, give a reference at given inputs (section 2.1); a kernel carries
-it to any input: means by eq. 20, covariances by eq. 24. The inputs are the phase and the condition (section 4 of the
-paper has inputs of several dimensions). A correction is what the paper calls modulation (eq. 28 and 29): new reference
-points, in place of those near to them.
+A mixture of inputs and outputs, and regression on it, give a reference at N inputs: means mu and covariances Sigma. A
+kernel carries it to any input s (with k and K the kernel's, once for each output):
+
+    mean        k (K + lambda Sigma)^-1 mu
+    covariance  N / lambda_c (k(s, s) - k (K + lambda_c Sigma)^-1 k^T)
+
+The inputs are the phase and the condition, as the paper's inputs of several dimensions. A correction is what the paper
+calls modulation: new reference points, in place of those at the same inputs.
 
 The outputs are positions after a straight blend-out of their start, so the prior's zero is the straight line from the
 start to the object. Orientation and duration are the mean's.
 """
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Self
 
 import numpy as np
@@ -36,7 +41,8 @@ class KmpOptions:
         condition_floor: The same to the condition, relative to its variance [-].
         phase_length: Of the kernel, in phase.
         condition_length: Of the kernel, relative to the root mean square spread of the conditions.
-        regularisation: lambda of eq. 20 and 24 [1/m^2].
+        mean_regularisation: lambda [1/m^2].
+        covariance_regularisation: lambda_c [1/m^2].
         exactness: Variance of a new reference point [m^2].
     """
 
@@ -45,7 +51,8 @@ class KmpOptions:
     condition_floor: float = 1e-2
     phase_length: float = 0.1
     condition_length: float = 3.0
-    regularisation: float = 1e3
+    mean_regularisation: float = 1e3
+    covariance_regularisation: float = 3e4
     exactness: float = 1e-6
 
 
@@ -80,14 +87,6 @@ class KMP:
     rest: AnchoredMean
     options: KmpOptions
 
-    def __post_init__(self):
-        r, N = self.reference, len(self.reference.phases)
-        K = np.kron(self._kernel(r.phases, r.conditions), np.eye(3))
-        blocks = self.options.regularisation * r.covariances
-        K.reshape(N, 3, N, 3)[np.arange(N), :, np.arange(N), :] += blocks
-        object.__setattr__(self, "_factor", cho_factor(K))
-        object.__setattr__(self, "_solved", cho_solve(self._factor, r.means.ravel()).reshape(N, 3))
-
     @classmethod
     def fit(cls, demonstrations, options=None) -> Self:
         options = options or KmpOptions()
@@ -116,14 +115,31 @@ class KMP:
         )
 
     def regress(self, phases, conditions) -> tuple[Array, Array]:
-        """Means (n, 3) and covariances (n, 3, 3) at inputs (n,) and (n, c): eq. 20 and 24."""
+        """Means (n, 3) and covariances (n, 3, 3) at inputs (n,) and (n, c)."""
         n, N = len(phases), len(self.reference.phases)
         k = self._kernel(phases, conditions)
         wide = np.kron(k, np.eye(3))
-        explained = wide @ cho_solve(self._factor, wide.T)
+        explained = wide @ cho_solve(self._spread, wide.T)
         diagonal = explained.reshape(n, 3, n, 3)[np.arange(n), :, np.arange(n), :]
-        covariances = N / self.options.regularisation * (np.eye(3) - diagonal)
+        covariances = N / self.options.covariance_regularisation * (np.eye(3) - diagonal)
         return k @ self._solved, 0.5 * (covariances + covariances.transpose(0, 2, 1))
+
+    @cached_property
+    def _solved(self):
+        """(K + lambda Sigma)^-1 mu, shape (N, 3)."""
+        means = self.reference.means
+        return cho_solve(self._factor(self.options.mean_regularisation), means.ravel()).reshape(means.shape)
+
+    @cached_property
+    def _spread(self):
+        return self._factor(self.options.covariance_regularisation)
+
+    def _factor(self, regularisation):
+        """Of K + lambda Sigma, with three outputs (3 N, 3 N)."""
+        r, each = self.reference, np.arange(len(self.reference.phases))
+        K = np.kron(self._kernel(r.phases, r.conditions), np.eye(3))
+        K.reshape(len(each), 3, len(each), 3)[each, :, each, :] += regularisation * r.covariances
+        return cho_factor(K)
 
     def _kernel(self, phases, conditions) -> Array:
         """Of inputs with those of the reference, shape (n, N)."""

@@ -1,8 +1,8 @@
 """Gaussian mixtures of points that are seen in several frames at once, and regression on them.
 
 Calinon, "A tutorial on task-parameterized movement learning and retrieval", Intelligent Service Robotics 9, 2016:
-expectation maximisation with one set of responsibilities for all frames (section 4; with one frame the ordinary
-mixture), and regression (section 5.1).
+expectation maximisation with one set of responsibilities for all frames (with one frame the ordinary mixture), and
+Gaussian mixture regression.
 """
 
 from dataclasses import dataclass

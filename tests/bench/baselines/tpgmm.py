@@ -2,7 +2,7 @@
 
 Two frames, at the start of the motion and at the object, both along the base's axes: nothing says how the object is
 turned. The mixture is learnt in both at once; for a new situation each component is the product of its Gaussians of
-both frames (eq. 6), and regression on the time gives the motion (section 5.1). Orientation and duration are the mean's.
+both frames, and regression on the time gives the motion. Orientation and duration are the mean's.
 """
 
 from dataclasses import dataclass, replace
@@ -62,7 +62,7 @@ class TPGMM:
         )
 
     def _product(self, origins) -> tuple[Array, Array]:
-        """Means (K, 4) and covariances (K, 4, 4) of time and position, given the frames' origins (2, 3): eq. 6."""
+        """Means (K, 4) and covariances (K, 4, 4) of time and position, given the frames' origins (2, 3)."""
         moved = self.mixture.means.copy()
         moved[:, :, 1:] += origins[:, None]
         precisions = np.linalg.inv(self.mixture.covariances)

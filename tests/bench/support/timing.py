@@ -11,6 +11,7 @@ import numpy as np
 from tests.bench.support.results import Result
 
 MOST_RUNS = 2000
+LONG_MS = 5000.0  # a first run that takes longer is the only one: what is filled once is no share of it to speak of
 
 
 @dataclass(frozen=True)
@@ -49,14 +50,17 @@ class Timing(Result):
 
 
 def compare(operation, contenders, effort):
-    """The times of the contenders, each running three times at least."""
+    """The times of the contenders, each running three times at least, unless one run is long."""
     print(f"bench: {operation}", file=sys.stderr)
     present = [c for c in contenders if c.run is not None]
     samples = {c.name: [] for c in present}
     counts = {}
     for contender in present:
-        contender.run()  # imports, compiles, fills what is cached
-        counts[contender.name] = int(np.clip(effort.seconds * 1e3 / max(_once(contender), 1e-3), 3, MOST_RUNS))
+        warming = _once(contender)  # imports, compiles, fills what is cached
+        if warming > LONG_MS:
+            samples[contender.name], counts[contender.name] = [warming], 0
+        else:
+            counts[contender.name] = int(np.clip(effort.seconds * 1e3 / max(_once(contender), 1e-3), 3, MOST_RUNS))
     turns = sorted((turn / counts[c.name], i) for i, c in enumerate(present) for turn in range(counts[c.name]))
     gc.collect()
     gc.disable()

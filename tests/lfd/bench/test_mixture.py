@@ -54,7 +54,7 @@ def test_regression_between_components_adds_their_disagreement():
 
 
 def test_a_kernelised_primitive_follows_its_reference_where_nothing_is_regularised(demonstrations):
-    model = KMP.fit(demonstrations[:1], KmpOptions(regularisation=1e-4))
+    model = KMP.fit(demonstrations[:1], KmpOptions(mean_regularisation=1e-4))
     reference = model.reference
     means, _ = model.regress(reference.phases, reference.conditions)
     assert means == pytest.approx(reference.means, abs=1e-3)
@@ -65,7 +65,7 @@ def test_a_kernelised_primitive_expects_the_straight_line_far_away(demonstration
     model = KMP.fit(demonstrations)
     means, covariances = model.regress(np.array([0.2, 0.7]), np.array([far, far]))
     assert means == pytest.approx(0.0, abs=1e-9)
-    widest = len(model.reference.phases) / model.options.regularisation
+    widest = len(model.reference.phases) / model.options.covariance_regularisation
     assert covariances == pytest.approx(np.tile(widest * np.eye(3), (2, 1, 1)))
 
 
