@@ -9,8 +9,8 @@ kernel carries it to any input s (with k and K the kernel's, once for each outpu
 The inputs are the phase and the condition, as the paper's inputs of several dimensions. A correction is what the paper
 calls modulation: new reference points, in place of those at the same inputs.
 
-The outputs are positions after a straight blend-out of their start, so the prior's zero is the straight line from the
-start to the object. Orientation and duration are the mean's.
+The outputs are departures from the mean motion (`AnchoredMean`), which is what is left far from all conditions: the
+paper's zero would be a place of its own. Orientation and duration are the mean's.
 """
 
 from dataclasses import dataclass, replace
@@ -80,11 +80,11 @@ class Reference:
 
 @dataclass(frozen=True, eq=False)
 class KMP:
-    """A reference, carried over by a kernel; `rest` gives orientations and durations."""
+    """A reference, carried over by a kernel, on top of the mean motion of the demonstrations."""
 
     reference: Reference
     length: float
-    rest: AnchoredMean
+    mean: AnchoredMean
     options: KmpOptions
 
     @classmethod
@@ -93,26 +93,21 @@ class KMP:
         conditions = np.array([d.condition for d in demonstrations])
         spread = float(np.sqrt(np.mean(np.sum((conditions - conditions.mean(axis=0)) ** 2, axis=1))))
         length = options.condition_length * max(spread, SAME_CONDITION)
-        reference = _reference(demonstrations, conditions, options)
-        return cls(reference, length, AnchoredMean.fit(demonstrations), options)
+        mean = AnchoredMean.fit(demonstrations)
+        return cls(_reference(demonstrations, mean, options), length, mean, options)
 
     def updated(self, demonstration) -> Self:
-        path = anchored_path(demonstration, PHASES)
+        path = departure(demonstration, self.mean)
         reference = self.reference.with_motion(demonstration.condition, path, self.options.exactness)
-        return replace(self, reference=reference, rest=self.rest.updated(demonstration))
+        return replace(self, reference=reference)
 
     def predict(self, situation, n) -> Prediction:
         phases = np.linspace(0.0, 1.0, n)
         means, covariances = self.regress(phases, np.tile(situation.condition, (n, 1)))
-        start = situation.start_position - situation.origin
-        rest = self.rest.predict(situation, n)
-        # Where the robot stands it begins.
-        means = means - np.outer(1.0 - phases, means[0]) + np.outer(1.0 - phases, start)
-        return replace(
-            rest,
-            trajectory=replace(rest.trajectory, positions=means + situation.origin),
-            position_covariances=covariances,
-        )
+        mean = self.mean.predict(situation, n)
+        # It begins where the robot stands, as the mean does.
+        positions = mean.trajectory.positions + means - np.outer(1.0 - phases, means[0])
+        return replace(mean, trajectory=replace(mean.trajectory, positions=positions), position_covariances=covariances)
 
     def regress(self, phases, conditions) -> tuple[Array, Array]:
         """Means (n, 3) and covariances (n, 3, 3) at inputs (n,) and (n, c)."""
@@ -148,19 +143,17 @@ class KMP:
         return np.exp(-0.5 * (by_phase + squared_distances(conditions, r.conditions) / self.length**2))
 
 
-def anchored_path(demonstration, n) -> Array:
-    """Positions (n, 3) relative to the origin, after a straight blend-out of the start [m]."""
-    trajectory = resample(demonstration.trajectory, n)
-    relative = trajectory.positions - demonstration.origin
-    return relative - np.outer(1.0 - trajectory.phases, relative[0])
+def departure(demonstration, mean) -> Array:
+    """Of a motion from the mean one, at PHASES phases (PHASES, 3) [m]."""
+    positions = resample(demonstration.trajectory, PHASES).positions
+    return positions - mean.predict(demonstration.situation, PHASES).trajectory.positions
 
 
-def _reference(demonstrations, conditions, options) -> Reference:
+def _reference(demonstrations, mean, options) -> Reference:
     """At each condition, from a mixture over phase, condition and position."""
+    conditions = np.array([d.condition for d in demonstrations])
     phases, c = np.linspace(0.0, 1.0, PHASES), conditions.shape[1]
-    rows = [
-        np.column_stack([phases, np.tile(d.condition, (PHASES, 1)), anchored_path(d, PHASES)]) for d in demonstrations
-    ]
+    rows = [np.column_stack([phases, np.tile(d.condition, (PHASES, 1)), departure(d, mean)]) for d in demonstrations]
     s_floor = np.maximum(options.condition_floor * conditions.var(axis=0), 1e-6)
     floor = np.concatenate([[1e-4], s_floor, np.full(3, options.floor)])
     mixture = Mixture.fit(np.vstack(rows)[None], options.components, floor)

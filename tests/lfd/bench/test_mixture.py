@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from lfd.motion.demonstration import Demonstration, Situation
-from tests.bench.baselines.kmp import KMP, PHASES, KmpOptions, anchored_path
+from tests.bench.baselines.anchored import AnchoredMean
+from tests.bench.baselines.kmp import KMP, KmpOptions
 from tests.bench.baselines.mixture import Mixture, regress
 from tests.bench.baselines.tpgmm import TPGMM
 
@@ -54,19 +55,18 @@ def test_regression_between_components_adds_their_disagreement():
 
 
 def test_a_kernelised_primitive_follows_its_reference_where_nothing_is_regularised(demonstrations):
-    model = KMP.fit(demonstrations[:1], KmpOptions(mean_regularisation=1e-4))
+    model = KMP.fit(demonstrations, KmpOptions(mean_regularisation=1e-4))
     reference = model.reference
     means, _ = model.regress(reference.phases, reference.conditions)
     assert means == pytest.approx(reference.means, abs=1e-3)
 
 
-def test_a_kernelised_primitive_expects_the_straight_line_far_away(demonstrations):
-    far = demonstrations[0].condition + np.array([100.0, 0.0, 0.0])
-    model = KMP.fit(demonstrations)
-    means, covariances = model.regress(np.array([0.2, 0.7]), np.array([far, far]))
-    assert means == pytest.approx(0.0, abs=1e-9)
+def test_a_kernelised_primitive_expects_the_mean_motion_far_away(demonstrations, reach):
+    model, far = KMP.fit(demonstrations), reach([100.0, 0.0, 0.6]).situation
+    prediction, mean = model.predict(far, 30), AnchoredMean.fit(demonstrations).predict(far, 30)
+    assert prediction.trajectory.positions == pytest.approx(mean.trajectory.positions, abs=1e-9)
     widest = len(model.reference.phases) / model.options.covariance_regularisation
-    assert covariances == pytest.approx(np.tile(widest * np.eye(3), (2, 1, 1)))
+    assert prediction.position_covariances == pytest.approx(np.tile(widest * np.eye(3), (30, 1, 1)))
 
 
 def test_a_correction_replaces_the_reference_at_its_condition(demonstrations, reach):
@@ -74,8 +74,8 @@ def test_a_correction_replaces_the_reference_at_its_condition(demonstrations, re
     correction = reach(PLACES[0], bend=0.2)
     taught = model.updated(correction)
     assert len(taught.reference.phases) == len(model.reference.phases)
-    means, _ = taught.regress(np.linspace(0.0, 1.0, PHASES), np.tile(correction.condition, (PHASES, 1)))
-    assert means == pytest.approx(anchored_path(correction, PHASES), abs=0.01)
+    positions = taught.predict(correction.situation, 60).trajectory.positions
+    assert positions == pytest.approx(correction.trajectory.positions, abs=0.02)
 
 
 def test_a_task_parameterised_mixture_moves_with_its_frames(demonstrations):
