@@ -61,7 +61,7 @@ def checked_quaternions(name: str, values: ArrayLike, shape: tuple[int | None, .
         NotUnitQuaternion: A norm differs from one by more than rounding does.
     """
     array = checked(name, values, shape)
-    norms = np.linalg.norm(array, axis=-1, keepdims=True)
+    norms = np.sqrt(np.einsum("...i,...i->...", array, array))[..., None]
     wrong = np.flatnonzero(np.abs(norms - 1.0) > UNIT_TOLERANCE)
     if wrong.size:
         raise NotUnitQuaternion(name, int(wrong[0]), float(norms.flat[wrong[0]]))

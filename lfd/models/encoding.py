@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from lfd.bounds import at_least, check_options, check_points
 from lfd.models.basis import GaussianBasis, least_squares
 from lfd.motion.demonstration import Demonstration, Situation
 from lfd.motion.resampling import resample
-from lfd.motion.rotations import conjugate, exp_map, log_map, mean_rotation, multiply, sign_continuous
+from lfd.motion.rotations import conjugate, exp_map, left_matrix, log_map, mean_rotation, sign_continuous
 from lfd.motion.trajectory import Trajectory
 
 
@@ -88,7 +88,7 @@ class Encoding:
             duration = float(np.exp(x[-1]))
         return Trajectory(
             positions=outputs[:, :3] + situation.origin,
-            orientations=multiply(self.rotation, exp_map(outputs[:, 3:])),
+            orientations=exp_map(outputs[:, 3:]) @ self._turned,
             duration=duration,
         )
 
@@ -127,9 +127,17 @@ class Encoding:
         return np.concatenate([situation.start_position - situation.origin, turned])
 
     def _rotation_vectors(self, orientations: Array) -> Array:
-        relative = multiply(conjugate(self.rotation), orientations)
+        relative = orientations @ self._turned_back
         first = -1.0 if relative[0, 0] < 0.0 else 1.0
         return log_map(sign_continuous(first * relative), shortest=False)
+
+    @cached_property
+    def _turned(self) -> Array:
+        return left_matrix(self.rotation)
+
+    @cached_property
+    def _turned_back(self) -> Array:
+        return left_matrix(conjugate(self.rotation))
 
 
 # Both are kept, read-only: they are the same for all motions of one number of points. Phases go by their bytes, as an

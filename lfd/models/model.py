@@ -5,11 +5,30 @@ from dataclasses import dataclass, replace
 from typing import Protocol, Self
 
 from lfd.arrays import Array, checked
+from lfd.bounds import FRACTION, check_number
 from lfd.exceptions import OutOfRange
 from lfd.models.distribution import MotionDistribution
 from lfd.motion.demonstration import Demonstration, Situation
 from lfd.motion.refinement import refine
 from lfd.motion.trajectory import PREDICTION_POINTS, Trajectory
+
+
+@dataclass(frozen=True)
+class Way:
+    """Which of several ways a motion takes, and how sure that is.
+
+    Attributes:
+        index: Of the way, from 0 in the order in which they were taught.
+        count: How many ways are known.
+        probability: Of this one being the right one in the situation, 1 where there is only one.
+    """
+
+    index: int = 0
+    count: int = 1
+    probability: float = 1.0
+
+
+ONLY_WAY = Way()
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,16 +39,20 @@ class Prediction:
         trajectory: In the base frame, n points.
         position_covariances: Of each point in the base frame, shape (n, 3, 3) [m^2].
         duration_std: Standard deviation of the duration [s].
+        known: How much of the motion was shown or corrected there, from 1, all of it, to 0, nothing: ask to be shown.
+        way: Which of several ways it takes, and how sure that is.
 
     Raises:
         WrongShape: There are not as many covariances as points.
         NotFinite: A number is NaN or infinite.
-        OutOfRange: The duration's deviation is negative.
+        OutOfRange: The duration's deviation is negative, or what is known no fraction.
     """
 
     trajectory: Trajectory
     position_covariances: Array
     duration_std: float
+    known: float = 1.0
+    way: Way = ONLY_WAY
 
     def __post_init__(self) -> None:
         shape = (self.trajectory.n_points, 3, 3)
@@ -37,6 +60,7 @@ class Prediction:
         object.__setattr__(self, "position_covariances", covariances)
         if not self.duration_std >= 0.0:
             raise OutOfRange("duration_std", self.duration_std, "zero or more")
+        check_number("known", self.known, FRACTION)
 
 
 class MovementModel(Protocol):

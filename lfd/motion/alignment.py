@@ -70,21 +70,29 @@ def most_similar(distances: Array, to: int) -> int:
 def group_by_condition(conditions: Array, tolerance: float = SAME_CONDITION) -> list[list[int]]:
     """Indices of equal conditions (M, c), grouped, in order of first appearance.
 
-    Transitive: a chain of conditions, each within the tolerance of the next, is one group. The thesis compares pairs
-    (equation (21)) and leaves open what follows when a = b and b = c but not a = c; its own example (equation (D.6))
-    is such a chain, and is treated as one condition.
+    No two of a group lie further apart than the tolerance (complete linkage): a dense line of conditions is many
+    groups, where a chain of pairs would make it one. The thesis compares pairs (equation (21)) and leaves open what
+    follows when a = b and b = c but not a = c. Which of a chain belong together does not depend on their order: they
+    are gone through by their coordinates, and each joins the first group that it fits.
     """
+    if not len(conditions):
+        return []
     groups: list[list[int]] = []
-    left = np.arange(len(conditions))
-    while left.size:
-        group: list[int] = []
-        found, left = left[:1], left[1:]
-        while found.size:
-            group += found.tolist()
-            near = (squared_distances(conditions[left], conditions[found]) <= tolerance**2).any(axis=1)
-            found, left = left[near], left[~near]
-        groups.append(sorted(group))
-    return groups
+    order = np.lexsort(conditions.T[::-1])
+    # Of each group, the least and the greatest coordinates: what lies beyond them is not compared with its members.
+    least, most = (np.zeros((0, conditions.shape[1])) for _ in range(2))
+    for i in order.tolist():
+        s = conditions[i]
+        near = np.flatnonzero(((s >= most - tolerance) & (s <= least + tolerance)).all(axis=1))
+        fits = (g for g in near.tolist() if squared_distances(s[None], conditions[groups[g]]).max() <= tolerance**2)
+        g = next(fits, len(groups))
+        if g == len(groups):
+            groups.append([i])
+            least, most = np.vstack([least, s]), np.vstack([most, s])
+        else:
+            groups[g].append(i)
+            least[g], most[g] = np.minimum(least[g], s), np.maximum(most[g], s)
+    return sorted(sorted(group) for group in groups)
 
 
 def align(

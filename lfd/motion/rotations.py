@@ -19,14 +19,23 @@ def multiply(p: Array, q: Array) -> Array:
 
     Written out in components, which takes less than half as long for the one quaternion of a control period.
     """
-    (pw, px, py, pz), (qw, qx, qy, qz) = np.moveaxis(p, -1, 0), np.moveaxis(q, -1, 0)
-    product = (
-        pw * qw - (px * qx + py * qy + pz * qz),
-        pw * qx + qw * px + (py * qz - pz * qy),
-        pw * qy + qw * py + (pz * qx - px * qz),
-        pw * qz + qw * pz + (px * qy - py * qx),
-    )
-    return np.stack(product, axis=-1)
+    pw, px, py, pz = p[..., 0], p[..., 1], p[..., 2], p[..., 3]
+    qw, qx, qy, qz = q[..., 0], q[..., 1], q[..., 2], q[..., 3]
+    product = np.empty(np.broadcast(p, q).shape)
+    product[..., 0] = pw * qw - (px * qx + py * qy + pz * qz)
+    product[..., 1] = pw * qx + qw * px + (py * qz - pz * qy)
+    product[..., 2] = pw * qy + qw * py + (pz * qx - px * qz)
+    product[..., 3] = pw * qz + qw * pz + (px * qy - py * qx)
+    return product
+
+
+def left_matrix(p: Array) -> Array:
+    """The matrix (4, 4) with which many q (n, 4) are rotated last by one p (4,), in a fifth of the time of `multiply`.
+
+    The product p q is q @ left_matrix(p).
+    """
+    w, x, y, z = p.tolist()
+    return np.array([[w, x, y, z], [-x, w, z, -y], [-y, -z, w, x], [-z, y, -x, w]])
 
 
 def conjugate(q: Array) -> Array:
@@ -36,8 +45,10 @@ def conjugate(q: Array) -> Array:
 
 def exp_map(r: Array) -> Array:
     """Rotation vectors [rad], shape (..., 3), to unit quaternions, shape (..., 4)."""
-    half = 0.5 * np.linalg.norm(r, axis=-1, keepdims=True)
-    return np.concatenate([np.cos(half), 0.5 * np.sinc(half / np.pi) * r], axis=-1)
+    half = 0.5 * np.sqrt(np.einsum("...i,...i->...", r, r))[..., None]
+    near_identity = half < _SMALL
+    scale = np.where(near_identity, 0.5, 0.5 * np.sin(half) / np.where(near_identity, 1.0, half))
+    return np.concatenate([np.cos(half), scale * r], axis=-1)
 
 
 def log_map(q: Array, *, shortest: bool = True) -> Array:
@@ -50,7 +61,7 @@ def log_map(q: Array, *, shortest: bool = True) -> Array:
     """
     if shortest:
         q = np.where(q[..., :1] < 0.0, -q, q)
-    sine = np.linalg.norm(q[..., 1:], axis=-1, keepdims=True)
+    sine = np.sqrt(np.einsum("...i,...i->...", q[..., 1:], q[..., 1:]))[..., None]
     half = np.arctan2(sine, q[..., :1])
     near_identity = np.where(q[..., :1] < 0.0, -2.0, 2.0)
     scale = np.where(sine > _SMALL, 2.0 * half / np.maximum(sine, _SMALL), near_identity)
@@ -60,8 +71,10 @@ def log_map(q: Array, *, shortest: bool = True) -> Array:
 
 def sign_continuous(q: Array) -> Array:
     """The same rotations, shape (n, 4), with signs such that neighbours lie in one hemisphere; the first is kept."""
-    flips = np.where(np.sum(q[1:] * q[:-1], axis=-1) < 0.0, -1.0, 1.0)
-    signs = np.concatenate([[1.0], np.cumprod(flips)])
+    flips = np.einsum("ni,ni->n", q[1:], q[:-1]) < 0.0
+    if not flips.any():
+        return q
+    signs = np.concatenate([[1.0], np.cumprod(np.where(flips, -1.0, 1.0))])
     continuous: Array = q * signs[:, None]
     return continuous
 

@@ -5,30 +5,33 @@ is for taking one finished model elsewhere.
 """
 
 import json
+import math
 import os
 import tempfile
 import zipfile
-from dataclasses import asdict
+from collections.abc import Sequence
+from dataclasses import asdict, is_dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar, get_type_hints
 
 import numpy as np
 
 from lfd.arrays import Array, frozen
 from lfd.exceptions import LfdError, StorageError
 from lfd.models.adaptive.adaptation import AdaptiveOptions, AdaptiveProMP
-from lfd.models.adaptive.correction import CorrectionOptions
-from lfd.models.adaptive.regression import RegressionOptions
-from lfd.models.adaptive.spread import SpreadPrior
-from lfd.models.basis import GaussianBasis
+from lfd.models.adaptive.correction import Correction
+from lfd.models.adaptive.regression import Regression
+from lfd.models.adaptive.scale import ConditionScale
 from lfd.models.encoding import Encoding
 from lfd.models.gaussian import JointGaussian
 from lfd.models.promp import ConditionedProMP, PrompOptions
 from lfd.motion.alignment import Selection
 
-FORMAT = "retouch-model/1"
+FORMAT = "retouch-model/2"
 
 _HEADER = "header"
+
+_Options = TypeVar("_Options")
 
 
 def save(model: AdaptiveProMP | ConditionedProMP, path: Path) -> None:
@@ -45,7 +48,7 @@ def save(model: AdaptiveProMP | ConditionedProMP, path: Path) -> None:
     arrays: dict[str, Array] = {"rotation": model.encoding.rotation}
     match model:
         case AdaptiveProMP():
-            header |= {"kind": "adaptive", "extent": model.corrections.regression.extent}
+            header |= {"kind": "adaptive", "extent": model.corrections.extent}
             arrays |= _taught(model)
         case ConditionedProMP():
             header |= {"kind": "promp", "count": model.joint.count}
@@ -91,35 +94,64 @@ def load(path: Path) -> AdaptiveProMP | ConditionedProMP:
 
 def _taught(model: AdaptiveProMP) -> dict[str, Array]:
     regression, corrections = model.corrections.regression, model.corrections
+    scale, aside = regression.scale, [correction for _, correction in corrections.aside]
     return {
+        "centre": scale.centre,
+        "unit": scale.unit,
+        "lengths": scale.lengths.astype(np.float64),
         "conditions": regression.conditions,
         "vectors": regression.vectors,
-        "corrected_conditions": corrections.conditions,
-        "corrected_vectors": corrections.vectors,
+        **_listed("held", corrections.held, regression),
+        **_listed("aside", aside, regression),
+        "aside_places": np.array([index for index, _ in corrections.aside], dtype=np.float64),
     }
 
 
+def _listed(name: str, corrections: Sequence[Correction], regression: Regression) -> dict[str, Array]:
+    c, D = regression.conditions.shape[1], regression.vectors.shape[1]
+    return {
+        f"{name}_conditions": np.array([correction.s for correction in corrections]).reshape(-1, c),
+        f"{name}_vectors": np.array([correction.x for correction in corrections]).reshape(-1, D),
+        f"{name}_times": np.array([np.nan if x.at_s is None else x.at_s for x in corrections], dtype=np.float64),
+    }
+
+
+def _corrections(name: str, arrays: dict[str, Array]) -> list[Correction]:
+    columns = (arrays[f"{name}_conditions"], arrays[f"{name}_vectors"], arrays[f"{name}_times"].tolist())
+    return [Correction(s, x, None if math.isnan(at_s) else at_s) for s, x, at_s in zip(*columns, strict=True)]
+
+
 def _adaptive(header: dict[str, Any], arrays: dict[str, Array]) -> AdaptiveProMP:
-    values = header["options"]
-    options = AdaptiveOptions(
-        **values
-        | {
-            "basis": GaussianBasis(**values["basis"]),
-            "regression": RegressionOptions(**values["regression"]),
-            "correction": CorrectionOptions(**values["correction"]),
-            "prior": SpreadPrior(**values["prior"]),
-        }
-    )
+    options = _options(AdaptiveOptions, header["options"])
     encoding = Encoding(options.basis, options.samples, arrays["rotation"], anchored=True)
-    model = AdaptiveProMP.of_vectors(encoding, arrays["conditions"], arrays["vectors"], header["extent"], options)
-    for s, x in zip(arrays["corrected_conditions"], arrays["corrected_vectors"], strict=True):
-        model = model.corrected(s, x)
-    return model
+    lengths = arrays["lengths"] > 0.0
+    scale = ConditionScale(arrays["centre"], arrays["unit"], lengths, np.ones(len(lengths)))
+    model = AdaptiveProMP.of_vectors(
+        encoding, scale, arrays["conditions"], arrays["vectors"], extent=header["extent"], options=options
+    )
+    places = arrays["aside_places"].astype(int).tolist()
+    aside = tuple(zip(places, _corrections("aside", arrays), strict=True))
+    return replace(model, corrections=replace(model.corrections, held=tuple(_corrections("held", arrays)), aside=aside))
 
 
 def _promp(header: dict[str, Any], arrays: dict[str, Array]) -> ConditionedProMP:
     values = header["options"]
-    parsed = {"basis": GaussianBasis(**values["basis"]), "selection": Selection(values["selection"])}
-    options = PrompOptions(**values | parsed)
+    options = _options(PrompOptions, values | {"selection": Selection(values["selection"])})
     encoding = Encoding(options.basis, options.samples, arrays["rotation"], anchored=False)
     return ConditionedProMP(encoding, JointGaussian(arrays["mean"], arrays["scatter"], header["count"]), options)
+
+
+def _options(kind: type[_Options], values: dict[str, Any]) -> _Options:
+    """Options of options, from what `asdict` and JSON made of them."""
+    types = get_type_hints(kind)
+    if values.keys() != types.keys():
+        raise ValueError(kind.__name__)
+    parsed = {
+        name: _options(types[name], value)
+        if is_dataclass(types[name])
+        else tuple(value)
+        if isinstance(value, list)
+        else value
+        for name, value in values.items()
+    }
+    return kind(**parsed)

@@ -12,21 +12,23 @@ from typing import Self
 import numpy as np
 
 from lfd.arrays import Array, frozen
+from lfd.bounds import NOT_NEGATIVE, at_least, check_options
 from lfd.exceptions import NothingToTakeBack
 from lfd.models.adaptive.condensation import condensed
-from lfd.models.adaptive.correction import CorrectionOptions, Corrections, Effect
+from lfd.models.adaptive.correction import Correction, CorrectionOptions, Corrections, Effect
+from lfd.models.adaptive.kinds import Kinds
 from lfd.models.adaptive.regression import Expectation, Regression, RegressionOptions
+from lfd.models.adaptive.relevance import RelevanceOptions, relevant
+from lfd.models.adaptive.scale import ConditionScale
 from lfd.models.adaptive.spread import Spread, SpreadPrior, spread_of
 from lfd.models.basis import GaussianBasis
-from lfd.models.distribution import POSITION, MotionDistribution
-from lfd.models.encoding import OUTPUTS, Encoding, reference_rotation
-from lfd.models.model import Prediction
-from lfd.motion.alignment import align
+from lfd.models.distribution import MotionDistribution
+from lfd.models.encoding import Encoding, reference_rotation
+from lfd.models.model import Prediction, in_part
 from lfd.motion.demonstration import Demonstration, Situation, check_demonstrations, check_dimension
 from lfd.motion.trajectory import PREDICTION_POINTS
 
 _FINE_BASIS = GaussianBasis(count=40, width=0.0256)  # finer than the thesis', to follow a correction closely
-_MEASURED = 25  # phases at which positions are compared
 
 
 @dataclass(frozen=True)
@@ -38,18 +40,36 @@ class AdaptiveOptions:
         samples: Number of points to which a demonstration is resampled.
         regression: See there.
         correction: See there.
+        relevance: Of how the dimensions of the condition are judged.
         prior: Of the spread of motions about their predictions.
         repeatability: Variance of a motion about a correction at its condition, relative to the spread [-].
         most: Demonstrations kept; beyond it those of near conditions are averaged.
+
+    Raises:
+        OutOfRange: One is not what it can be.
     """
 
     basis: GaussianBasis = _FINE_BASIS
     samples: int = 75
     regression: RegressionOptions = field(default_factory=RegressionOptions)
     correction: CorrectionOptions = field(default_factory=CorrectionOptions)
+    relevance: RelevanceOptions = field(default_factory=RelevanceOptions)
     prior: SpreadPrior = field(default_factory=SpreadPrior)
     repeatability: float = 0.05
     most: int = 1000
+
+    def __post_init__(self) -> None:
+        check_options(
+            self,
+            basis=GaussianBasis,
+            samples=at_least(2),
+            regression=RegressionOptions,
+            correction=CorrectionOptions,
+            relevance=RelevanceOptions,
+            prior=SpreadPrior,
+            repeatability=NOT_NEGATIVE,
+            most=at_least(1),
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +90,9 @@ class AdaptiveProMP:
 
     @classmethod
     def fit(cls, demonstrations: Sequence[Demonstration], options: AdaptiveOptions | None = None) -> Self:
-        """The model of demonstrations, those of one condition aligned in time and none newer than another.
+        """The model of demonstrations, none newer than another.
+
+        They keep their own tempo: aligning those of one condition in time predicts no better.
 
         Raises:
             TooFewDemonstrations: There is none.
@@ -80,51 +102,62 @@ class AdaptiveProMP:
         options = options or AdaptiveOptions()
         encoding = Encoding(options.basis, options.samples, reference_rotation(demonstrations), anchored=True)
         extent = _extent(demonstrations)
-        aligned = align(demonstrations, options.regression.same * extent)
+        scale = ConditionScale.of(demonstrations, extent)
         conditions = frozen([d.condition for d in demonstrations])
-        return cls.of_vectors(encoding, conditions, frozen([encoding.encode(d) for d in aligned]), extent, options)
+        vectors = frozen([encoding.encode(d) for d in demonstrations])
+        return cls.of_vectors(encoding, scale, conditions, vectors, extent=extent, options=options)
 
     @classmethod
     def of_vectors(
-        cls, encoding: Encoding, conditions: Array, vectors: Array, extent: float, options: AdaptiveOptions
+        cls,
+        encoding: Encoding,
+        scale: ConditionScale,
+        conditions: Array,
+        vectors: Array,
+        *,
+        extent: float,
+        options: AdaptiveOptions,
     ) -> Self:
         """The model of demonstrations that are encoded already.
 
         Args:
             encoding: That made the vectors.
+            scale: Of the conditions.
             conditions: Shape (M, c).
             vectors: Shape (M, D).
             extent: How far the motions lead from their start [m], positive.
             options: Parameters.
         """
-        conditions, vectors = condensed(conditions, vectors, options.most)
-        regression = Regression(conditions, vectors, _measure(encoding), extent, options.regression)
+        conditions, vectors = condensed(conditions, vectors, options.most, scale)
+        regression = Regression(scale, conditions, vectors, Kinds.of(encoding), options.regression)
+        regression = relevant(regression, options.relevance)
         errors, variances = regression.left_out
         spread = spread_of(encoding, errors, variances, extent, options.prior)
-        return cls(encoding, Corrections.none(regression, options.correction), spread, options)
+        return cls(encoding, Corrections(regression, extent, options.correction), spread, options)
 
     def updated(self, demonstration: Demonstration) -> Self:
-        """The model that has also learnt a motion newer than all others.
+        """The model that has also learnt a motion newer than all others, as far as it is believed (equation (18)).
 
         Raises:
             WrongShape: Its condition has another dimension than those before.
         """
         self._check(demonstration.condition)
-        return self.corrected(demonstration.condition, self.encoding.encode(demonstration))
+        believed = in_part(self, demonstration)
+        return self.corrected(believed.condition, self.encoding.encode(believed), believed.provenance.at_s)
 
-    def corrected(self, s: Array, x: Array) -> Self:
-        """The model that has also learnt that the vector x (D,) is right at the condition s (c,)."""
-        return replace(self, corrections=self.corrections.added(self._regression.at(s), x).tested())
+    def corrected(self, s: Array, x: Array, at_s: float | None = None) -> Self:
+        """The model that has also learnt that the vector x (D,) is right at the condition s (c,), at a time [s]."""
+        return replace(self, corrections=self.corrections.added(Correction(frozen(s), frozen(x), at_s)))
 
     def undone(self) -> Self:
-        """The model without its newest correction.
+        """The model as it was before its newest correction.
 
         Raises:
             NothingToTakeBack: There is none.
         """
         if not len(self.corrections):
             raise NothingToTakeBack
-        return replace(self, corrections=self.corrections.without(-1).tested())
+        return replace(self, corrections=self.corrections.taken_back())
 
     def predict(self, situation: Situation, n: int = PREDICTION_POINTS) -> Prediction:
         """See `MovementModel.predict`; the prediction begins exactly at the start pose."""
@@ -135,11 +168,16 @@ class AdaptiveProMP:
         taught, changed = self._variances(expected, effect)
         covariances = taught * self.spread.positions(n)
         duration_variance = taught * self.spread.covariance[-1, -1]
-        if changed > 0.0:
-            changes = self.corrections.changes
-            covariances = covariances + changed * _mean_square(self.encoding.positions(changes, n))
-            duration_variance += changed * float(np.mean(changes[:, -1] ** 2))
-        return Prediction(trajectory, covariances, trajectory.duration * float(np.sqrt(duration_variance)))
+        for scatter, differences in self._differences(effect, changed):
+            covariances = covariances + scatter * _mean_square(self.encoding.positions(differences, n))
+            duration_variance += scatter * float(np.mean(differences[:, -1] ** 2))
+        return Prediction(
+            trajectory,
+            covariances,
+            trajectory.duration * float(np.sqrt(duration_variance)),
+            self._known(expected, effect),
+            effect.way,
+        )
 
     def distribution(self, situation: Situation) -> MotionDistribution:
         """See `MovementModel.distribution`."""
@@ -148,9 +186,8 @@ class AdaptiveProMP:
         effect = self.corrections.effect(expected)
         taught, changed = self._variances(expected, effect)
         covariance = taught * self.spread.covariance
-        if changed > 0.0:
-            changes = self.corrections.changes
-            covariance = covariance + changed * (changes.T @ changes) / len(changes)
+        for scatter, differences in self._differences(effect, changed):
+            covariance = covariance + scatter / len(differences) * (differences.T @ differences)
         mean = frozen(expected.mean + effect.change)
         return MotionDistribution(self.encoding, situation, mean, frozen(covariance))
 
@@ -162,10 +199,36 @@ class AdaptiveProMP:
         check_dimension(s, self._regression.conditions.shape[1])
 
     def _variances(self, expected: Expectation, effect: Effect) -> tuple[float, float]:
-        """Of what was taught, in units of the spread, and of what has changed, in units of the changes seen so far."""
+        """Of what was taught, in units of the spread, and of what has changed, in units of the changes seen so far.
+
+        What has been corrected is as uncertain as corrections scatter, less the more of them agree.
+        """
         left = effect.open_share
-        taught = left * self._regression.uncertainty(expected) + (1.0 - left) * self.options.repeatability
-        return taught, left * self.corrections.surprising_share
+        taught = left * self._regression.uncertainty(expected)
+        if left == 1.0:
+            return taught, 0.0
+        repeated = self.options.repeatability * 0.5 * (1.0 + 1.0 / effect.evidence)
+        scattered = self.corrections.noise / effect.evidence / self.spread.mean_square
+        square = self.corrections.mean_square
+        changed = left * effect.surprise / square if square > 0.0 else 0.0
+        return taught + (1.0 - left) * (repeated + scattered), changed
+
+    def _differences(self, effect: Effect, changed: float) -> list[tuple[float, Array]]:
+        """Factors, and vectors (m, D) whose mean square times them is a covariance: of changes, and of other ways."""
+        parts = [(changed, self.corrections.changes)] if changed > 0.0 else []
+        return parts + [(probability, difference[None]) for probability, difference in effect.others]
+
+    def _known(self, expected: Expectation, effect: Effect) -> float:
+        """How much of a motion is known: 1 where it was shown or corrected, falling to 0 beyond that.
+
+        Of two ways that are as probable as each other, nothing is known.
+        """
+        if self._regression.scale.unseen(expected.s) and effect.open_share == 1.0:
+            return 0.0
+        beyond = float(np.sqrt(expected.outside @ expected.outside))
+        shown = float(np.exp(-beyond / self.options.correction.covariance.near))
+        decided = max(2.0 * effect.way.probability - 1.0, 0.0) if effect.way.count > 1 else 1.0
+        return max(shown, 1.0 - effect.open_share) * decided
 
 
 def _extent(demonstrations: Sequence[Demonstration]) -> float:
@@ -178,10 +241,3 @@ def _mean_square(paths: Array) -> Array:
     """Of paths (J, n, 3) at each time, shape (n, 3, 3)."""
     by_time = paths.transpose(1, 2, 0)
     return np.asarray(by_time @ by_time.transpose(0, 2, 1) / len(paths), dtype=np.float64)
-
-
-def _measure(encoding: Encoding) -> Array:
-    """The linear map from a vector to positions, such that its squares sum to their mean square over time [m^2]."""
-    rows = encoding.rows(np.linspace(0.0, 1.0, _MEASURED)) / np.sqrt(_MEASURED)
-    positions = np.kron(rows, np.eye(POSITION, OUTPUTS))
-    return frozen(np.vstack([positions.T, np.zeros((1, len(positions)))]))

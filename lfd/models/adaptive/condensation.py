@@ -4,9 +4,10 @@ import numpy as np
 
 from lfd.arrays import Array
 from lfd.distances import squared_distances
+from lfd.models.adaptive.scale import ConditionScale
 
 
-def condensed(conditions: Array, vectors: Array, most: int) -> tuple[Array, Array]:
+def condensed(conditions: Array, vectors: Array, most: int, scale: ConditionScale) -> tuple[Array, Array]:
     """At most `most` samples: those beyond it are averaged into the nearest of the first.
 
     Up to `most` samples nothing changes.
@@ -15,13 +16,15 @@ def condensed(conditions: Array, vectors: Array, most: int) -> tuple[Array, Arra
         conditions: Shape (M, c).
         vectors: Shape (M, D).
         most: How many may stay, at least 1.
+        scale: Of the conditions, by which nearness is judged.
 
     Returns:
         Conditions (m, c) and vectors (m, D), m = min(M, most).
     """
     if len(conditions) <= most:
         return conditions, vectors
-    nearest = squared_distances(conditions[most:], conditions[:most]).argmin(axis=1)
+    z = scale.standard(conditions)
+    nearest = squared_distances(z[most:], z[:most]).argmin(axis=1)
     owners = np.concatenate([np.arange(most), nearest])
     counts = np.bincount(owners, minlength=most)[:, None]
     mean_conditions, mean_vectors = (

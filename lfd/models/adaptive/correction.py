@@ -1,49 +1,83 @@
-"""What corrections change: a Gaussian process over the condition, on top of what the demonstrations say.
+"""What corrections change: a Gaussian process over the condition for each kind of output, on top of the demonstrations.
 
-The change at s, given the changes y_j that the corrections made at s_j, is C(s, s_j) (C + R)^-1 y. C has two parts:
+The change at s, given the changes y_j that the corrections made at s_j, is C(s, s_j) (C + R)^-1 y. C has three parts:
 
-1. What the demonstrations left open: how uncertain their mean and trend are, and the room between their conditions.
-   A correction that this explains says nothing new about places where the demonstrations are sure.
-2. Where the corrections are larger than that, the world has changed: a part as large as the surprise, and a few times
-   as wide as the motion is long.
+1. What the demonstrations left open: how their motions go on beyond the conditions that they show (Levy's Brownian
+   motion, which is zero among them). A correction that this explains is no reason to doubt what was shown.
+2. What is a detail of one place.
+3. Where a correction is larger than that, the world has changed: a part as large as the surprise, and a few times as
+   wide as the motion is long.
 
-So a correction acts near its condition and, smoothly, less with distance; it acts wider the more it surprises.
+All three fade to nothing far away, and no prediction departs further from the demonstrations than the largest
+correction did: the weights of the corrections never add up to more than one.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Self
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
+from numpy.typing import NDArray
 
 from lfd.arrays import Array
+from lfd.bounds import NOT_NEGATIVE, POSITIVE, at_least, check_number, check_options
 from lfd.distances import squared_distances
+from lfd.models.adaptive.covariance import CovarianceOptions, Nearness, Solved, levy
+from lfd.models.adaptive.kinds import POSITION
 from lfd.models.adaptive.regression import Expectation, Regression
+from lfd.models.adaptive.scale import ConditionScale
+from lfd.models.adaptive.ways import probabilities, sort_into_ways
+from lfd.models.adaptive.worlds import WorldOptions, Worlds, find_worlds
+from lfd.models.model import ONLY_WAY, Way
+from lfd.motion.alignment import group_by_condition
 
 
 @dataclass(frozen=True)
 class CorrectionOptions:
-    """Fixed once for all data; lengths are fractions of the extent of the motions.
+    """Fixed once for all data; lengths are in units of `ConditionScale`, sizes in a kind's own unit.
 
     Attributes:
+        covariance: Of what may have changed.
         noise: Variance of a correction relative to what it could have changed [-].
-        forgetting: Variance added to a correction for each newer one at its condition, relative as the noise [-].
-        mean_std: Uncertainty of one demonstration as the mean of its condition.
-        near_std: Of the room between the demonstrations' conditions.
-        slope_std: By how much a motion may change as its condition changes by one unit, both lengths [-].
-        reach: Length over which a surprising correction fades: what the world changed in one place it changed wherever
-            the same motion leads through it.
-        most: Corrections kept; beyond it the most outdated is forgotten.
+        same: Corrections at conditions nearer than this are of one condition.
+        gate: By how much nearer the corrections of one way are where it is e times more probable than another.
+        world: When corrections of one condition are averaged, and when the newest is followed.
+        half_life_s: Age at which a correction counts half as much as a new one [s]; None: it does not age.
+        most: Corrections kept; beyond it the most outdated is set aside.
+
+    Raises:
+        OutOfRange: One is not what it can be.
     """
 
+    covariance: CovarianceOptions = field(default_factory=CovarianceOptions)
     noise: float = 0.003
-    forgetting: float = 2.0
-    mean_std: float = 0.02
-    near_std: float = 0.003
-    slope_std: float = 1.0
-    reach: float = 2.5
+    same: float = 0.1
+    gate: float = 0.05
+    world: WorldOptions = field(default_factory=WorldOptions)
+    half_life_s: float | None = None
     most: int = 200
+
+    def __post_init__(self) -> None:
+        check_options(
+            self,
+            covariance=CovarianceOptions,
+            noise=POSITIVE,
+            same=NOT_NEGATIVE,
+            gate=POSITIVE,
+            world=WorldOptions,
+            most=at_least(1),
+        )
+        if self.half_life_s is not None:
+            check_number("CorrectionOptions.half_life_s", self.half_life_s, POSITIVE)
+
+
+@dataclass(frozen=True, eq=False)
+class Correction:
+    """One of them: at the condition s (c,) the vector x (D,) was right, at a time [s since 1970 UTC], if known."""
+
+    s: Array
+    x: Array
+    at_s: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,11 +86,19 @@ class Effect:
 
     Attributes:
         change: Of the vector, shape (D,).
-        open_share: The share of the variance that they have left: 1 far from all, nearly 0 at the newest.
+        open_share: The share of the variance of positions that they have left: 1 far from all, nearly 0 at the newest.
+        surprise: Mean square of what else might have changed there [m^2].
+        evidence: How many corrections speak for it, at least 1.
+        way: Which of the ways it is.
+        others: How probable each other way is, and by what it differs (D,).
     """
 
     change: Array
-    open_share: float
+    open_share: float = 1.0
+    surprise: float = 0.0
+    evidence: float = 1.0
+    way: Way = ONLY_WAY
+    others: tuple[tuple[float, Array], ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,172 +107,179 @@ class Corrections:
 
     Attributes:
         regression: What is corrected.
+        extent: Of the motions [m], the unit of their positions.
         options: Parameters.
-        conditions: s_j, shape (J, c).
-        changes: y_j = x_j - m(s_j), where m is the regression's mean, shape (J, D).
-        solved: (K + r I)^-1 k(s_j, S), of the demonstrations' kernel K, shape (J, M).
-        openness: Part 1 of C between the corrections, shape (J, J).
-        middle: Mean condition of the demonstrations, shape (c,).
-        slope_covariance: Of each output's slope there, as the demonstrations left it, shape (c, c).
+        held: The corrections.
+        aside: Those that there was no room for, and where they stood, oldest first: taking back makes room again.
     """
 
     regression: Regression
+    extent: float
     options: CorrectionOptions
-    conditions: Array
-    changes: Array
-    solved: Array
-    openness: Array
-    middle: Array
-    slope_covariance: Array
-
-    @classmethod
-    def none(cls, regression: Regression, options: CorrectionOptions) -> Self:
-        """No correction yet."""
-        M, c = regression.conditions.shape
-        D = regression.vectors.shape[1]
-        middle = regression.conditions.mean(axis=0)
-        return cls(
-            regression,
-            options,
-            conditions=np.zeros((0, c)),
-            changes=np.zeros((0, D)),
-            solved=np.zeros((0, M)),
-            openness=np.zeros((0, 0)),
-            middle=middle,
-            slope_covariance=_slope_covariance(regression.conditions - middle, options, regression.extent),
-        )
+    held: tuple[Correction, ...] = ()
+    aside: tuple[tuple[int, Correction], ...] = ()
 
     def __len__(self) -> int:
-        return len(self.conditions)
+        return len(self.held)
 
-    def added(self, expected: Expectation, x: Array) -> Self:
-        """With a newer correction: at a place the vector is x (D,)."""
-        row, corner = self._open(expected), self._open_at(expected)
-        longer = replace(
-            self,
-            conditions=np.vstack([self.conditions, expected.s]),
-            changes=np.vstack([self.changes, x - expected.mean]),
-            solved=np.vstack([self.solved, expected.solved]),
-            openness=np.block([[self.openness, row[:, None]], [row[None], np.full((1, 1), corner)]]),
-        )
-        return longer if len(longer) <= self.options.most else longer.without(int(np.argmax(longer._outdated)))
+    def added(self, correction: Correction) -> Self:
+        """With a newer one."""
+        longer = replace(self, held=(*self.held, correction))
+        if len(longer) <= self.options.most:
+            return longer
+        index = int(np.argmax(longer._outdated))
+        kept = longer.held[:index] + longer.held[index + 1 :]
+        return replace(longer, held=kept, aside=(*self.aside, (index, longer.held[index]))[-self.options.most :])
 
-    @property
-    def vectors(self) -> Array:
-        """x_j, what the corrections said, shape (J, D)."""
-        return self._first_vectors(len(self))
-
-    def _first_vectors(self, n: int) -> Array:
-        changes = self.changes[:n]
-        vectors: Array = changes + np.reshape([self.regression.mean(s) for s in self.conditions[:n]], changes.shape)
-        return vectors
-
-    def on(self, regression: Regression) -> Self:
-        """The same corrections of another regression."""
-        corrections = type(self).none(regression, self.options)
-        for s, x in zip(self.conditions, self.vectors, strict=True):
-            corrections = corrections.added(regression.at(s), x)
-        return corrections
-
-    def tested(self) -> Self:
-        """The same, their regression's trend tested by the oldest of them, where it cannot tell by itself."""
-        if self.regression.determined:
-            return self
-        if not len(self):
-            return self.on(replace(self.regression, tested_shrinkage=None))
-        regression = self.regression.tested(self.conditions[:_TESTS], self._first_vectors(_TESTS))
-        return self if regression is self.regression else self.on(regression)
-
-    def without(self, index: int) -> Self:
-        """Without the correction of that index; -1 is the newest."""
-        kept = np.delete(np.arange(len(self)), index)
-        return replace(
-            self,
-            conditions=self.conditions[kept],
-            changes=self.changes[kept],
-            solved=self.solved[kept],
-            openness=self.openness[np.ix_(kept, kept)],
-        )
+    def taken_back(self) -> Self:
+        """Without the newest, as they were before it; at least one is there."""
+        if len(self) < self.options.most or not self.aside:
+            return replace(self, held=self.held[:-1])
+        index, correction = self.aside[-1]
+        # It stood among those that are held now, the newest of them included, before there was no room for it.
+        before = (*self.held[:index], correction, *self.held[index:])[:-1]
+        return replace(self, held=before, aside=self.aside[:-1])
 
     def effect(self, expected: Expectation) -> Effect:
         """What the corrections change at a place."""
-        if not len(self):
-            return Effect(np.zeros(self.changes.shape[1]), 1.0)
-        covariances = self._open(expected) + self.surprise * self._wide(expected.s[None])[0]
-        before = self._open_at(expected) + self.surprise
-        explained = float(covariances @ cho_solve(self._factor, covariances, check_finite=False))
-        return Effect(covariances @ self._gain, max(1.0 - explained / before, 0.0))
+        if not self.held:
+            return Effect(np.zeros(self.regression.vectors.shape[1]))
+        z = self._scale.standard(expected.s)
+        distances = np.sqrt(squared_distances(z[None], self._z)[0])
+        outside = expected.outside if self._scale is self.regression.scale else z
+        beyond = float(np.sqrt(outside @ outside))
+        place = Nearness.of(distances[None], levy(outside[None], self._outside), self.options.covariance)
+        if self._only_way:
+            return self._of_way(0, place, beyond)
+        likely = probabilities(distances, self._ways, self.options.gate)
+        chosen = int(likely.argmax())
+        effect = self._of_way(chosen, place, beyond)
+        others = [way for way in range(len(likely)) if way != chosen and likely[way] > _IMPROBABLE]
+        differences = [self._of_way(way, place, beyond).change - effect.change for way in others]
+        way = Way(chosen, len(likely), float(likely[chosen]))
+        return replace(effect, way=way, others=tuple(zip(likely[others].tolist(), differences, strict=True)))
+
+    @property
+    def noise(self) -> float:
+        """Variance of a correction about the mean of its world [m^2]."""
+        return self._worlds[POSITION].noise
 
     @cached_property
-    def surprise(self) -> float:
-        """Mean square by which the corrections exceed what the demonstrations left open; the measure's unit squared."""
-        if not len(self):
-            return 0.0
-        return max(float(np.mean(self._squares - np.diag(self.openness))), 0.0)
+    def changes(self) -> Array:
+        """y_j = x_j - m(s_j), where m is the regression's mean, shape (J, D)."""
+        vectors = np.array([correction.x for correction in self.held])
+        return np.asarray(vectors - self.regression.means(self._conditions), dtype=np.float64)
 
     @cached_property
-    def surprising_share(self) -> float:
-        """The share of the corrections' mean square that was a surprise."""
-        return self.surprise / float(np.mean(self._squares)) if self.surprise > 0.0 else 0.0
+    def mean_square(self) -> float:
+        """Of the corrections' positions [m^2]."""
+        return float(np.trace(self._products[POSITION]) / len(self))
+
+    def _of_way(self, way: int, place: Nearness, beyond: float) -> Effect:
+        weights, left, surprise = self._solved[way].at(place, beyond)
+        of_column = self.regression.kinds.of_column
+        change = (weights @ self.changes)[of_column, np.arange(of_column.size)]
+        counted = weights[POSITION]
+        squares = float(counted @ counted)
+        evidence = max(float(np.abs(counted).sum()) ** 2 / squares, 1.0) if squares > 0.0 else 1.0
+        return Effect(change, float(left[POSITION]), float(surprise[POSITION]), evidence)
 
     @cached_property
-    def _squares(self) -> Array:
-        """Mean squares of the changes, in the measure's unit squared, shape (J,)."""
-        return np.asarray(np.sum((self.changes @ self.regression.measure) ** 2, axis=1), dtype=np.float64)
-
-    def _open(self, expected: Expectation) -> Array:
-        """Part 1 of C between a place and the corrections, shape (J,)."""
-        near = self.regression.kernel(expected.s[None], self.conditions)[0] - self.solved @ expected.nearness
-        slopes = (self.conditions - self.middle) @ (self.slope_covariance @ (expected.s - self.middle))
-        return np.asarray(self._mean_variance + slopes + self._near_variance * near, dtype=np.float64)
-
-    def _open_at(self, expected: Expectation) -> float:
-        away = expected.s - self.middle
-        slope = float(away @ self.slope_covariance @ away)
-        return self._mean_variance + slope + self._near_variance * expected.unexplained
+    def _solved(self) -> tuple[Solved, ...]:
+        """For each way."""
+        current = np.array([worlds.current for worlds in self._worlds])
+        repeated = np.array([worlds.noise * (worlds.shared > 1.0) for worlds in self._worlds])
+        squares = np.array([np.diag(products) for products in self._products])
+        doubt = (np.broadcast_to(self.options.noise + self._aged, squares.shape), repeated)
+        return tuple(
+            Solved.of(
+                self._nearness,
+                squares,
+                np.asarray(current & (self._ways == way), dtype=np.float64),
+                doubt=doubt,
+                units=self._units,
+                options=self.options.covariance,
+            )
+            for way in range(int(self._ways.max()) + 1)
+        )
 
     @cached_property
-    def _mean_variance(self) -> float:
-        return (self.options.mean_std * self.regression.extent) ** 2 / len(self.regression.conditions)
+    def _nearness(self) -> Nearness:
+        return Nearness.of(self._distances, levy(self._outside, self._outside), self.options.covariance)
 
     @cached_property
-    def _near_variance(self) -> float:
-        return (self.options.near_std * self.regression.extent) ** 2
+    def _only_way(self) -> bool:
+        return not self._ways.any()
 
-    def _wide(self, s: Array) -> Array:
-        """Part 2 of C between s (m, c) and the corrections, at one unit of surprise, shape (m, J).
+    @cached_property
+    def _conditions(self) -> Array:
+        return np.array([correction.s for correction in self.held])
 
-        The Matern kernel of order 3/2: smooth enough to carry a trend of the corrections on, and less smooth than a
-        Gaussian, which carries the slope between two corrections against each other on still further.
-        """
-        distances = np.sqrt(3.0 * squared_distances(s, self.conditions)) / (self.options.reach * self.regression.extent)
-        wide: Array = (1.0 + distances) * np.exp(-distances)
-        return wide
+    @cached_property
+    def _scale(self) -> ConditionScale:
+        return self.regression.scale.completed(self._conditions)
+
+    @cached_property
+    def _z(self) -> Array:
+        return self._scale.standard(self._conditions)
+
+    @cached_property
+    def _outside(self) -> Array:
+        """How far each lies beyond what the demonstrations show, shape (J, c)."""
+        return self.regression.outside(self._conditions) if self._scale is self.regression.scale else self._z
+
+    @cached_property
+    def _distances(self) -> Array:
+        return np.sqrt(squared_distances(self._z, self._z))
+
+    @cached_property
+    def _units(self) -> Array:
+        """Of positions [m], of orientations [rad] and of the logarithm of the duration, shape (3,)."""
+        return np.array([self.extent, 1.0, 1.0])
+
+    @cached_property
+    def _products(self) -> tuple[Array, ...]:
+        """Inner products of the changes in each kind, each (J, J)."""
+        return tuple(values @ values.T for values in self.regression.kinds.measured(self.changes))
+
+    @cached_property
+    def _worlds(self) -> tuple[Worlds, ...]:
+        groups = group_by_condition(self._z, self.options.same)
+        return tuple(
+            find_worlds(products, groups, unit, self.options.world)
+            for products, unit in zip(self._products, self._units.tolist(), strict=True)
+        )
+
+    @cached_property
+    def _ways(self) -> NDArray[np.intp]:
+        """Of each correction; those that no longer hold belong to none."""
+        current = np.flatnonzero(self._worlds[POSITION].current)
+        if len(current) == 1:
+            return np.zeros(len(self), dtype=np.intp)
+        chosen = np.ix_(current, current)
+        slope = self.options.covariance.open_slope * self.extent
+        ways = np.full(len(self), -1, dtype=np.intp)
+        ways[current] = sort_into_ways(self._products[POSITION][chosen], self._distances[chosen], slope, self.noise)
+        # One that only its orientation or duration still holds of belongs to the way of the nearest.
+        for j in np.flatnonzero(ways < 0):
+            ways[j] = ways[current[self._distances[j, current].argmin()]]
+        return ways
+
+    @cached_property
+    def _aged(self) -> Array:
+        """What each is believed less for its age, as a variance relative to what it could have changed, shape (J,)."""
+        times = np.array([np.nan if c.at_s is None else c.at_s for c in self.held], dtype=np.float64)
+        if self.options.half_life_s is None or np.isnan(times).all():
+            return np.zeros(len(self))
+        ages = np.nan_to_num(np.nanmax(times) - times, nan=0.0)
+        return np.asarray(np.exp2(np.minimum(ages / self.options.half_life_s, _OLDEST)) - 1.0, dtype=np.float64)
 
     @cached_property
     def _outdated(self) -> Array:
-        """How many newer corrections lie at the condition of each, fading with distance, shape (J,)."""
-        newer: Array = np.triu(self.regression.kernel(self.conditions, self.conditions) ** 4, k=1)
-        return np.asarray(newer.sum(axis=1), dtype=np.float64)
-
-    @cached_property
-    def _factor(self) -> tuple[Array, bool]:
-        C = self.openness + self.surprise * self._wide(self.conditions)
-        noise = np.diag(C) * (self.options.noise + self.options.forgetting * self._outdated)
-        factor: tuple[Array, bool] = cho_factor(C + np.diag(noise))
-        return factor
-
-    @cached_property
-    def _gain(self) -> Array:
-        gain: Array = cho_solve(self._factor, self.changes)
-        return gain
+        """How many newer ones there are at the condition of each, shape (J,)."""
+        near = self._distances <= self.options.same
+        return np.asarray(np.triu(near, k=1).sum(axis=1) + ~self._worlds[POSITION].current * len(self))
 
 
-def _slope_covariance(deviations: Array, options: CorrectionOptions, extent: float) -> Array:
-    """Given demonstrations of `mean_std` whose conditions deviate so (M, c), and before them `slope_std`."""
-    variance, prior = (options.mean_std * extent) ** 2, options.slope_std**2
-    values, axes = np.linalg.eigh(deviations.T @ deviations)
-    return np.asarray(axes * (prior * variance / (prior * np.maximum(values, 0.0) + variance)) @ axes.T)
-
-
-_TESTS = 5  # corrections that a trend is tested by: later ones leave the demonstrations' account as it is
+_IMPROBABLE = 0.01
+_OLDEST = 60.0  # half-lives, after which a correction counts for nothing

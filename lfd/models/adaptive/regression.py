@@ -1,19 +1,21 @@
-"""What demonstrations say: their vectors as a function of the condition, shrunk as far as they ask for it."""
+"""What demonstrations say: their vectors as a function of the condition, trusted as far as they bear each other out."""
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import cho_factor, cho_solve
 
 from lfd.arrays import Array
+from lfd.bounds import NOT_NEGATIVE, POSITIVE, check_options
 from lfd.distances import squared_distances
+from lfd.models.adaptive.kinds import KINDS, Kinds
+from lfd.models.adaptive.left_out import LeftOut, leave_out
 from lfd.models.adaptive.moments import Moments
+from lfd.models.adaptive.scale import ConditionScale
+from lfd.models.adaptive.trend import TrendOptions, limited, reach_variance, slopes
 from lfd.motion.alignment import group_by_condition
 
 Groups = list[NDArray[np.intp]]
@@ -21,26 +23,41 @@ Groups = list[NDArray[np.intp]]
 
 @dataclass(frozen=True)
 class RegressionOptions:
-    """Fixed once for all data; lengths are fractions of the extent, so that metres and millimetres give the same.
+    """Fixed once for all data; lengths are in units of `ConditionScale`.
 
-    Chosen on recordings of people, by what a model predicts at a condition that was left out (`deploy/bench learning`):
-    all of them lie on a plateau, and a choice by cross-validation on each set did no better.
+    Chosen on recordings of people, by what a model predicts at a condition that was left out (`deploy/bench learning`,
+    part "tune"): all of them lie on a plateau.
 
     Attributes:
         same: Conditions nearer than this count as one.
-        marker_noise: Differences of the condition below this teach no trend.
-        undetermined: Share of the whole shrinkage where there are too few conditions to tell whether a trend predicts.
-        near: Length over which a departure from the trend fades.
+        near: Length over which a departure from the trend fades (length-scale of the Gaussian process).
         near_spread: The same, as a fraction of the conditions' spread; the two lengths are added as squares.
         noise: Variance of a motion about its condition's, relative to the departures from the trend [-].
+        sharpness: How much more a trend counts that predicts left-out conditions better: its share goes with their
+            mean square error to the minus this (stacking).
+        trend: Of the trends.
+
+    Raises:
+        OutOfRange: One is not what it can be.
     """
 
     same: float = 0.04
-    marker_noise: float = 0.1
-    undetermined: float = 0.15
     near: float = 0.12
     near_spread: float = 0.2
     noise: float = 0.3
+    sharpness: float = 8.0
+    trend: TrendOptions = field(default_factory=TrendOptions)
+
+    def __post_init__(self) -> None:
+        check_options(
+            self,
+            same=NOT_NEGATIVE,
+            near=POSITIVE,
+            near_spread=NOT_NEGATIVE,
+            noise=POSITIVE,
+            sharpness=NOT_NEGATIVE,
+            trend=TrendOptions,
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,149 +66,73 @@ class Expectation:
 
     Attributes:
         s: The condition, shape (c,).
-        nearness: k(s, S), how near the demonstrations' conditions are, 1 to 0, shape (M,).
-        solved: (K + r I)^-1 of that, shape (M,).
+        z: The same in units of the scale, shape (c,).
+        outside: How far the trend is not followed there, in these units, shape (c,); zero among the conditions shown.
         mean: The vector expected there, shape (D,).
+        unexplained: The share of the departures from the trend that the demonstrations leave open there, 1 to 0.
     """
 
     s: Array
-    nearness: Array
-    solved: Array
+    z: Array
+    outside: Array
     mean: Array
-
-    @property
-    def unexplained(self) -> float:
-        """The share of the departures from the trend that the demonstrations leave open there, 1 to 0."""
-        return max(1.0 - float(self.nearness @ self.solved), 0.0)
+    unexplained: float
 
 
 @dataclass(frozen=True, eq=False)
 class Regression:
-    """A linear trend over the condition, and by a Gaussian process what it does not explain.
+    """An average of linear trends over the condition, and by a Gaussian process what they do not explain.
 
-    The trend is a ridge regression whose ridge is q times a third of the scatter of the conditions. q is how badly the
-    trend predicts conditions that are left out, relative to the mean: 0 where it predicts them exactly, so that a
-    linear family is recovered whatever its size, and 1 where it is no better than no trend at all.
+    The trends are ridge regressions, from one that is trusted to none at all; each counts as well as it predicts
+    conditions that are left out, for each kind of output by itself. So a linear family is recovered whatever its size,
+    what does not depend on the condition is averaged, and the model is about as good as the best of them. None is
+    followed far beyond the conditions shown, but for one that predicts exactly.
 
     Attributes:
+        scale: Of the conditions.
         conditions: S, shape (M, c).
         vectors: X, shape (M, D).
-        measure: Linear map from vectors to numbers whose sum of squares is what counts as the error, shape (D, P).
-        extent: E, the length that the options' fractions are of, in units of the condition, positive.
+        kinds: Of the vectors' entries.
         options: Parameters.
-        tested_shrinkage: q as tested elsewhere, for demonstrations that cannot tell; see `tested`.
     """
 
+    scale: ConditionScale
     conditions: Array
     vectors: Array
-    measure: Array
-    extent: float
+    kinds: Kinds
     options: RegressionOptions
-    tested_shrinkage: float | None = None
 
     def at(self, s: Array) -> Expectation:
         """What the demonstrations say about a condition, shape (c,)."""
-        nearness = self.kernel(s[None], self.conditions)[0]
-        mean = np.asarray(self.trend(s) + nearness @ self._gain, dtype=np.float64)
-        return Expectation(s, nearness, self.solved(nearness), mean)
+        z = self.scale.standard(s)
+        away = (z - self._centre)[None]
+        followed = limited(away, self._radius, self.options.trend)
+        nearness = self.kernel(z[None], self.z)[0]
+        mean = self._mean + followed[0] @ self._limited + away[0] @ self._unlimited + nearness @ self._gain
+        unexplained = max(1.0 - float(nearness @ self._inverse @ nearness), 0.0)
+        return Expectation(s, z, away[0] - followed[0], mean, unexplained)
 
-    def mean(self, s: Array) -> Array:
-        """The vector expected at a condition (c,), shape (D,)."""
-        return self.at(s).mean
+    def means(self, conditions: Array) -> Array:
+        """The vectors expected at conditions (m, c), shape (m, D)."""
+        z = self.scale.standard(conditions)
+        away = z - self._centre
+        trends = limited(away, self._radius, self.options.trend) @ self._limited + away @ self._unlimited
+        return np.asarray(self._mean + trends + self.kernel(z, self.z) @ self._gain, dtype=np.float64)
 
-    def trend(self, s: Array) -> Array:
-        """The trend alone at s, shape (..., c) to (..., D)."""
-        s_mean, mean = self._centre
-        return np.asarray(mean + (s - s_mean) @ self._slope, dtype=np.float64)
+    def outside(self, conditions: Array) -> Array:
+        """`Expectation.outside` at conditions (m, c), shape (m, c)."""
+        away = self.scale.standard(conditions) - self._centre
+        return np.asarray(away - limited(away, self._radius, self.options.trend), dtype=np.float64)
 
     def kernel(self, a: Array, b: Array) -> Array:
-        """exp(-d^2 / 2 l^2) of conditions (m, c) and (n, c), shape (m, n)."""
-        return np.asarray(np.exp(-0.5 * squared_distances(a, b) / self.length**2), dtype=np.float64)
-
-    def solved(self, k: Array) -> Array:
-        """(K + r I)^-1 k, shape (M, ...)."""
-        return np.asarray(cho_solve(self._factor, k, check_finite=False), dtype=np.float64)
-
-    def leverage(self, s: Array) -> float:
-        """How far the trend has to reach for s: 1 / M at the middle of the conditions, more with distance."""
-        away = s - self._centre[0]
-        return float(1.0 / len(self.conditions) + away @ self._slope_variance @ away)
+        """exp(-d^2 / 2 l^2) of conditions (m, c) and (n, c) in units of the scale, shape (m, n)."""
+        return np.asarray(np.exp(-0.5 / self.length**2 * squared_distances(a, b)), dtype=np.float64)
 
     def uncertainty(self, expected: Expectation) -> float:
         """Variance of a motion at a place relative to the departures from the trend [-]."""
-        return self.options.noise + expected.unexplained * (1.0 + self.leverage(expected.s))
-
-    @cached_property
-    def length(self) -> float:
-        """The kernel's l, in units of the condition."""
-        return float(np.hypot(self.options.near * self.extent, self.options.near_spread * self.spread))
-
-    @cached_property
-    def spread(self) -> float:
-        """Root mean square distance of the conditions from their mean."""
-        return float(np.sqrt(np.mean(np.sum((self.conditions - self._centre[0]) ** 2, axis=1))))
-
-    @cached_property
-    def groups(self) -> Groups:
-        """Indices of the demonstrations of each condition."""
-        groups = group_by_condition(self.conditions, self.options.same * self.extent)
-        return [np.array(group, dtype=np.intp) for group in groups]
-
-    @property
-    def determined(self) -> bool:
-        """Whether the demonstrations can tell by themselves how far their trend is to be trusted."""
-        return self._left_out_ratio is not None
-
-    @property
-    def shrinkage(self) -> float:
-        """q, from 0 for a trend that is trusted to 1 for one that is shrunk most."""
-        if self._left_out_ratio is not None:
-            return self._left_out_ratio
-        return self.options.undetermined if self.tested_shrinkage is None else self.tested_shrinkage
-
-    def tested(self, conditions: Array, vectors: Array) -> Self:
-        """The same, with its trend tested at conditions (J, c) where vectors (J, D) were right.
-
-        A test speaks only in the trend's favour: where it fails, the world may have changed. It has passed if it
-        predicts a quarter of what is measured. Demonstrations that can tell by themselves do not listen.
-
-        Args:
-            conditions: At least one.
-            vectors: Right there.
-        """
-        about_mean = vectors - self._centre[1]
-        about_trend = about_mean - self._unshrunk(self._moments, conditions - self._centre[0])
-        errors, totals = (np.sum((x @ self.measure) ** 2, axis=0) for x in (about_trend, about_mean))
-        counted = totals > _NEGLIGIBLE * totals.max()
-        passed = float(np.quantile(errors[counted] / totals[counted], 0.25)) if counted.any() else 1.0
-        shrinkage = min(passed, self.options.undetermined)
-        known = self.tested_shrinkage is not None and math.isclose(self.tested_shrinkage, shrinkage, abs_tol=1e-9)
-        return self if known else replace(self, tested_shrinkage=shrinkage)
-
-    def _unshrunk(self, moments: Moments, away: Array) -> Array:
-        """What a trend without shrinkage adds to its mean at distances (m, c) from the mean condition, shape (m, D)."""
-        directions, values = self._directions(moments)
-        return np.asarray(away @ directions / values @ directions.T @ moments.cross, dtype=np.float64)
-
-    @cached_property
-    def _left_out_ratio(self) -> float | None:
-        """The squared error of an unshrunk trend at left-out conditions, relative to that of their mean, 0 to 1.
-
-        A condition whose loss leaves the trend undetermined says nothing about it; None where that is so of all.
-        """
-        if len(self.groups) < 2:
-            return 1.0
-        dimensions = len(self._directions(self._moments)[1])
-        error = total = 0.0
-        for group in self.groups:
-            rest = self._moments.without(self._deviations[group], self._departures[group])
-            if len(self._directions(rest)[1]) < dimensions:
-                continue
-            about_mean = self._departures[group] - rest.mean
-            about_trend = about_mean - self._unshrunk(rest, self._deviations[group] - rest.s_mean)
-            error += float(np.sum((about_trend @ self.measure) ** 2))
-            total += float(np.sum((about_mean @ self.measure) ** 2))
-        return min(error / total, 1.0) if total > 0.0 else None
+        away = expected.z - self._centre
+        leverage = 1.0 / len(self.z) + float(away @ self._reach_variance @ away)
+        return self.options.noise + expected.unexplained * (1.0 + leverage)
 
     @cached_property
     def left_out(self) -> tuple[Array, Array]:
@@ -200,84 +141,121 @@ class Regression:
         Returns:
             Errors (M, D) and their relative variances (M,), as of `uncertainty`; NaN where nothing would be left.
         """
-        M = len(self.conditions)
-        errors, variances = np.full_like(self.vectors, np.nan), np.full(M, np.nan)
-        if len(self.groups) < 2:
-            return errors, variances
-        inverse = self.solved(np.eye(M))
-        ones, S, X = inverse.sum(axis=1), inverse @ self._deviations, inverse @ self._departures
-        for group in self.groups:
-            rest = self._moments.without(self._deviations[group], self._departures[group])
-            slope, slope_variance = self._ridge(rest)
-            # What a Gaussian process of the departures from that trend misses there, without the group, from the
-            # inverse with it (Rasmussen and Williams 2006, eq. 5.12, for more than one left out).
-            solved = X[group] - np.outer(ones[group], rest.mean - rest.s_mean @ slope) - S[group] @ slope
-            block = np.linalg.inv(inverse[np.ix_(group, group)])
-            errors[group] = block @ solved
-            away = self._deviations[group] - rest.s_mean
-            reach = 1.0 + 1.0 / rest.count + np.sum(away @ slope_variance * away, axis=1)
-            unexplained = np.clip(np.diag(block) - self.options.noise, 0.0, 1.0)
-            variances[group] = self.options.noise + unexplained * reach
-        return errors, variances
+        found = self._left_out
+        if found is None:
+            return np.full_like(self.vectors, np.nan), np.full(len(self.vectors), np.nan)
+        errors = np.einsum("kd,kmd->md", self.shares[:, self.kinds.of_column], found.errors)
+        return errors, self.options.noise + found.unexplained * (1.0 + found.leverage)
 
     @cached_property
-    def _centre(self) -> tuple[Array, Array]:
-        return self.conditions.mean(axis=0), self.vectors.mean(axis=0)
+    def shares(self) -> Array:
+        """How much each trend counts in each kind, and last one that is followed everywhere, shape (K + 1, 3).
+
+        One condition teaches no trend. Two, or others that cannot tell, are joined by a straight line, which is
+        followed no further than they lie apart.
+        """
+        found = self._left_out
+        shares = np.zeros((len(self.options.trend.shrinkages) + 1, KINDS))
+        if found is None:
+            shares[-2] = 1.0
+        elif not found.telling.any():
+            shares[0] = 1.0
+        else:
+            errors = self._squares(found.errors[:, found.telling])
+            floor = _NEGLIGIBLE * self._squares(self.vectors[None] - self._mean)[0]
+            counted = np.maximum(errors, np.maximum(floor, np.finfo(np.float64).tiny))
+            weights = (counted.min(axis=0) / counted) ** self.options.sharpness
+            shares = weights / weights.sum(axis=0)
+        return shares
 
     @cached_property
-    def _deviations(self) -> Array:
-        return self.conditions - self._centre[0]
+    def score(self) -> float:
+        """Squared errors at left-out conditions relative to the spread about the mean, summed over the kinds [-].
+
+        Smaller is better; infinite where nothing would be left.
+        """
+        errors, variances = self.left_out
+        if np.isnan(variances).all():
+            return np.inf
+        missed, spread = (self._squares(x[None])[0] for x in (errors, self.vectors - self._mean))
+        varies = spread > _NEGLIGIBLE * max(float(spread.max()), np.finfo(np.float64).tiny)
+        return float(np.sum(missed[varies] / spread[varies]))
 
     @cached_property
-    def _departures(self) -> Array:
-        return self.vectors - self._centre[1]
+    def groups(self) -> Groups:
+        """Indices of the demonstrations of each condition."""
+        return [np.array(group, dtype=np.intp) for group in group_by_condition(self.z, self.options.same)]
+
+    @cached_property
+    def z(self) -> Array:
+        """The conditions in units of the scale, shape (M, c)."""
+        return self.scale.standard(self.conditions)
+
+    @cached_property
+    def length(self) -> float:
+        """The kernel's l."""
+        spread = float(np.sqrt(np.mean(np.sum((self.z - self._centre) ** 2, axis=1))))
+        return float(np.hypot(self.options.near, self.options.near_spread * spread))
+
+    @cached_property
+    def _radius(self) -> Array:
+        """How far the conditions reach from their mean, shape (1,)."""
+        away = self.z - self._centre
+        return np.asarray(np.sqrt(np.max(np.einsum("mc,mc->m", away, away), keepdims=True)), dtype=np.float64)
+
+    def _squares(self, X: Array) -> Array:
+        """Sums of squares of vectors (K, m, D) in each kind, shape (K, 3)."""
+        flat = self.kinds.sizes(X.reshape(-1, X.shape[-1]))
+        return np.asarray(flat.reshape(KINDS, *X.shape[:2]).sum(axis=2).T, dtype=np.float64)
+
+    @cached_property
+    def _centre(self) -> Array:
+        return np.asarray(self.z.mean(axis=0), dtype=np.float64)
+
+    @cached_property
+    def _mean(self) -> Array:
+        return np.asarray(self.vectors.mean(axis=0), dtype=np.float64)
 
     @cached_property
     def _moments(self) -> Moments:
-        S, X = self._deviations, self._departures
-        return Moments(len(S), np.zeros(S.shape[1]), np.zeros(X.shape[1]), S.T @ S, S.T @ X)
-
-    def _directions(self, moments: Moments) -> tuple[Array, Array]:
-        """The directions in which conditions differ by more than `same`, shape (c, r), and their scatter (r,)."""
-        values, axes = np.linalg.eigh(moments.scatter)
-        differs = values > moments.count * (self.options.same * self.extent) ** 2
-        return axes[:, differs], values[differs]
-
-    def _ridge(self, moments: Moments) -> tuple[Array, Array]:
-        """Slope (c, D) of a trend through the mean, and its variance relative to that of a motion (c, c)."""
-        q, scatter, count = self.shrinkage, moments.scatter, moments.count
-        total, squared = float(np.trace(scatter)), float(np.sum(scatter**2))
-        # In how many directions the conditions spread: each of them is shrunk alike, however many there are.
-        directions = max(total**2 / squared, 1.0) if squared > 0.0 else 1.0
-        ridge = q * (total / (3.0 * directions) + count * (self.options.marker_noise * self.extent) ** 2)
-        precision = scatter + ridge * np.eye(len(scatter))
-        slope = np.linalg.lstsq(precision, moments.cross, rcond=_RANK_TOLERANCE)[0]
-        values, axes = np.linalg.eigh(precision)
-        sureness = np.maximum(values, 0.0) + count * (self.options.same * self.extent) ** 2
-        return np.asarray(slope, dtype=np.float64), np.asarray(axes / sureness @ axes.T)
+        return Moments.of(self.z, self.vectors - self._mean)
 
     @cached_property
-    def _trend_fit(self) -> tuple[Array, Array]:
-        return self._ridge(self._moments)
-
-    @property
-    def _slope(self) -> Array:
-        return self._trend_fit[0]
-
-    @property
-    def _slope_variance(self) -> Array:
-        return self._trend_fit[1]
+    def _left_out(self) -> LeftOut | None:
+        if len(self.groups) < 2:
+            return None
+        about_centre, about_mean = self.z - self._centre, self.vectors - self._mean
+        return leave_out(
+            about_centre, about_mean, self.groups, self._inverse, noise=self.options.noise, options=self.options.trend
+        )
 
     @cached_property
-    def _factor(self) -> tuple[Array, bool]:
-        K = self.kernel(self.conditions, self.conditions)
-        factor: tuple[Array, bool] = cho_factor(K + self.options.noise * np.eye(len(K)))
-        return factor
+    def _reach_variance(self) -> Array:
+        return reach_variance(self._moments, self.options.trend)
+
+    @cached_property
+    def _slopes(self) -> tuple[Array, Array]:
+        """Of what is followed within the radius, and everywhere, each shape (c, D)."""
+        counted, B = self.shares[:, self.kinds.of_column], slopes(self._moments, self.options.trend)
+        return np.einsum("kd,kcd->cd", counted[:-1], B), counted[-1] * B[0]
+
+    @cached_property
+    def _limited(self) -> Array:
+        return self._slopes[0]
+
+    @cached_property
+    def _unlimited(self) -> Array:
+        return self._slopes[1]
+
+    @cached_property
+    def _inverse(self) -> Array:
+        return np.asarray(np.linalg.inv(self.kernel(self.z, self.z) + self.options.noise * np.eye(len(self.z))))
 
     @cached_property
     def _gain(self) -> Array:
-        return self.solved(self.vectors - self.trend(self.conditions))
+        away = self.z - self._centre
+        trend = away @ (self._limited + self._unlimited)
+        return np.asarray(self._inverse @ (self.vectors - self._mean - trend), dtype=np.float64)
 
 
-_RANK_TOLERANCE = 1e-12
-_NEGLIGIBLE = 1e-3  # of the largest
+_NEGLIGIBLE = 1e-14  # of the spread about the mean, as squares: rounding

@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from lfd.arrays import Array
+from lfd.bounds import POSITIVE, check_options
 from lfd.models.basis import GaussianBasis
 from lfd.models.distribution import POSITION, position_covariances
 from lfd.models.encoding import OUTPUTS, Encoding
@@ -22,12 +23,18 @@ class SpreadPrior:
         rotation_std: [rad].
         duration_std: Of the logarithm of the duration [-].
         count: How many left-out conditions the assumption is worth.
+
+    Raises:
+        OutOfRange: One is not what it can be.
     """
 
     position_std: float = 0.08
     rotation_std: float = 0.2
     duration_std: float = 0.3
     count: float = 2.0
+
+    def __post_init__(self) -> None:
+        check_options(self, position_std=POSITIVE, rotation_std=POSITIVE, duration_std=POSITIVE, count=POSITIVE)
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,6 +52,11 @@ class Spread:
     def positions(self, n: int) -> Array:
         """Of the positions at n equal times, shape (n, 3, 3) [m^2]."""
         return self._standard if n == _STANDARD else position_covariances(self.encoding, self.covariance, n)
+
+    @cached_property
+    def mean_square(self) -> float:
+        """Of positions about their prediction, over time [m^2]."""
+        return float(np.trace(self._standard, axis1=1, axis2=2).mean())
 
     @cached_property
     def _standard(self) -> Array:

@@ -1,0 +1,170 @@
+"""The covariance C of what may have changed: in three parts, see `lfd.models.adaptive.correction`."""
+
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+
+from lfd.arrays import Array
+from lfd.bounds import NOT_NEGATIVE, POSITIVE, check_number, check_options
+from lfd.distances import squared_distances
+from lfd.exceptions import OutOfRange
+from lfd.models.adaptive.kinds import KINDS
+
+
+@dataclass(frozen=True)
+class CovarianceOptions:
+    """Lengths are in units of `ConditionScale`, sizes in a kind's own unit.
+
+    Attributes:
+        open_slope: By how much a motion may change as its condition goes beyond those shown.
+        near_std: Size of what is a detail of one place.
+        near: Length over which that fades.
+        reach: Length over which a surprising correction fades, in each kind: what the world changed in one place it
+            changed wherever the same motion leads through it.
+        beside: Length over which the surprise at a place follows that of the corrections beside it.
+
+    Raises:
+        OutOfRange: One is not what it can be.
+    """
+
+    open_slope: float = 1.0
+    near_std: float = 0.02
+    near: float = 0.3
+    reach: tuple[float, float, float] = (2.5, 2.5, 2.5)
+    beside: float = 0.1
+
+    def __post_init__(self) -> None:
+        check_options(self, open_slope=NOT_NEGATIVE, near_std=POSITIVE, near=POSITIVE, beside=POSITIVE)
+        if len(self.reach) != KINDS:
+            raise OutOfRange("CovarianceOptions.reach", self.reach, f"{KINDS} numbers, one for each kind of output")
+        for reach in self.reach:
+            check_number("CovarianceOptions.reach", reach, POSITIVE)
+
+
+@dataclass(frozen=True, eq=False)
+class Nearness:
+    """How near m places are to the J corrections, as the covariance sees it.
+
+    Attributes:
+        fixed: Parts 1 and 2, Levy's Brownian motion, faded, and what is a detail of one place, in each kind for a unit
+            of one, shape (3, m, J).
+        wide: Part 3 at a surprise of one, in each kind: the Matern kernel of order 3/2, shape (3, m, J).
+        beside: The corrections' shares in the surprise at the places, before they are normalised, shape (m, J).
+    """
+
+    fixed: Array
+    wide: Array
+    beside: Array
+
+    @classmethod
+    def of(cls, distances: Array, levy: Array, options: CovarianceOptions) -> Self:
+        """That of places.
+
+        Args:
+            distances: From them to the corrections, shape (m, J).
+            levy: See `levy`, shape (m, J).
+            options: Of the covariance.
+        """
+        r = distances * (_ROOT_3 / np.array(options.reach))[:, None, None]
+        wide = (1.0 + r) * np.exp(-r)
+        near = options.near_std**2 * np.exp(distances * (-1.0 / options.near))
+        fixed = _SLOPE_AT * options.open_slope**2 * levy * wide + near
+        beside = np.exp((distances.min(axis=1, keepdims=True) - distances) * (1.0 / options.beside))
+        return cls(fixed, wide, beside)
+
+    def surprise(self, surprises: Array, acting: Array) -> Array:
+        """Root mean square surprise at the places in each kind (3, m), from that of the corrections (3, J)."""
+        total = acting @ self.beside.T
+        return np.asarray(surprises @ self.beside.T / np.maximum(total, _TINY), dtype=np.float64)
+
+
+@dataclass(frozen=True, eq=False)
+class Solved:
+    """The corrections of one way, and the inverse of their C + R in each kind.
+
+    Attributes:
+        options: Of the covariance.
+        variances: Units of the kinds, squared, shape (3,).
+        acting: 1 where a correction acts in a kind, 0 where it does not, shape (3, J).
+        surprises: By which each exceeds parts 1 and 2, shape (3, J).
+        std: The same, with those beside it, shape (3, J).
+        inverse: Shape (3, J, J); of those that act.
+    """
+
+    options: CovarianceOptions
+    variances: Array
+    acting: Array
+    surprises: Array
+    std: Array
+    inverse: Array
+
+    @classmethod
+    def of(
+        cls,
+        nearness: Nearness,
+        squares: Array,
+        acting: Array,
+        *,
+        doubt: tuple[Array, Array],
+        units: Array,
+        options: CovarianceOptions,
+    ) -> Self:
+        """Solve for corrections.
+
+        Args:
+            nearness: Of the corrections to each other.
+            squares: Of their changes in each kind, shape (3, J).
+            acting: See the class.
+            doubt: R, relative to C and as it is, each of shape (3, J).
+            units: Of the kinds, shape (3,).
+            options: Of the covariance.
+        """
+        variances = units**2
+        fixed = variances[:, None, None] * nearness.fixed
+        own = np.einsum("kjj->kj", fixed)
+        surprises = acting * np.sqrt(np.maximum(squares - own, 0.0))
+        std = acting * nearness.surprise(surprises, acting)
+        C = fixed + std[:, :, None] * std[:, None] * nearness.wide
+        relative, absolute = doubt
+        R = np.einsum("kjj->kj", C) * relative + absolute
+        C *= acting[:, :, None] * acting[:, None]
+        # What does not act stands alone, with a variance of one, and is asked nothing.
+        np.einsum("kjj->kj", C)[...] += np.where(acting > 0.0, R, 1.0)
+        inverse = np.linalg.inv(C) * (acting[:, :, None] * acting[:, None])
+        return cls(options, variances, acting, surprises, std, inverse)
+
+    def at(self, place: Nearness, beyond: float) -> tuple[Array, Array, Array]:
+        """What applies at a place.
+
+        Args:
+            place: Its nearness to the corrections.
+            beyond: How far it lies outside what the demonstrations show.
+
+        Returns:
+            In each kind how much of each change applies (3, J), at most one of all together; the share of the variance
+            left (3,); and the mean square of what might be a surprise there (3,).
+        """
+        std = place.surprise(self.surprises, self.acting)
+        rows = self.variances[:, None] * place.fixed[:, 0] + std * self.std * place.wide[:, 0]
+        weights = np.einsum("kj,kji->ki", rows, self.inverse)
+        own = self.variances * open_variance(beyond, self.options) + std[:, 0] ** 2
+        left = np.clip(1.0 - np.einsum("kj,kj->k", weights, rows) / own, 0.0, 1.0)
+        total = np.abs(weights).sum(axis=1, keepdims=True)
+        return weights / np.maximum(total, 1.0), left, std[:, 0] ** 2
+
+
+def levy(a: Array, b: Array) -> Array:
+    """Covariance of Levy's Brownian motion between places (m, c) and (n, c), shape (m, n): zero about the origin."""
+    of_a, of_b = (np.sqrt(np.einsum("mc,mc->m", x, x)) for x in (a, b))
+    return np.asarray(0.5 * (of_a[:, None] + of_b - np.sqrt(squared_distances(a, b))), dtype=np.float64)
+
+
+def open_variance(beyond: float, options: CovarianceOptions) -> float:
+    """Parts 1 and 2 at a place that lies so far beyond what the demonstrations show."""
+    return _SLOPE_AT * options.open_slope**2 * beyond + options.near_std**2
+
+
+_ROOT_3 = 3.0**0.5
+_SLOPE_AT = 0.2  # distance beyond what was shown at which the open slope is meant
+_TINY = 1e-300

@@ -1,0 +1,59 @@
+"""The kinds of output that a vector is made of: each has its own measure, its own surprise and its own reach."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lfd.arrays import Array, frozen
+from lfd.models.encoding import OUTPUTS, Encoding
+
+POSITION, ORIENTATION, DURATION = range(3)
+KINDS = 3
+
+_PHASES = 25  # at which motions are compared
+_POSITIONS = 3  # of the outputs, the first
+
+
+@dataclass(frozen=True, eq=False)
+class Kinds:
+    """How large a vector, or the difference of two, is in each kind.
+
+    The size of positions is their mean square over time [m^2], that of orientations the mean square of the rotation
+    vector [rad^2], that of the duration the square of its logarithm.
+
+    Attributes:
+        rows: The basis at equal phases over the root of their number, shape (P, N): squares of P values add up to a
+            mean.
+    """
+
+    rows: Array
+
+    @classmethod
+    def of(cls, encoding: Encoding) -> Self:
+        """Those of an encoding's vectors."""
+        return cls(frozen(encoding.rows(np.linspace(0.0, 1.0, _PHASES)) / np.sqrt(_PHASES)))
+
+    def measured(self, X: Array) -> tuple[Array, Array, Array]:
+        """What is compared of vectors (m, D), kind by kind: shapes (m, 3 P), (m, 3 P) and (m, 1)."""
+        m = len(X)
+        outputs = self.rows @ X[:, :-1].reshape(m, -1, OUTPUTS)
+        positions, rotations = outputs[..., :_POSITIONS], outputs[..., _POSITIONS:]
+        return positions.reshape(m, -1), rotations.reshape(m, -1), X[:, -1:]
+
+    def sizes(self, X: Array) -> Array:
+        """Squared sizes of vectors (m, D) in each kind, shape (3, m)."""
+        return np.array([np.einsum("mp,mp->m", values, values) for values in self.measured(X)])
+
+    @cached_property
+    def of_column(self) -> NDArray[np.intp]:
+        """The kind that each entry of a vector belongs to, shape (D,)."""
+        a_function = np.repeat([POSITION, ORIENTATION], [_POSITIONS, OUTPUTS - _POSITIONS])
+        return np.append(np.tile(a_function, self.rows.shape[1]), DURATION)
+
+    @cached_property
+    def columns(self) -> tuple[NDArray[np.intp], ...]:
+        """The entries of a vector that belong to each kind."""
+        return tuple(np.flatnonzero(self.of_column == kind) for kind in range(KINDS))

@@ -1,0 +1,72 @@
+"""What a regression predicts for a condition that it has not seen, without fitting it anew."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lfd.arrays import Array
+from lfd.models.adaptive.moments import Moments
+from lfd.models.adaptive.trend import TrendOptions, directions, limited, reach_variance, slopes
+
+
+@dataclass(frozen=True, eq=False)
+class LeftOut:
+    """Errors at each demonstration of regressions that have seen no demonstration of its condition.
+
+    Attributes:
+        errors: Of each trend, and last of one that is followed everywhere, shape (K + 1, M, D).
+        leverage: How far each trend had to reach, relative to a motion's variance, shape (M,).
+        unexplained: Share of the departures from the trend that the others leave open there, shape (M,).
+        telling: Whether the rest still taught a trend in all directions, shape (M,).
+    """
+
+    errors: Array
+    leverage: Array
+    unexplained: Array
+    telling: NDArray[np.bool_]
+
+
+def leave_out(
+    z: Array, Y: Array, groups: Sequence[NDArray[np.intp]], inverse: Array, *, noise: float, options: TrendOptions
+) -> LeftOut:
+    """Each group of demonstrations predicted from all others.
+
+    What a Gaussian process of the departures from the rest's trend misses at a group, without the group, comes from
+    the inverse with it (Rasmussen and Williams 2006, eq. 5.12, for more than one left out).
+
+    Args:
+        z: Conditions about their mean, shape (M, c).
+        Y: Vectors about their mean, shape (M, D).
+        groups: Indices of each condition's demonstrations, at least two groups.
+        inverse: (K + noise I)^-1, shape (M, M).
+        noise: Variance of a motion about its condition's, relative.
+        options: Of the trends.
+    """
+    M = len(z)
+    owner = np.zeros(M, dtype=np.intp)
+    for g, group in enumerate(groups):
+        owner[group] = g
+    rest = Moments.without_each(z, Y, owner)
+    B, variance = slopes(rest, options), reach_variance(rest, options)
+    ones, S, X = inverse.sum(axis=1), inverse @ z, inverse @ Y
+    about = z - rest.s_mean[:, None]
+    distances = np.einsum("gmc,gmc->gm", about, about)
+    distances[owner, np.arange(M)] = 0.0
+    radius = np.sqrt(distances.max(axis=1))
+    away = z - rest.s_mean[owner]
+    cut = away - limited(away, radius[owner], options)
+    errors = np.zeros((len(options.shrinkages) + 1, M, Y.shape[1]))
+    unexplained = np.zeros(M)
+    for g, group in enumerate(groups):
+        block = np.linalg.inv(inverse[np.ix_(group, group)])
+        solved = block @ (X[group] - np.outer(ones[group], rest.mean[g]))
+        regressed = block @ (S[group] - np.outer(ones[group], rest.s_mean[g]))
+        errors[:-1, group] = solved + (cut[group] - regressed) @ B[g]
+        errors[-1, group] = solved - regressed @ B[g, 0]
+        unexplained[group] = np.clip(np.diag(block) - noise, 0.0, 1.0)
+    leverage = 1.0 / rest.count[owner] + np.einsum("mc,mcd,md->m", away, variance[owner], away)
+    rank = np.count_nonzero(directions(Moments.of(z, Y), options)[2])
+    telling = directions(rest, options)[2].sum(axis=1)[owner] == rank
+    return LeftOut(errors, leverage, unexplained, telling)
