@@ -9,7 +9,7 @@ The change at s, given the changes y_j that the corrections made at s_j, is C(s,
    wide as the motion is long.
 
 All three fade to nothing far away, and no prediction departs further from the demonstrations than the largest
-correction did: the weights of the corrections never add up to more than one.
+correction did: the weights of the corrections never add up to more than what the nearest of them has in part 3.
 """
 
 from dataclasses import dataclass, field, replace

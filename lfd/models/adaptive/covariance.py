@@ -142,7 +142,7 @@ class Solved:
             beyond: How far it lies outside what the demonstrations show.
 
         Returns:
-            In each kind how much of each change applies (3, J), at most one of all together; the share of the variance
+            In each kind how much of each change applies (3, J), of all together at most as much as is near; the share of the variance
             left (3,); and the mean square of what might be a surprise there (3,).
         """
         std = place.surprise(self.surprises, self.acting)
@@ -150,8 +150,10 @@ class Solved:
         weights = np.einsum("kj,kji->ki", rows, self.inverse)
         own = self.variances * open_variance(beyond, self.options) + std[:, 0] ** 2
         left = np.clip(1.0 - np.einsum("kj,kj->k", weights, rows) / own, 0.0, 1.0)
+        # Together no more than the nearest of them could do alone: corrections against each other do not run away.
+        most = np.maximum((self.acting * place.wide[:, 0]).max(axis=1, keepdims=True), _TINY)
         total = np.abs(weights).sum(axis=1, keepdims=True)
-        return weights / np.maximum(total, 1.0), left, std[:, 0] ** 2
+        return weights / np.maximum(total / most, 1.0), left, std[:, 0] ** 2
 
 
 def levy(a: Array, b: Array) -> Array:

@@ -162,9 +162,10 @@ class Regression:
             shares[0] = 1.0
         else:
             errors = self._squares(found.errors[:, found.telling])
-            floor = _NEGLIGIBLE * self._squares(self.vectors[None] - self._mean)[0]
-            counted = np.maximum(errors, np.maximum(floor, np.finfo(np.float64).tiny))
+            spread = np.maximum(self._squares(self.vectors[None] - self._mean)[0], np.finfo(np.float64).tiny)
+            counted = np.maximum(errors, _NEGLIGIBLE * spread)
             weights = (counted.min(axis=0) / counted) ** self.options.sharpness
+            weights[-1, errors[-1] > _EXACT * spread] = 0.0
             shares = weights / weights.sum(axis=0)
         return shares
 
@@ -259,3 +260,4 @@ class Regression:
 
 
 _NEGLIGIBLE = 1e-14  # of the spread about the mean, as squares: rounding
+_EXACT = 1e-6  # of the same: what is predicted so well may be followed everywhere

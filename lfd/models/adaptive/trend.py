@@ -32,7 +32,7 @@ class TrendOptions:
 
     def __post_init__(self) -> None:
         check_options(self, least=NOT_NEGATIVE, marker_noise=NOT_NEGATIVE, softness=POSITIVE)
-        *trusted, none = self.shrinkages
+        *trusted, none = self.shrinkages or (0.0,)
         for shrinkage in trusted:
             check_number("TrendOptions.shrinkages", shrinkage, NOT_NEGATIVE)
         if trusted[:1] != [0.0] or none != np.inf or sorted(set(trusted)) != trusted:
