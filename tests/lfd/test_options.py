@@ -7,6 +7,13 @@ import numpy as np
 import pytest
 
 from lfd.exceptions import OutOfRange, TooFewPoints
+from lfd.models.adaptive.adaptation import AdaptiveOptions
+from lfd.models.adaptive.correction import CorrectionOptions
+from lfd.models.adaptive.covariance import CovarianceOptions
+from lfd.models.adaptive.regression import RegressionOptions
+from lfd.models.adaptive.relevance import RelevanceOptions
+from lfd.models.adaptive.trend import TrendOptions
+from lfd.models.adaptive.worlds import WorldOptions
 from lfd.models.basis import GaussianBasis
 from lfd.models.dmp import DMP, DmpOptions
 from lfd.models.encoding import Encoding
@@ -34,7 +41,63 @@ BEYOND = {
         "alpha_x": [0.0, -1.0, 21.0],
         "scaling": ["per axis"],
     },
+    RelevanceOptions: {
+        "conditions": [2, 8.0],
+        "conditions_of_lengths": [2, 8.0],
+        "gain": [-0.1, 1.1],
+        "most": [2, 60.0],
+    },
+    WorldOptions: {"noise": [0.0, -1.0], "evidence": [0.0, -1.0], "jump": [0.0, -1.0], "stays": [0.0, -1.0]},
 }
+
+
+NUMBERS_BEYOND = {
+    AdaptiveOptions: {"samples": [1, 75.0, *NEVER], "repeatability": [-0.1, *NEVER], "most": [0, 2.0, *NEVER]},
+    RegressionOptions: {
+        "same": [-0.1, *NEVER],
+        "near": [0.0, -0.1, *NEVER],
+        "near_spread": [-0.1, *NEVER],
+        "noise": [0.0, -0.1, *NEVER],
+        "sharpness": [-0.1, *NEVER],
+    },
+    TrendOptions: {"least": [-0.1, *NEVER], "marker_noise": [-0.1, *NEVER], "softness": [0.0, -0.1, *NEVER]},
+    CovarianceOptions: {
+        "open_slope": [-0.1, *NEVER],
+        "near_std": [0.0, -0.1, *NEVER],
+        "near": [0.0, -0.1, *NEVER],
+        "beside": [0.0, -0.1, *NEVER],
+    },
+    CorrectionOptions: {
+        "noise": [0.0, -1.0, *NEVER],
+        "same": [-0.1, *NEVER],
+        "gate": [0.0, -0.1, *NEVER],
+        "half_life_s": [0.0, -1.0, math.nan, math.inf, "ten"],
+        "most": [0, 2.0, *NEVER],
+    },
+}
+"""Of the default model: those that are numbers."""
+
+WITHIN = {
+    RelevanceOptions: {"conditions": 3, "conditions_of_lengths": 3, "gain": 0.0, "most": 3},
+    AdaptiveOptions: {"samples": 2, "repeatability": 0.0, "most": 1},
+    RegressionOptions: {"same": 0.0, "near": 1e-9, "near_spread": 0.0, "noise": 1e-9, "sharpness": 0.0},
+    TrendOptions: {"least": 0.0, "marker_noise": 0.0, "softness": 1e-9, "shrinkages": (0.0, 0.0, math.inf)},
+    CovarianceOptions: {"open_slope": 0.0, "near_std": 1e-9, "near": 1e-9, "beside": 1e-9, "reach": (1e-9,) * 3},
+    CorrectionOptions: {"noise": 1e-9, "same": 0.0, "gate": 1e-9, "half_life_s": 1e-9, "most": 1},
+    WorldOptions: {"noise": 1e-9, "evidence": 1e-9, "jump": 1e-9, "stays": 1e-9},
+}
+
+
+@pytest.mark.parametrize("kind", WITHIN)
+def test_the_bounds_of_the_default_model_themselves_are_allowed(kind):
+    for option, value in WITHIN[kind].items():
+        assert getattr(kind(**{option: value}), option) == value
+
+
+@pytest.mark.parametrize("reach", [(0.0, 1.0, 1.0), (1.0, -1.0, 1.0), (1.0, 1.0, math.nan)])
+def test_each_reach_is_looked_at(reach):
+    with pytest.raises(OutOfRange, match="reach"):
+        CovarianceOptions(reach=reach)
 
 
 @pytest.mark.parametrize("kind", BEYOND)
@@ -49,6 +112,12 @@ def test_every_option_is_looked_at(kind):
         for kind, options in BEYOND.items()
         for option, values in options.items()
         for value in [*values, *NEVER]
+    ]
+    + [
+        (kind, option, value)
+        for kind, options in NUMBERS_BEYOND.items()
+        for option, values in options.items()
+        for value in values
     ],
 )
 def test_what_is_beyond_its_bounds_is_refused_by_option_value_and_bound(kind, option, value):

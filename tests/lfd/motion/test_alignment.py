@@ -2,6 +2,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from lfd.motion import alignment
 from lfd.motion.alignment import Selection, align, distance_matrix, group_by_condition, most_similar, reference, warp
@@ -41,16 +43,45 @@ def test_the_most_similar_need_not_have_the_second_lowest_sum():
     assert most_similar(distances, to=0) == 1
 
 
-def test_conditions_group_within_the_tolerance_and_along_chains():
+def test_conditions_group_within_the_tolerance():
     conditions = np.array([[0.0, 0, 0], [1.0, 0, 0], [0.008, 0, 0], [0.016, 0, 0], [1.0, 0.02, 0]])
-    assert group_by_condition(conditions) == [[0, 2, 3], [1], [4]]
+    assert group_by_condition(conditions) == [[0, 2], [1], [3], [4]]
     assert group_by_condition(conditions[:1]) == [[0]]
     assert group_by_condition(conditions[:0]) == []
 
 
-def test_a_chain_is_followed_both_ways_from_where_it_is_met_first():
-    along = np.array([0.016, 0.0, 1.0, 0.032, 0.008, 0.024])
-    assert group_by_condition(along[:, None]) == [[0, 1, 3, 4, 5], [2]]
+def test_the_tolerance_itself_still_counts():
+    assert group_by_condition(np.array([[0.0], [0.5]]), tolerance=0.5) == [[0, 1]]
+    assert group_by_condition(np.array([[0.0, 0.0], [0.3, 0.41]]), tolerance=0.5) == [[0], [1]]
+
+
+def test_a_dense_line_is_many_conditions():
+    """Where a chain of pairs would make it one."""
+    assert len(group_by_condition(np.linspace(0.0, 1.0, 101)[:, None], tolerance=0.1)) >= 10
+
+
+@given(st.integers(1, 40), st.integers(1, 3), st.integers(0, 2**32 - 1))
+def test_no_two_of_a_group_lie_further_apart_than_the_tolerance_whatever_their_order(M, c, seed):
+    rng = np.random.default_rng(seed)
+    conditions = rng.uniform(size=(M, c))
+    groups = group_by_condition(conditions, tolerance=0.3)
+    assert sorted(i for group in groups for i in group) == list(range(M))
+    assert groups == sorted(sorted(group) for group in groups)
+    for group in groups:
+        apart = np.linalg.norm(conditions[group][:, None] - conditions[group], axis=2)
+        assert apart.max() <= 0.3 + 1e-12
+    order = rng.permutation(M)
+    again = {frozenset(order[group].tolist()) for group in group_by_condition(conditions[order], tolerance=0.3)}
+    assert again == {frozenset(group) for group in groups}
+
+
+@given(st.integers(1, 5), st.integers(1, 3), st.integers(0, 2**32 - 1))
+def test_clusters_that_lie_apart_are_found(clusters, c, seed):
+    rng = np.random.default_rng(seed)
+    owners = rng.integers(clusters, size=30)
+    conditions = owners[:, None] + rng.uniform(-0.1, 0.1, size=(30, c)) / np.sqrt(c)
+    groups = group_by_condition(conditions, tolerance=0.2)
+    assert sorted(groups) == sorted(np.flatnonzero(owners == k).tolist() for k in set(owners.tolist()))
 
 
 def test_align_changes_the_tempo_within_a_condition_and_nothing_else(reach):

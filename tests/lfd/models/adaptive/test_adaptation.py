@@ -1,12 +1,26 @@
 """One correction is enough, and acts where it should."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from lfd.exceptions import NothingToTakeBack, TooFewDemonstrations, WrongShape
 from lfd.models.adaptive.adaptation import AdaptiveOptions, AdaptiveProMP
 from lfd.models.adaptive.correction import CorrectionOptions
-from tests.lfd.models.adaptive.motions import LEFT, MIDDLE, RIGHT, gap, path, predict, standard_deviation, straight
+from lfd.motion.demonstration import Demonstration, Provenance
+from lfd.motion.trajectory import Trajectory
+from tests.lfd.models.adaptive.motions import (
+    LEFT,
+    MIDDLE,
+    RIGHT,
+    decoded,
+    gap,
+    path,
+    predict,
+    standard_deviation,
+    straight,
+)
 
 
 @pytest.fixture
@@ -27,16 +41,6 @@ def test_the_newest_of_contradicting_corrections_wins(model, reach):
     for bend in bends:
         model = model.updated(reach(MIDDLE, bend=bend))
     assert gap(model, reach(MIDDLE, bend=bends[-1])) < 0.02
-
-
-@pytest.mark.parametrize(("apart", "most"), [(0.005, 1.05), (0.02, 1.05), (0.05, 1.05), (0.1, 1.5), (0.2, 2.0)])
-def test_contradicting_corrections_side_by_side_do_not_run_away(model, reach, apart, most):
-    """Beyond two opposite corrections the prediction departs little further than they did."""
-    model = model.updated(reach(MIDDLE, bend=0.2)).updated(reach(np.add(MIDDLE, [0.0, apart, 0.0]), bend=-0.2))
-    for y in np.linspace(-0.15, 0.25, 11):
-        straight = reach([0.9, y, 0.6])
-        difference = predict(model, straight).trajectory.positions - straight.trajectory.positions
-        assert np.abs(difference[:, 1]).max() < most * 0.2
 
 
 def sideways(model, corrected, reach, offset):
@@ -84,10 +88,10 @@ def test_taking_back_a_correction_gives_the_model_before_it(model, reach):
 def test_memory_is_bounded_and_the_newest_corrections_are_kept(reach):
     options = AdaptiveOptions(correction=CorrectionOptions(most=3))
     model = AdaptiveProMP.fit([reach(LEFT), reach(RIGHT)], options)
-    for bend in (0.1, 0.2, -0.1, 0.05, 0.15):
+    for bend in (0.1, 0.2, -0.1, 0.05, -0.2):
         model = model.updated(reach(MIDDLE, bend=bend))
     assert len(model.corrections) == 3
-    assert gap(model, reach(MIDDLE, bend=0.15)) < 0.01
+    assert gap(model, reach(MIDDLE, bend=-0.2)) < 0.01
 
 
 def test_a_condition_of_another_dimension_is_refused(model):
@@ -122,6 +126,186 @@ def test_an_update_leaves_the_old_model_as_it_was(model, reach):
     before = predict(model, reach(MIDDLE)).trajectory.positions
     model.updated(reach(MIDDLE, bend=0.25))
     np.testing.assert_array_equal(predict(model, reach(MIDDLE)).trajectory.positions, before)
+
+
+def placed(y, size=None, duration=4.0, side=0.0):
+    """A motion to a place, its condition in metres; and, if given, the size of what stands there, which lifts it."""
+    t = np.linspace(0.0, 1.0, 30)
+    lift = 0.0 if size is None else size
+    positions = np.column_stack([0.4 * t, t * y + side * np.sin(np.pi * t), 0.1 * t + lift * np.sin(np.pi * t)])
+    still = np.tile([1.0, 0.0, 0.0, 0.0], (30, 1))
+    condition = [0.4, y, 0.1] if size is None else [y, size]
+    return Demonstration(Trajectory(positions, still, duration), np.array([0.4, y, 0.1]), np.array(condition))
+
+
+@pytest.mark.parametrize("M", [2, 3, 5, 21, 26, 50, 100, 300])
+def test_a_linear_family_is_met_within_a_millimetre_by_any_number_of_demonstrations(M):
+    model = AdaptiveProMP.fit([placed(y) for y in np.linspace(-0.2, 0.2, M)])
+    for y in np.linspace(-0.2, 0.2, 9):
+        np.testing.assert_allclose(path(model, placed(y)), decoded(model, placed(y)), atol=0.001)
+
+
+def test_the_size_of_an_object_beside_its_place_is_used():
+    """In metres too, it differs by far less than places do."""
+    rng = np.random.default_rng(5)
+    demonstrations = [placed(y, size) for y, size in rng.uniform([-0.3, 0.01], [0.3, 0.05], size=(8, 2))]
+    model = AdaptiveProMP.fit(demonstrations)
+    for size in (0.015, 0.045):
+        np.testing.assert_allclose(path(model, placed(0.1, size)), decoded(model, placed(0.1, size)), atol=0.003)
+
+
+@pytest.mark.parametrize("kept", [[0], [1], [0, 1]])
+def test_a_dimension_that_never_varied_makes_no_difference_and_is_not_known_where_it_differs(kept):
+    same = [placed(y, 0.03) for y in (-0.2, 0.0, 0.25)]
+    model = AdaptiveProMP.fit(same[: 1 + max(kept)])
+    usual, other = placed(0.0, 0.03), placed(0.0, 0.08)
+    np.testing.assert_allclose(path(model, other), path(model, usual), atol=1e-12)
+    assert predict(model, other).known == 0.0
+    taught = model.updated(placed(0.0, 0.08))
+    assert gap(taught, placed(0.0, 0.08)) < 0.002
+    assert predict(taught, other).known > 0.9
+
+
+def test_everything_is_known_at_a_demonstration_and_at_a_correction_and_less_and_less_beyond():
+    model = AdaptiveProMP.fit([placed(y) for y in (-0.2, -0.1, 0.0, 0.1)])
+    assert predict(model, placed(0.1)).known == pytest.approx(1.0)
+    known = [predict(model, placed(y)).known for y in (0.1, 0.15, 0.3, 0.6, 2.0)]
+    assert (np.diff(known) < 0.0).all()
+    assert known[-1] < 0.05
+    corrected = model.updated(placed(2.0, side=0.2))
+    assert predict(corrected, placed(2.0)).known > 0.99
+
+
+def test_how_much_is_known_falls_as_the_detail_of_a_place_does():
+    """exp(-d / near), d beyond the conditions shown."""
+    model = AdaptiveProMP.fit([placed(y) for y in (-0.2, 0.2)])
+    wanted = placed(0.7)
+    outside = model.corrections.regression.at(wanted.condition).outside
+    near = model.options.correction.covariance.near
+    assert predict(model, wanted).known == pytest.approx(np.exp(-np.linalg.norm(outside) / near))
+
+
+@pytest.fixture(scope="module")
+def round_a_thing():
+    """A post stands at the middle: it was passed on the left once and on the right once, 8 cm apart."""
+    model = AdaptiveProMP.fit([placed(-0.2), placed(0.2)])
+    return model.updated(placed(-0.04, side=-0.15)).updated(placed(0.04, side=0.15))
+
+
+def test_between_left_and_right_it_is_one_of_them_and_never_the_middle(round_a_thing):
+    for y in np.linspace(-0.04, 0.04, 17):
+        side = path(round_a_thing, placed(y))[:, 1] - path(AdaptiveProMP.fit([placed(0.1)]), placed(y))[:, 1]
+        most = side[np.abs(side).argmax()]
+        assert 0.75 * 0.15 < abs(most) < 1.25 * 0.15
+
+
+def test_halfway_nothing_is_known_and_the_deviation_is_half_of_what_lies_between(round_a_thing):
+    halfway = predict(round_a_thing, placed(0.0))
+    assert halfway.way.probability == pytest.approx(0.5, abs=1e-6)
+    assert halfway.known == pytest.approx(0.0, abs=1e-6)
+    assert np.sqrt(halfway.position_covariances[:, 1, 1].max()) >= 0.15
+    deviations = round_a_thing.distribution(placed(0.0).situation).position_covariances(75)[:, 1, 1]
+    assert np.sqrt(deviations.max()) >= 0.15
+
+
+def test_at_its_corrections_a_way_is_known(round_a_thing):
+    at_one = predict(round_a_thing, placed(0.04))
+    assert at_one.way.count == 2
+    assert at_one.way.probability > 0.95
+    assert at_one.known > 0.9
+
+
+def test_the_deviation_falls_as_corrections_agree():
+    """What a motion repeats to is only half of it: the other half is averaged out."""
+    model = AdaptiveProMP.fit([placed(-0.2), placed(0.2)])
+    deviations = []
+    for _ in range(8):
+        model = model.updated(placed(0.0, side=0.15))
+        deviations.append(standard_deviation(model, placed(0.0)))
+    assert (np.diff(deviations) < 0.0).all()
+    assert deviations[-1] < 0.85 * deviations[0]
+
+
+def test_corrections_that_scatter_leave_more_deviation_than_those_that_agree():
+    def after(spread):
+        model = AdaptiveProMP.fit([placed(-0.2), placed(0.2)])
+        for side in (0.15 - spread, 0.15 + spread, 0.15 - spread, 0.15 + spread):
+            model = model.updated(placed(0.0, side=side))
+        return standard_deviation(model, placed(0.0))
+
+    assert after(0.02) > 1.3 * after(0.001)
+
+
+def test_a_changed_world_is_followed_at_the_first_correction_also_after_noisy_ones():
+    model = AdaptiveProMP.fit([placed(-0.2), placed(0.2)])
+    for side in 0.15 + 0.01 * np.random.default_rng(3).normal(size=6):
+        model = model.updated(placed(0.0, side=side))
+    changed = placed(0.0, side=-0.15)
+    assert gap(model.updated(changed), changed) < 0.04 * gap(model, changed)
+
+
+def believed(alpha):
+    model = AdaptiveProMP.fit([placed(-0.2), placed(0.2)])
+    told = replace(placed(0.0, side=0.2), provenance=Provenance(confidence=alpha))
+    return path(model.updated(told), told) - path(model, told)
+
+
+def test_a_correction_counts_as_far_as_it_is_believed():
+    np.testing.assert_allclose(believed(0.5), 0.5 * believed(1.0), atol=0.002)
+    np.testing.assert_allclose(believed(0.0), 0.0, atol=0.002)
+
+
+def test_the_time_of_a_correction_is_kept():
+    told = replace(placed(0.0, side=0.2), provenance=Provenance(at_s=1234.5))
+    assert AdaptiveProMP.fit([placed(0.1)]).updated(told).corrections.held[0].at_s == 1234.5
+
+
+def test_the_extent_is_the_root_mean_square_of_how_far_motions_lead():
+    model = AdaptiveProMP.fit([placed(0.0), placed(0.3)])
+    squares = [0.4**2 + 0.1**2, 0.4**2 + 0.3**2 + 0.1**2]
+    assert model.corrections.extent == pytest.approx(np.sqrt(np.mean(squares)))
+    still = placed(0.0)
+    still = replace(still, trajectory=replace(still.trajectory, positions=0.0 * still.trajectory.positions))
+    assert AdaptiveProMP.fit([still]).corrections.extent == 1.0
+
+
+def test_of_many_demonstrations_near_ones_are_averaged():
+    demonstrations = [placed(y, duration=4.0 + i) for i, y in enumerate((-0.2, 0.2, 0.19, -0.19))]
+    model = AdaptiveProMP.fit(demonstrations, AdaptiveOptions(most=2))
+    np.testing.assert_allclose(model.corrections.regression.conditions[:, 1], [-0.195, 0.195])
+
+
+def test_before_any_correction_the_variance_is_that_of_the_spread_and_of_what_is_expected():
+    model = AdaptiveProMP.fit([placed(y, side=0.02 * i) for i, y in enumerate((-0.2, -0.1, 0.1, 0.25))])
+    wanted = placed(0.05)
+    relative = model.corrections.regression.uncertainty(model.corrections.regression.at(wanted.condition))
+    prediction = predict(model, wanted)
+    np.testing.assert_allclose(prediction.position_covariances, relative * model.spread.positions(30), atol=1e-15)
+    duration = np.sqrt(relative * model.spread.covariance[-1, -1])
+    assert prediction.duration_std == pytest.approx(prediction.trajectory.duration * duration)
+
+
+@pytest.mark.parametrize("count", [1, 4])
+def test_at_corrections_that_agree_the_variance_is_by_hand(count):
+    """What is open, what a motion repeats to (half of it averaged out), how corrections scatter, and what may change."""
+    model = AdaptiveProMP.fit([placed(-0.2), placed(0.2)])
+    for _ in range(count):
+        model = model.updated(placed(0.05, side=0.2))
+    corrections, spread = model.corrections, model.spread
+    expected = corrections.regression.at(placed(0.05).condition)
+    effect = corrections.effect(expected)
+    left, change = effect.open_share, model.encoding.positions(corrections.changes[:1], 30)[0]
+    repeated = 0.05 * (0.5 + 0.5 / count)
+    scattered = corrections.noise / count / spread.mean_square
+    taught = left * corrections.regression.uncertainty(expected) + (1.0 - left) * (repeated + scattered)
+    changed = left * effect.surprise / corrections.mean_square * change[:, :, None] * change[:, None]
+    prediction = predict(model, placed(0.05))
+    covariances = taught * spread.positions(30) + changed
+    np.testing.assert_allclose(prediction.position_covariances, covariances, rtol=1e-6, atol=1e-12)
+    duration = taught * spread.covariance[-1, -1] + left * effect.surprise / corrections.mean_square * np.mean(
+        corrections.changes[:, -1] ** 2
+    )
+    assert prediction.duration_std == pytest.approx(prediction.trajectory.duration * np.sqrt(duration))
 
 
 def test_nothing_to_learn_from_is_refused():

@@ -1,157 +1,270 @@
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from lfd.models.adaptive.correction import CorrectionOptions, Corrections
+from lfd.models.adaptive.correction import Correction, CorrectionOptions
+from lfd.models.adaptive.covariance import CovarianceOptions
+from lfd.models.adaptive.kinds import DURATION, ORIENTATION, POSITION
 from lfd.models.adaptive.regression import Regression, RegressionOptions
+from lfd.models.adaptive.scale import ConditionScale
+from lfd.models.adaptive.worlds import WorldOptions
+from lfd.models.model import ONLY_WAY
+from tests.lfd.models.adaptive.vectors import KINDS, D, correct, corrections, effect, regression, sized
 
 OPTIONS = CorrectionOptions()
+HERE = np.array([0.05, 0.1])
 
 
 @pytest.fixture
-def none(rng):
-    """Six demonstrations of a plane, not corrected yet."""
+def taught(rng):
+    """Six demonstrations of a plane."""
     conditions = rng.uniform(-0.2, 0.2, size=(6, 2))
-    vectors = conditions @ rng.normal(size=(2, 4)) + 1.0
-    return Corrections.none(Regression(conditions, vectors, np.eye(4), 0.5, RegressionOptions()), OPTIONS)
+    return regression(conditions, conditions @ rng.normal(size=(2, D)) + 1.0)
 
 
-def change(corrections, s):
-    return corrections.effect(corrections.regression.at(s)).change
+@pytest.fixture
+def none(taught):
+    return corrections(taught)
 
 
-def open_share(corrections, s):
-    return corrections.effect(corrections.regression.at(s)).open_share
-
-
-def correct(corrections, s, y):
-    place = corrections.regression.at(s)
-    return corrections.added(place, place.mean + y)
+def change(held, s):
+    return effect(held, s).change
 
 
 def test_without_a_correction_nothing_changes_and_everything_is_open(none):
-    s = np.array([0.05, 0.1])
-    np.testing.assert_array_equal(change(none, s), np.zeros(4))
-    assert open_share(none, s) == 1.0
+    untouched = effect(none, HERE)
+    np.testing.assert_array_equal(untouched.change, np.zeros(D))
+    assert (untouched.open_share, untouched.surprise, untouched.evidence, untouched.way) == (1.0, 0.0, 1.0, ONLY_WAY)
 
 
 @pytest.mark.parametrize("size", [0.001, 0.01, 0.3])
-def test_at_its_own_condition_one_correction_counts_for_all_but_its_noise(none, size):
-    """C / (C + noise C), whatever C is, and so large or small a correction."""
-    s, y = np.array([0.05, 0.1]), size * np.array([1.0, -1.0, 0.5, 0.0])
-    corrected = correct(none, s, y)
-    np.testing.assert_allclose(change(corrected, s), y / (1.0 + OPTIONS.noise), rtol=1e-9)
-    assert open_share(corrected, s) == pytest.approx(OPTIONS.noise / (1.0 + OPTIONS.noise), rel=1e-6)
+def test_at_its_own_condition_one_correction_counts_for_all_but_its_noise(none, size, rng):
+    """C / (C + noise C), whatever C is, and so large or small a correction, in each kind of output."""
+    y = sum(sized(kind, size, rng) for kind in range(3))
+    corrected = correct(none, HERE, y)
+    np.testing.assert_allclose(change(corrected, HERE), y / (1.0 + OPTIONS.noise), rtol=1e-9)
+    assert effect(corrected, HERE).open_share == pytest.approx(OPTIONS.noise / (1.0 + OPTIONS.noise), rel=1e-6)
 
 
-def test_a_correction_within_what_was_open_is_no_surprise(none):
-    s = np.array([0.05, 0.1])
-    assert correct(none, s, 0.001 * np.ones(4)).surprise == 0.0
-    large = correct(none, s, 0.5 * np.ones(4))
-    assert large.surprise == pytest.approx(1.0 - large.openness[0, 0])
+@pytest.mark.parametrize("kind", [POSITION, ORIENTATION, DURATION])
+def test_a_correction_of_one_kind_changes_no_other(none, kind):
+    corrected = correct(correct(none, HERE, sized(kind, 0.4)), [-0.1, 0.0], sized(kind, -0.2))
+    others = np.setdiff1d(np.arange(D), KINDS.columns[kind])
+    for s in (HERE, [0.3, -0.3], [2.0, 2.0]):
+        np.testing.assert_allclose(change(corrected, s)[others], 0.0, atol=1e-12)
 
 
-def test_the_newest_correction_of_a_condition_wins(none):
-    s = np.array([0.05, 0.1])
+@pytest.mark.parametrize("kind", [POSITION, ORIENTATION, DURATION])
+@pytest.mark.parametrize("distance", [0.1, 0.5, 2.0])
+def test_a_great_surprise_fades_as_the_matern_kernel_of_its_kind_s_reach(taught, kind, distance):
+    """Beside it, what the demonstrations left open is nothing: the surprise of one kind is its own."""
+    options = CovarianceOptions(reach=(1.0, 2.0, 3.0))
+    corrected = correct(corrections(taught, covariance=options), HERE, sized(kind, 1e5))
+    r = np.sqrt(3.0) * distance / (kind + 1.0)
+    expected = sized(kind, 1e5) * (1.0 + r) * np.exp(-r) / (1.0 + OPTIONS.noise)
+    away = HERE + distance * np.array([0.6, 0.8])
+    np.testing.assert_allclose(change(corrected, away), expected, rtol=1e-5, atol=1e-6)
+
+
+def test_the_newest_correction_of_a_condition_wins_if_they_tell_of_other_worlds(none):
     corrected = none
     for y in (0.3, -0.2, 0.1):
-        corrected = correct(corrected, s, y * np.ones(4))
-    np.testing.assert_allclose(change(corrected, s), 0.1, atol=0.01)
+        corrected = correct(corrected, HERE, sized(POSITION, y))
+    np.testing.assert_allclose(change(corrected, HERE), sized(POSITION, 0.1), atol=0.01)
+    assert effect(corrected, HERE).evidence == pytest.approx(1.0)
+
+
+def test_corrections_that_agree_are_averaged_and_all_count(none):
+    corrected = none
+    for y in (0.20, 0.21, 0.19, 0.205, 0.195):
+        corrected = correct(corrected, HERE, sized(POSITION, y))
+    np.testing.assert_allclose(change(corrected, HERE), sized(POSITION, 0.2), rtol=0.01, atol=1e-12)
+    assert effect(corrected, HERE).evidence == pytest.approx(5.0, rel=0.01)
+
+
+def test_each_kind_tells_noise_from_change_by_itself(none):
+    """The way is the same, the duration has changed."""
+    corrected = none
+    for y, slower in ((0.20, 0.0), (0.21, 0.0), (0.19, 1.0)):
+        corrected = correct(corrected, HERE, sized(POSITION, y) + sized(DURATION, slower))
+    changed = change(corrected, HERE)
+    np.testing.assert_allclose(changed[KINDS.columns[POSITION]], sized(POSITION, 0.2)[KINDS.columns[POSITION]], 0.02)
+    assert changed[-1] == pytest.approx(1.0, rel=0.01)
 
 
 def test_corrections_apart_are_all_kept(none):
-    places = [np.array([x, 0.0]) for x in (-0.8, 0.0, 0.8)]
+    told = {(-0.8, 0.0): 0.3, (0.0, 0.0): -0.2, (0.8, 0.0): 0.1}
     corrected = none
-    for s, y in zip(places, (0.3, -0.2, 0.1), strict=True):
-        corrected = correct(corrected, s, y * np.ones(4))
-    for s, y in zip(places, (0.3, -0.2, 0.1), strict=True):
-        np.testing.assert_allclose(change(corrected, s), y, atol=0.02)
+    for s, y in told.items():
+        corrected = correct(corrected, s, sized(POSITION, y))
+    for s, y in told.items():
+        np.testing.assert_allclose(change(corrected, s), sized(POSITION, y), atol=0.02)
 
 
-def test_taking_one_back_is_as_if_it_had_not_been(none, rng):
-    places, s = rng.uniform(-0.3, 0.3, size=(3, 2)), np.array([0.1, -0.1])
-    two = correct(correct(none, places[0], 0.2 * np.ones(4)), places[1], -0.1 * np.ones(4))
-    three = correct(two, places[2], 0.4 * np.ones(4))
-    np.testing.assert_allclose(change(three.without(-1), s), change(two, s), atol=1e-12)
-    np.testing.assert_allclose(
-        change(three.without(0), s),
-        change(correct(correct(none, places[1], -0.1 * np.ones(4)), places[2], 0.4 * np.ones(4)), s),
-        atol=1e-12,
+@given(st.integers(1, 6), st.integers(0, 2**32 - 1), st.sampled_from([POSITION, ORIENTATION, DURATION]))
+def test_weights_never_add_up_to_more_than_one(J, seed, kind):
+    """So nowhere is a change larger than the largest that was taught, in any number of it."""
+    rng = np.random.default_rng(seed)
+    conditions = rng.uniform(-0.3, 0.3, size=(int(rng.integers(1, 5)), 2))
+    held = corrections(regression(conditions, rng.normal(size=(len(conditions), D))))
+    for s in rng.uniform(-0.5, 0.5, size=(J, 2)):
+        held = correct(held, s, sized(kind, 10.0 ** rng.uniform(-2.0, 1.0) * rng.choice([-1.0, 1.0])))
+    most = np.abs(held.changes).max(axis=0)
+    for s in [*rng.uniform(-1.0, 1.0, size=(10, 2)), *rng.uniform(-10.0, 10.0, size=(10, 2))]:
+        assert (np.abs(change(held, s)) <= most * (1.0 + 1e-9) + 1e-12).all()
+
+
+def sequence(rng, count):
+    """Corrections at a few conditions, some again and again."""
+    places = rng.uniform(-0.3, 0.3, size=(4, 2))
+    return [(places[rng.integers(4)], sized(POSITION, 0.3, rng)) for _ in range(count)]
+
+
+@given(st.integers(1, 5), st.integers(1, 14), st.integers(0, 2**32 - 1))
+def test_taking_back_as_many_as_fit_is_exact_also_where_there_was_no_room(most, added, seed):
+    rng = np.random.default_rng(seed)
+    states = [corrections(regression(rng.normal(size=(3, 2)), rng.normal(size=(3, D))), most=most)]
+    for s, y in sequence(rng, added):
+        states.append(states[-1].added(Correction(s, y)))
+    held = states[-1]
+    for before in states[-2 : -min(most, added) - 2 : -1]:
+        held = held.taken_back()
+        assert [id(c) for c in held.held] == [id(c) for c in before.held]
+        np.testing.assert_allclose(change(held, HERE), change(before, HERE), atol=1e-12)
+
+
+def test_memory_is_bounded(none, rng):
+    held = corrections(none.regression, most=3)
+    for s, y in sequence(rng, 20):
+        held = correct(held, s, y)
+        assert len(held) <= 3
+        assert len(held.aside) <= 3
+
+
+def test_the_most_outdated_is_set_aside_first(none):
+    held = corrections(none.regression, most=2)
+    for s, y in (([1.0, 0.0], 0.1), ([0.0, 0.0], 0.2), ([0.0, 0.0], 0.3)):
+        held = correct(held, s, sized(POSITION, y))
+    np.testing.assert_allclose(change(held, [1.0, 0.0]), sized(POSITION, 0.1), atol=0.01)
+    np.testing.assert_allclose(change(held, [0.0, 0.0]), sized(POSITION, 0.3), atol=0.01)
+
+
+def test_of_what_still_holds_that_which_has_the_most_newer_ones_beside_it_is_set_aside(none):
+    held = corrections(none.regression, most=4)
+    for i, s in enumerate([[1.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [1.0, 0.0]]):
+        held = correct(held, s, sized(POSITION, 0.1 + 0.001 * i))
+    assert [index for index, _ in held.aside] == [1]
+
+
+def test_what_no_longer_holds_is_set_aside_before_what_does(none):
+    """An opposite one at a condition outdates all before it there; three that agree elsewhere still hold."""
+    held = corrections(none.regression, most=5)
+    told = [([0.0, 0.0], 0.1), ([0.0, 0.0], 0.1), ([0.0, 0.0], 0.1), ([2.0, 0.0], 0.2), ([2.0, 0.0], -0.2)]
+    for s, y in [*told, ([4.0, 0.0], 0.1)]:
+        held = correct(held, s, sized(POSITION, y))
+    assert [index for index, _ in held.aside] == [3]
+
+
+def test_two_hundred_corrections_are_kept_unless_told_otherwise():
+    assert CorrectionOptions() == CorrectionOptions(
+        noise=0.003, same=0.1, gate=0.05, world=WorldOptions(), half_life_s=None, most=200
     )
 
 
-def test_the_most_outdated_is_forgotten_first(none):
-    kept = Corrections.none(none.regression, CorrectionOptions(most=2))
-    elsewhere, here = np.array([1.0, 0.0]), np.array([0.0, 0.0])
-    for s, y in ((elsewhere, 0.1), (here, 0.2), (here, 0.3)):
-        kept = correct(kept, s, y * np.ones(4))
-    assert len(kept) == 2
-    np.testing.assert_allclose(change(kept, elsewhere), 0.1, atol=0.01)
-    np.testing.assert_allclose(change(kept, here), 0.3, atol=0.01)
+def test_at_its_half_life_a_correction_counts_half(none):
+    """A newer one far away tells its age; C / (C + C (noise + 2^1 - 1))."""
+    held = corrections(none.regression, half_life_s=100.0)
+    held = correct(held, HERE, sized(POSITION, 0.3), at_s=1000.0)
+    for age, share in ((0.0, 1.0), (100.0, 0.5), (200.0, 0.25)):
+        aged = correct(held, [1e3, 0.0], sized(POSITION, 0.3), at_s=1000.0 + age)
+        expected = sized(POSITION, 0.3) / (1.0 / share + OPTIONS.noise)
+        np.testing.assert_allclose(change(aged, HERE), expected, rtol=1e-6, atol=1e-12)
+
+
+def test_after_many_half_lives_nothing_is_left_and_nothing_overflows(none):
+    held = correct(corrections(none.regression, half_life_s=1e-3), HERE, sized(POSITION, 0.3), at_s=0.0)
+    held = correct(held, [1e3, 0.0], sized(POSITION, 0.3), at_s=1e9)
+    np.testing.assert_allclose(change(held, HERE), 0.0, atol=1e-12)
+
+
+def test_a_correction_of_unknown_time_is_as_new_as_the_newest_and_none_ages_without_times(none):
+    for times in ((None, None), (None, 1e9)):
+        held = correct(corrections(none.regression, half_life_s=1.0), HERE, sized(POSITION, 0.3), times[0])
+        held = correct(held, [1e3, 0.0], sized(POSITION, 0.3), times[1])
+        np.testing.assert_allclose(
+            change(held, HERE), sized(POSITION, 0.3) / (1.0 + OPTIONS.noise), rtol=1e-6, atol=1e-12
+        )
+
+
+def test_unless_asked_nothing_ages(none):
+    held = correct(none, HERE, sized(POSITION, 0.3), at_s=0.0)
+    held = correct(held, [1e3, 0.0], sized(POSITION, 0.3), at_s=1e9)
+    np.testing.assert_allclose(change(held, HERE), sized(POSITION, 0.3) / (1.0 + OPTIONS.noise), rtol=1e-6, atol=1e-12)
 
 
 @pytest.fixture
-def undecided(rng):
-    """Three points in the plane determine a trend and leave nothing over to judge it by."""
-    slope, conditions = rng.normal(size=(2, 4)), np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
-    regression = Regression(conditions, conditions @ slope, np.eye(4), 1.0, RegressionOptions())
-    return Corrections.none(regression, OPTIONS), slope
+def round_a_thing(none):
+    """Left and right at neighbouring conditions, in units of the scale 0.2 apart."""
+    left = correct(none, [-0.1, 0.0], sized(POSITION, 0.3))
+    return correct(left, [0.1, 0.0], sized(POSITION, -0.25))
 
 
-def told(corrections, s, x):
-    return corrections.added(corrections.regression.at(s), x).tested()
+def test_left_and_right_are_two_ways_and_never_the_middle(round_a_thing):
+    for x in np.linspace(-0.1, 0.1, 41):
+        told = effect(round_a_thing, [x, 0.0])
+        size = told.change[0] / sized(POSITION, 1.0)[0]
+        assert min(abs(size - 0.3) / 0.3, abs(size + 0.25) / 0.25) < 0.25
+        assert told.way.index == int(size < 0.0)
+        assert told.way.count == 2
 
 
-def test_corrections_that_agree_with_an_undecided_trend_make_it_believed_and_keep_what_they_said(undecided):
-    none, slope = undecided
-    s = np.array([-1.0, 0.5])
-    believed = told(none, s, s @ slope)
-    assert believed.regression.shrinkage < 1e-9 < none.regression.shrinkage
-    np.testing.assert_allclose(believed.vectors, [s @ slope], atol=1e-12)
-    np.testing.assert_allclose(change(believed, s), np.zeros(4), atol=1e-9)
+def test_halfway_either_way_is_as_probable(round_a_thing):
+    told = effect(round_a_thing, [0.0, 0.0])
+    assert told.way.probability == pytest.approx(0.5)
+    ((probability, difference),) = told.others
+    assert probability == pytest.approx(0.5)
+    other = effect(round_a_thing, [0.001, 0.0]) if told.way.index == 0 else effect(round_a_thing, [-0.001, 0.0])
+    np.testing.assert_allclose(told.change + difference, other.change, rtol=0.01)
 
 
-def test_a_trend_is_doubted_again_when_what_spoke_for_it_is_taken_back(undecided):
-    none, slope = undecided
-    s = np.array([-1.0, 0.5])
-    again = told(none, s, s @ slope).without(-1).tested()
-    assert again.regression.shrinkage == none.regression.shrinkage
+def test_a_way_is_the_more_probable_the_nearer_its_corrections(round_a_thing):
+    """A softmax of the distances to the nearest, by the gate."""
+    for x in (-0.1, -0.05, 0.03, 0.1):
+        gap = abs(abs(x + 0.1) - abs(x - 0.1))
+        assert effect(round_a_thing, [x, 0.0]).way.probability == pytest.approx(1.0 / (1.0 + np.exp(-gap / 0.05)))
 
 
-@pytest.mark.parametrize(("agreeing", "doubted"), [(4, True), (5, False)])
-def test_the_first_five_corrections_test_a_trend(undecided, rng, agreeing, doubted):
-    """Later ones tell of a world that has changed since."""
-    corrections, slope = undecided
-    for s in rng.uniform(-1.0, 1.0, size=(agreeing, 2)):
-        corrections = told(corrections, s, s @ slope)
-    s = np.array([0.7, -0.6])
-    corrections = told(corrections, s, s @ slope + 5.0)
-    assert (corrections.regression.shrinkage > 1e-3) == doubted
+def test_a_way_that_is_improbable_is_not_spoken_of(none):
+    far = correct(correct(none, [-0.15, 0.0], sized(POSITION, 0.3)), [0.15, 0.0], sized(POSITION, -0.3))
+    assert effect(far, [-0.15, 0.0]).others == ()
+    assert len(effect(far, [-0.1, 0.0]).others) == 1
 
 
-@pytest.mark.parametrize("distance", [0.1, 0.5, 2.0])
-def test_a_great_surprise_fades_as_the_matern_kernel_of_its_reach(none, distance):
-    """Beside it, what the demonstrations left open is nothing."""
-    s, y = np.array([0.05, 0.1]), 1e6 * np.array([1.0, -1.0, 0.5, 0.0])
-    r = np.sqrt(3.0) * distance / (OPTIONS.reach * none.regression.extent)
-    expected = y * (1.0 + r) * np.exp(-r) / (1.0 + OPTIONS.noise)
-    away = s + distance * np.array([0.6, 0.8])
-    np.testing.assert_allclose(change(correct(none, s, y), away), expected, rtol=1e-6)
+def test_one_that_fits_a_way_joins_it(round_a_thing):
+    third = correct(round_a_thing, [0.1, 0.15], sized(POSITION, 0.2))
+    told = effect(third, [0.1, 0.15])
+    assert (told.way.index, told.way.count) == (0, 2)
 
 
-def test_demonstrations_that_can_judge_their_trend_are_left_as_they_are(none):
-    corrected = correct(none, np.array([0.05, 0.1]), np.ones(4))
-    assert none.regression.determined
-    assert corrected.tested() is corrected
+def test_what_no_longer_holds_is_no_way(none):
+    """A world that changed at one condition is followed, not offered as another way."""
+    turned = correct(correct(none, HERE, sized(POSITION, 0.3)), HERE, sized(POSITION, -0.3))
+    assert effect(turned, HERE).way == ONLY_WAY
 
 
-@pytest.mark.parametrize(("extent", "slope_std"), [(0.05, 1.0), (0.5, 0.1), (0.5, 1.0), (40.0, 1.0)])
-def test_the_slope_that_demonstrations_leave_open_is_that_of_a_bayesian_line(extent, slope_std, rng):
-    """Prior slope_std, and at each condition a value known to mean_std of the extent."""
-    options = CorrectionOptions(slope_std=slope_std)
-    conditions = extent * rng.normal(size=(7, 2))
-    regression = Regression(conditions, rng.normal(size=(7, 4)), np.eye(4), extent, RegressionOptions())
-    deviations = conditions - conditions.mean(axis=0)
-    precision = np.eye(2) / slope_std**2 + deviations.T @ deviations / (options.mean_std * extent) ** 2
-    np.testing.assert_allclose(
-        Corrections.none(regression, options).slope_covariance, np.linalg.inv(precision), rtol=1e-9, atol=1e-12
-    )
+def test_the_mean_square_is_that_of_the_positions(none):
+    held = correct(correct(none, HERE, sized(POSITION, 0.3)), [-0.2, 0.0], sized(POSITION, 0.1))
+    assert held.mean_square == pytest.approx((0.09 + 0.01) / 2.0)
+
+
+def test_a_dimension_that_never_varied_gets_its_unit_from_a_correction(rng):
+    """Far along it, the correction counts less."""
+    conditions = np.column_stack([rng.normal(size=5), np.full(5, 3.0)])
+    scale = ConditionScale.of_conditions(conditions, np.zeros(2))
+    fitted = Regression(scale, conditions, rng.normal(size=(5, D)), KINDS, RegressionOptions())
+    held = correct(corrections(fitted), [0.0, 4.0], sized(POSITION, 0.3))
+    shares = [np.abs(change(held, [0.0, size])).max() for size in (4.0, 3.0, 9.0, 300.0)]
+    assert (np.diff(shares[:2]) < 0.0).all()
+    assert shares[2] < shares[0]
+    assert shares[3] < 1e-6 * shares[0]

@@ -2,91 +2,117 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from lfd.models.adaptive.correction import CorrectionOptions, Corrections
-from lfd.models.adaptive.regression import Regression, RegressionOptions
+from lfd.models.adaptive.correction import CorrectionOptions
+from lfd.models.adaptive.covariance import CovarianceOptions, Nearness, levy, open_variance
+from lfd.models.adaptive.kinds import POSITION
+from tests.lfd.models.adaptive.vectors import KINDS, D, correct, corrections, effect, regression, sized
 
 EXTENT = 0.5
+OPTIONS = CovarianceOptions(reach=(2.5, 1.5, 4.0))
+UNITS = (EXTENT, 1.0, 1.0)
 
 
-def regression(rng, M=6):
-    """Demonstrations of a curved family, whose error is measured in three combinations of its four numbers."""
+def taught(rng, M=6):
+    """Demonstrations of a curved family."""
     conditions = rng.uniform(-0.2, 0.2, size=(M, 2))
-    vectors = conditions @ rng.normal(size=(2, 4)) + np.sin(9.0 * conditions[:, :1])
-    return Regression(conditions, vectors, rng.normal(size=(4, 3)), EXTENT, RegressionOptions())
+    return regression(conditions, conditions @ rng.normal(size=(2, D)) + np.sin(9.0 * conditions[:, :1]))
 
 
 class Reference:
-    """The Gaussian process over the condition.
+    """The Gaussian process over the condition, in one kind.
 
     Args:
-        regression: What is corrected.
-        places: s_j, shape (J, 2).
-        changes: y_j, shape (J, 4).
+        kind: Of output.
+        places: Of the corrections, shape (J, c).
+        beyond: How far each lies outside what was shown, shape (J, c).
+        changes: y_j, shape (J, D).
     """
 
-    def __init__(self, regression, places, changes):
-        self.regression, self.places, self.changes = regression, places, changes
-        self.middle = regression.conditions.mean(axis=0)
-        deviations = regression.conditions - self.middle
-        self.slope_covariance = np.linalg.inv(np.eye(2) + deviations.T @ deviations / (0.02 * EXTENT) ** 2)
-        S = regression.conditions
-        K = np.array([[self.near(a, b) for b in S] for a in S])
-        self.inverse = np.linalg.inv(K + regression.options.noise * np.eye(len(S)))
-        squares = np.sum((changes @ regression.measure) ** 2, axis=1)
-        excess = squares - [self.open(s, s) for s in places]
-        self.surprise = max(excess.mean(), 0.0)
-        self.surprising_share = self.surprise / squares.mean()
+    def __init__(self, kind, places, beyond, changes):
+        self.kind, self.places, self.beyond, self.changes = kind, places, beyond, changes
+        self.sizes = KINDS.sizes(changes)[kind]
+        explained = [self.fixed(a, a, u, u) for a, u in zip(places, beyond, strict=True)]
+        self.surprises = np.sqrt(np.maximum(self.sizes - explained, 0.0))
 
-    def near(self, a, b):
-        return np.exp(-np.sum((a - b) ** 2) / (2.0 * self.regression.length**2))
+    def matern(self, a, b):
+        r = np.sqrt(3.0) * np.linalg.norm(a - b) / OPTIONS.reach[self.kind]
+        return (1.0 + r) * np.exp(-r)
 
-    def open(self, a, b):
-        k_a, k_b = (np.array([self.near(s, x) for x in self.regression.conditions]) for s in (a, b))
-        mean = (0.02 * EXTENT) ** 2 / len(self.inverse)
-        slope = (a - self.middle) @ self.slope_covariance @ (b - self.middle)
-        return mean + slope + (0.003 * EXTENT) ** 2 * (self.near(a, b) - k_a @ self.inverse @ k_b)
+    def fixed(self, a, b, beyond_a, beyond_b):
+        """What was left open beyond the conditions shown, and the detail of one place."""
+        lengths = np.linalg.norm(beyond_a), np.linalg.norm(beyond_b), np.linalg.norm(beyond_a - beyond_b)
+        opened = 0.2 * OPTIONS.open_slope**2 * 0.5 * (lengths[0] + lengths[1] - lengths[2]) * self.matern(a, b)
+        detail = OPTIONS.near_std**2 * np.exp(-np.linalg.norm(a - b) / OPTIONS.near)
+        return UNITS[self.kind] ** 2 * (opened + detail)
 
-    def covariance(self, a, b):
-        r = np.sqrt(3.0) * np.linalg.norm(a - b) / (2.5 * EXTENT)
-        return self.open(a, b) + self.surprise * (1.0 + r) * np.exp(-r)
+    def surprise(self, a):
+        """By which the world has changed there: as beside it."""
+        shares = np.exp(-np.linalg.norm(self.places - a, axis=1) / OPTIONS.beside)
+        return shares @ self.surprises / shares.sum()
 
-    def effect(self, s):
-        C = np.array([[self.covariance(a, b) for b in self.places] for a in self.places])
-        newer = [sum(self.near(a, b) ** 4 for b in self.places[i + 1 :]) for i, a in enumerate(self.places)]
-        inverse = np.linalg.inv(C + np.diag(np.diag(C) * (0.003 + 2.0 * np.array(newer))))
-        c = np.array([self.covariance(s, a) for a in self.places])
-        return c @ inverse @ self.changes, 1.0 - c @ inverse @ c / self.covariance(s, s)
+    def covariance(self, a, b, beyond_a, beyond_b):
+        changed = self.surprise(a) * self.surprise(b) * self.matern(a, b)
+        return self.fixed(a, b, beyond_a, beyond_b) + changed
+
+    def effect(self, s, beyond):
+        pairs = list(zip(self.places, self.beyond, strict=True))
+        C = np.array([[self.covariance(a, b, u, v) for b, v in pairs] for a, u in pairs])
+        c = np.array([self.covariance(s, b, beyond, v) for b, v in pairs])
+        weights = np.linalg.solve(C + 0.003 * np.diag(np.diag(C)), c)
+        left = 1.0 - weights @ c / self.covariance(s, s, beyond, beyond)
+        return weights / max(np.abs(weights).sum(), 1.0) @ self.changes, left, self.surprise(s) ** 2
 
 
-@pytest.mark.parametrize("size", [1e-4, 3e-3, 0.02, 1.0], ids=["no surprise", "hardly one", "some", "a great one"])
-def test_corrections_are_the_gaussian_process_of_what_was_open_and_of_what_surprises(rng, size):
-    taught = regression(rng)
-    places, changes = rng.uniform(-0.2, 0.2, size=(5, 2)), size * rng.normal(size=(5, 4))
-    reference, corrections = Reference(taught, places, changes), Corrections.none(taught, CorrectionOptions())
+@pytest.mark.parametrize("kind", range(3))
+@pytest.mark.parametrize("size", [1e-4, 0.01, 0.1, 1.0], ids=["no surprise", "hardly one", "some", "a great one"])
+def test_corrections_are_the_gaussian_process_of_what_was_open_and_of_what_surprises(rng, size, kind):
+    fitted = taught(rng)
+    places = rng.uniform(-0.6, 0.6, size=(5, 2))
+    changes = np.array([sized(kind, size * rng.uniform(0.5, 1.0)) for _ in places])
+    held = corrections(fitted, EXTENT, covariance=OPTIONS, same=0.0)
     for s, y in zip(places, changes, strict=True):
-        corrections = corrections.added(taught.at(s), taught.mean(s) + y)
-    assert corrections.surprise == pytest.approx(reference.surprise, rel=1e-9)
-    assert corrections.surprising_share == pytest.approx(reference.surprising_share, rel=1e-9)
-    for s in (*places, *rng.uniform(-0.4, 0.4, size=(4, 2))):
-        change, open_share = reference.effect(s)
-        effect = corrections.effect(taught.at(s))
-        np.testing.assert_allclose(effect.change, change, rtol=1e-7, atol=1e-9 * size)
-        assert effect.open_share == pytest.approx(open_share, rel=1e-6)
+        held = correct(held, s, y)
+    reference = Reference(kind, places, fitted.outside(places), changes)
+    for s in (*places, *rng.uniform(-1.5, 1.5, size=(6, 2))):
+        change, left, surprise = reference.effect(s, fitted.outside(s[None])[0])
+        got = effect(held, s)
+        np.testing.assert_allclose(got.change, change, rtol=1e-7, atol=1e-9 * size)
+        if kind == POSITION:
+            assert got.open_share == pytest.approx(left, rel=1e-6)
+            assert got.surprise == pytest.approx(surprise, rel=1e-9, abs=1e-20)
 
 
-def test_what_was_never_corrected_holds_no_surprise(rng):
-    none = Corrections.none(regression(rng), CorrectionOptions())
-    assert none.surprise == none.surprising_share == 0.0
+@given(st.integers(1, 12), st.integers(1, 4), st.integers(0, 2**32 - 1))
+def test_each_part_is_a_covariance_wherever_the_places_lie(J, c, seed):
+    rng = np.random.default_rng(seed)
+    z, outside = rng.normal(size=(J, c)), rng.normal(size=(J, c))
+    distances = np.linalg.norm(z[:, None] - z, axis=2)
+    near = Nearness.of(distances, levy(outside, outside), OPTIONS)
+    for part in (*near.opened, near.near, *near.wide, levy(outside, outside)):
+        np.testing.assert_allclose(part, part.T, atol=1e-12)
+        assert np.linalg.eigvalsh(part).min() > -1e-10
 
 
-def test_one_demonstration_leaves_open_that_a_motion_changes_as_much_as_its_condition(rng):
-    none = Corrections.none(regression(rng, M=1), CorrectionOptions())
-    np.testing.assert_allclose(none.slope_covariance, np.eye(2), rtol=1e-12)
+def test_levy_s_motion_is_zero_about_the_origin_and_moves_as_the_square_root_of_the_distance(rng):
+    a, b = rng.normal(size=(5, 3)), rng.normal(size=(4, 3))
+    covariance = levy(a, b)
+    increments = np.diag(levy(a, a))[:, None] + np.diag(levy(b, b)) - 2.0 * covariance
+    np.testing.assert_allclose(increments, np.linalg.norm(a[:, None] - b, axis=2), atol=1e-12)
+    np.testing.assert_array_equal(levy(np.zeros((1, 3)), b), 0.0)
 
 
-def test_two_hundred_corrections_are_kept(rng):
-    corrections = Corrections.none(regression(rng, M=2), CorrectionOptions())
-    for s in rng.uniform(-0.2, 0.2, size=(201, 2)):
-        corrections = corrections.added(corrections.regression.at(s), np.ones(4))
-    assert len(corrections) == 200
+def test_what_is_open_beyond_the_demonstrations_grows_with_the_distance():
+    """A slope of one is meant at a fifth of a unit: there a motion has changed by as much."""
+    options = CovarianceOptions(near_std=0.05)
+    assert np.sqrt(open_variance(0.2, options) - 0.05**2) == pytest.approx(0.2)
+    assert open_variance(0.0, options) == pytest.approx(0.05**2)
+    steeper = CovarianceOptions(near_std=0.05, open_slope=3.0)
+    assert open_variance(0.4, steeper) - 0.05**2 == pytest.approx(9.0 * 2.0 * 0.2**2)
+
+
+def test_the_usual_numbers():
+    assert CovarianceOptions() == CovarianceOptions(1.0, 0.02, 0.3, (2.5, 2.5, 2.5), 0.1)
+    assert CorrectionOptions().noise == 0.003

@@ -8,6 +8,9 @@ from lfd.models.promp import ConditionedProMP
 from lfd.motion.alignment import group_by_condition
 from tests.lfd.models.adaptive.motions import gap
 
+SETS = ["one_plane", "constant_initial_pose", "dishwasher", "dishwasher_moved_backwards", "dishwasher_experiment"]
+NINETY_PER_CENT = 1.6448536  # of a Gaussian, in standard deviations
+
 
 @pytest.mark.data
 def test_one_recorded_refinement_leaves_at_most_four_percent(recordings, refinements):
@@ -31,9 +34,7 @@ def test_recorded_refinements_keep_working_one_after_another(recordings, refinem
 
 
 @pytest.mark.data
-@pytest.mark.parametrize(
-    "name", ["one_plane", "constant_initial_pose", "dishwasher", "dishwasher_moved_backwards", "dishwasher_experiment"]
-)
+@pytest.mark.parametrize("name", SETS)
 def test_an_unseen_recorded_condition_is_predicted_no_worse_than_by_the_thesis(recordings, name):
     demonstrations = recordings(name)
     assert _left_out(AdaptiveProMP, demonstrations) <= _left_out(ConditionedProMP, demonstrations)
@@ -47,3 +48,29 @@ def _left_out(kind, demonstrations):
         model = kind.fit([d for i, d in enumerate(demonstrations) if i not in group])
         gaps += [gap(model, demonstrations[i]) for i in group]
     return np.mean(gaps)
+
+
+def _coverage(demonstrations):
+    """The share of left-out coordinates inside the model's own 90 % intervals."""
+    conditions = np.array([d.condition for d in demonstrations])
+    inside = []
+    for group in group_by_condition(conditions, tolerance=0.02):
+        model = AdaptiveProMP.fit([d for i, d in enumerate(demonstrations) if i not in group])
+        for i in group:
+            truth = demonstrations[i].trajectory.positions
+            prediction = model.predict(demonstrations[i].situation, len(truth))
+            deviations = np.sqrt(np.diagonal(prediction.position_covariances, axis1=1, axis2=2))
+            # The first point is where the robot stands: nothing is predicted there.
+            error = np.abs(truth - prediction.trajectory.positions)
+            inside.append(np.mean(error[1:] <= NINETY_PER_CENT * deviations[1:]))
+    return np.mean(inside)
+
+
+@pytest.mark.data
+@pytest.mark.parametrize("name", SETS)
+def test_ninety_per_cent_intervals_cover_an_unseen_recorded_condition(recordings, name):
+    demonstrations = recordings(name)
+    conditions = np.array([d.condition for d in demonstrations])
+    if len(group_by_condition(conditions, tolerance=0.02)) < 6:
+        pytest.skip("too few conditions to say")
+    assert 0.85 <= _coverage(demonstrations) <= 0.95

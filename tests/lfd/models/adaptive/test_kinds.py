@@ -1,0 +1,36 @@
+import numpy as np
+
+from lfd.models.adaptive.kinds import DURATION, ORIENTATION, POSITION
+from tests.lfd.models.adaptive.vectors import ENCODING, KINDS, D
+
+
+def test_the_size_of_positions_is_their_mean_square_over_time(rng):
+    X = rng.normal(size=(4, D))
+    paths = ENCODING.positions(X, 25)
+    np.testing.assert_allclose(KINDS.sizes(X)[POSITION], np.mean(np.sum(paths**2, axis=2), axis=1))
+
+
+def test_the_size_of_orientations_is_the_mean_square_of_the_rotation_vector(rng):
+    X = rng.normal(size=(4, D))
+    rotations = ENCODING.rows(np.linspace(0.0, 1.0, 25)) @ X[:, :-1].reshape(4, 3, 6)[:, :, 3:]
+    np.testing.assert_allclose(KINDS.sizes(X)[ORIENTATION], np.mean(np.sum(rotations**2, axis=2), axis=1))
+
+
+def test_the_size_of_the_duration_is_the_square_of_its_logarithm(rng):
+    X = rng.normal(size=(4, D))
+    np.testing.assert_allclose(KINDS.sizes(X)[DURATION], X[:, -1] ** 2)
+
+
+def test_each_entry_belongs_to_one_kind_and_changes_no_other():
+    for kind, columns in enumerate(KINDS.columns):
+        assert (KINDS.of_column[columns] == kind).all()
+        for column in columns:
+            sizes = KINDS.sizes(np.eye(D)[[column]])[:, 0]
+            assert np.flatnonzero(sizes).tolist() == [kind]
+    assert sorted(np.concatenate(KINDS.columns).tolist()) == list(range(D))
+
+
+def test_what_is_measured_has_the_inner_products_of_the_functions(rng):
+    X = rng.normal(size=(3, D))
+    paths = ENCODING.positions(X, 25).reshape(3, -1)
+    np.testing.assert_allclose(KINDS.measured(X)[POSITION] @ KINDS.measured(X)[POSITION].T, paths @ paths.T / 25)
