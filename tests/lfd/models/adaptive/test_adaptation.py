@@ -287,7 +287,7 @@ def test_before_any_correction_the_variance_is_that_of_the_spread_and_of_what_is
 
 @pytest.mark.parametrize("count", [1, 4])
 def test_at_corrections_that_agree_the_variance_is_by_hand(count):
-    """What is open, what a motion repeats to (half of it averaged out), how corrections scatter, and what may change."""
+    """What is open, what a motion repeats to (half averaged out), how corrections scatter, and what may change."""
     model = AdaptiveProMP.fit([placed(-0.2), placed(0.2)])
     for _ in range(count):
         model = model.updated(placed(0.05, side=0.2))

@@ -109,7 +109,8 @@ def test_corrections_of_an_unchanged_world_all_hold(n, rng):
 
 def test_the_noise_is_learnt_from_all_conditions(rng):
     def learnt(spread):
-        changes = spread * rng.normal(size=(24, 1)) + np.repeat([0.2, -0.2, 0.1, 0.0], 6)[:, None]
+        changes = spread / np.sqrt(3.0) * rng.normal(size=(24, 3))
+        changes[:, 0] += np.repeat([0.2, -0.2, 0.1, 0.0], 6)
         return np.sqrt(found(changes, np.arange(24).reshape(4, 6).tolist()).noise)
 
     assert learnt(0.005) == pytest.approx(OPTIONS.noise)
