@@ -12,6 +12,7 @@ from lfd.models.adaptive.correction import CorrectionOptions
 from lfd.models.adaptive.covariance import CovarianceOptions
 from lfd.models.adaptive.regression import RegressionOptions
 from lfd.models.adaptive.relevance import RelevanceOptions
+from lfd.models.adaptive.spread import SpreadPrior
 from lfd.models.adaptive.trend import TrendOptions
 from lfd.models.adaptive.worlds import WorldOptions
 from lfd.models.basis import GaussianBasis
@@ -47,18 +48,34 @@ BEYOND = {
         "gain": [-0.1, 1.1],
         "most": [2, 60.0],
     },
+    SpreadPrior: {
+        "position_std": [0.0, -1.0],
+        "rotation_std": [0.0, -1.0],
+        "duration_std": [0.0, -1.0],
+        "count": [0.0, -1.0],
+    },
     WorldOptions: {"noise": [0.0, -1.0], "evidence": [0.0, -1.0], "jump": [0.0, -1.0], "stays": [0.0, -1.0]},
 }
 
 
 NUMBERS_BEYOND = {
-    AdaptiveOptions: {"samples": [1, 75.0, *NEVER], "repeatability": [-0.1, *NEVER], "most": [0, 2.0, *NEVER]},
+    AdaptiveOptions: {
+        "basis": [40, None],
+        "samples": [1, 75.0, *NEVER],
+        "regression": [None],
+        "correction": [None],
+        "relevance": [None],
+        "prior": [None],
+        "repeatability": [-0.1, *NEVER],
+        "most": [0, 2.0, *NEVER],
+    },
     RegressionOptions: {
         "same": [-0.1, *NEVER],
         "near": [0.0, -0.1, *NEVER],
         "near_spread": [-0.1, *NEVER],
         "noise": [0.0, -0.1, *NEVER],
         "sharpness": [-0.1, *NEVER],
+        "trend": [None],
     },
     TrendOptions: {"least": [-0.1, *NEVER], "marker_noise": [-0.1, *NEVER], "softness": [0.0, -0.1, *NEVER]},
     CovarianceOptions: {
@@ -68,6 +85,8 @@ NUMBERS_BEYOND = {
         "beside": [0.0, -0.1, *NEVER],
     },
     CorrectionOptions: {
+        "covariance": [None],
+        "world": [None],
         "noise": [0.0, -1.0, *NEVER],
         "same": [-0.1, *NEVER],
         "gate": [0.0, -0.1, *NEVER],
@@ -75,13 +94,13 @@ NUMBERS_BEYOND = {
         "most": [0, 2.0, *NEVER],
     },
 }
-"""Of the default model: those that are numbers."""
+"""Of the default model: those with other rules, too, stand below."""
 
 WITHIN = {
     RelevanceOptions: {"conditions": 3, "conditions_of_lengths": 3, "gain": 0.0, "most": 3},
     AdaptiveOptions: {"samples": 2, "repeatability": 0.0, "most": 1},
     RegressionOptions: {"same": 0.0, "near": 1e-9, "near_spread": 0.0, "noise": 1e-9, "sharpness": 0.0},
-    TrendOptions: {"least": 0.0, "marker_noise": 0.0, "softness": 1e-9, "shrinkages": (0.0, 0.0, math.inf)},
+    TrendOptions: {"least": 0.0, "marker_noise": 0.0, "softness": 1e-9, "shrinkages": (0.0, math.inf)},
     CovarianceOptions: {"open_slope": 0.0, "near_std": 1e-9, "near": 1e-9, "beside": 1e-9, "reach": (1e-9,) * 3},
     CorrectionOptions: {"noise": 1e-9, "same": 0.0, "gate": 1e-9, "half_life_s": 1e-9, "most": 1},
     WorldOptions: {"noise": 1e-9, "evidence": 1e-9, "jump": 1e-9, "stays": 1e-9},
@@ -94,7 +113,7 @@ def test_the_bounds_of_the_default_model_themselves_are_allowed(kind):
         assert getattr(kind(**{option: value}), option) == value
 
 
-@pytest.mark.parametrize("reach", [(0.0, 1.0, 1.0), (1.0, -1.0, 1.0), (1.0, 1.0, math.nan)])
+@pytest.mark.parametrize("reach", [(0.0, 1.0, 1.0), (1.0, -1.0, 1.0), (1.0, 1.0, math.nan), (1.0, 1.0), (1.0,) * 4])
 def test_each_reach_is_looked_at(reach):
     with pytest.raises(OutOfRange, match="reach"):
         CovarianceOptions(reach=reach)

@@ -8,7 +8,6 @@ from lfd.models.adaptive.covariance import CovarianceOptions
 from lfd.models.adaptive.kinds import DURATION, ORIENTATION, POSITION
 from lfd.models.adaptive.regression import Regression, RegressionOptions
 from lfd.models.adaptive.scale import ConditionScale
-from lfd.models.adaptive.worlds import WorldOptions
 from lfd.models.model import ONLY_WAY
 from tests.lfd.models.adaptive.vectors import KINDS, D, correct, corrections, effect, regression, sized
 
@@ -111,7 +110,7 @@ def test_weights_never_add_up_to_more_than_one(J, seed, kind):
     for s in rng.uniform(-0.5, 0.5, size=(J, 2)):
         held = correct(held, s, sized(kind, 10.0 ** rng.uniform(-2.0, 1.0) * rng.choice([-1.0, 1.0])))
     most = np.abs(held.changes).max(axis=0)
-    for s in [*rng.uniform(-1.0, 1.0, size=(10, 2)), *rng.uniform(-10.0, 10.0, size=(10, 2))]:
+    for s in [*rng.uniform(-1.0, 1.0, size=(5, 2)), *rng.uniform(-10.0, 10.0, size=(5, 2))]:
         assert (np.abs(change(held, s)) <= most * (1.0 + 1e-9) + 1e-12).all()
 
 
@@ -164,12 +163,6 @@ def test_what_no_longer_holds_is_set_aside_before_what_does(none):
     for s, y in [*told, ([4.0, 0.0], 0.1)]:
         held = correct(held, s, sized(POSITION, y))
     assert [index for index, _ in held.aside] == [3]
-
-
-def test_two_hundred_corrections_are_kept_unless_told_otherwise():
-    assert CorrectionOptions() == CorrectionOptions(
-        noise=0.003, same=0.1, gate=0.05, world=WorldOptions(), half_life_s=None, most=200
-    )
 
 
 def test_at_its_half_life_a_correction_counts_half(none):

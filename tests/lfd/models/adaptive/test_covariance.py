@@ -61,7 +61,7 @@ class Reference:
         pairs = list(zip(self.places, self.beyond, strict=True))
         C = np.array([[self.covariance(a, b, u, v) for b, v in pairs] for a, u in pairs])
         c = np.array([self.covariance(s, b, beyond, v) for b, v in pairs])
-        weights = np.linalg.solve(C + 0.003 * np.diag(np.diag(C)), c)
+        weights = np.linalg.solve(C + CorrectionOptions().noise * np.diag(np.diag(C)), c)
         left = 1.0 - weights @ c / self.covariance(s, s, beyond, beyond)
         return weights / max(np.abs(weights).sum(), 1.0) @ self.changes, left, self.surprise(s) ** 2
 
@@ -91,7 +91,7 @@ def test_each_part_is_a_covariance_wherever_the_places_lie(J, c, seed):
     z, outside = rng.normal(size=(J, c)), rng.normal(size=(J, c))
     distances = np.linalg.norm(z[:, None] - z, axis=2)
     near = Nearness.of(distances, levy(outside, outside), OPTIONS)
-    for part in (*near.opened, near.near, *near.wide, levy(outside, outside)):
+    for part in (*near.fixed, *near.wide, levy(outside, outside)):
         np.testing.assert_allclose(part, part.T, atol=1e-12)
         assert np.linalg.eigvalsh(part).min() > -1e-10
 
@@ -111,8 +111,3 @@ def test_what_is_open_beyond_the_demonstrations_grows_with_the_distance():
     assert open_variance(0.0, options) == pytest.approx(0.05**2)
     steeper = CovarianceOptions(near_std=0.05, open_slope=3.0)
     assert open_variance(0.4, steeper) - 0.05**2 == pytest.approx(9.0 * 2.0 * 0.2**2)
-
-
-def test_the_usual_numbers():
-    assert CovarianceOptions() == CovarianceOptions(1.0, 0.02, 0.3, (2.5, 2.5, 2.5), 0.1)
-    assert CorrectionOptions().noise == 0.003

@@ -32,7 +32,7 @@ def test_errors_are_those_of_a_regression_that_was_fitted_without_the_condition(
     for group in groups:
         rest = np.setdiff1d(np.arange(8), group)
         moments = Moments.of(z[rest], Y[rest])
-        radius = np.linalg.norm(z[rest] - moments.s_mean, axis=1).max()
+        radius = np.linalg.norm(z[rest] - moments.s_mean, axis=1).max(keepdims=True)
         nearness = kernel(z[group], z[rest]) @ np.linalg.inv(kernel(z[rest], z[rest]) + NOISE * np.eye(len(rest)))
         for k, B in enumerate([*slopes(moments, OPTIONS), slopes(moments, OPTIONS)[0]]):
             away = z[group] - moments.s_mean
@@ -61,4 +61,4 @@ def test_a_condition_without_which_a_direction_is_lost_tells_nothing():
     z = z - z.mean(axis=0)
     found = left_out(z, np.eye(4), [np.array([i]) for i in range(4)])
     assert found.telling.tolist() == [True, True, True, False]
-    assert directions(Moments.of(z, np.eye(4)), OPTIONS)[1].size == 2
+    assert directions(Moments.of(z, np.eye(4)), OPTIONS)[2].all()

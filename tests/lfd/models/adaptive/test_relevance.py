@@ -112,7 +112,3 @@ def test_the_process_is_fitted_where_that_predicts_better(rng):
     chosen = relevant(plain, OPTIONS)
     assert chosen.options.noise < plain.options.noise
     assert chosen.score < 0.5 * plain.score
-
-
-def test_the_usual_numbers():
-    assert RelevanceOptions(conditions=8, conditions_of_lengths=15, gain=0.05, most=60) == OPTIONS

@@ -45,6 +45,23 @@ def test_one_demonstration_of_a_place_tells_its_unit(reach):
     np.testing.assert_allclose(scale.unit, 10.0 * EXTENT)
 
 
+def test_a_place_straight_ahead_has_its_unit_to_the_sides_too(reach):
+    """One coordinate is zero: it is a length as the others are."""
+    ahead = reach([0.9, 0.0, 0.6])
+    np.testing.assert_allclose(ConditionScale.of([ahead], EXTENT).unit, EXTENT)
+    np.testing.assert_allclose(ConditionScale.of([ahead, reach([0.7, 0.0, 0.6])], EXTENT).unit, EXTENT)
+
+
+def test_a_size_that_never_varied_is_no_length_though_the_height_did_not_either(reach):
+    demonstrations = [
+        Demonstration(d.trajectory, d.origin, np.array([*d.condition[:2], 0.05]))
+        for d in map(reach, ([0.9, 0.3, 0.6], [0.8, -0.1, 0.6], [0.7, 0.2, 0.6]))
+    ]
+    scale = ConditionScale.of(demonstrations, EXTENT)
+    assert scale.lengths.tolist() == [True, True, False]
+    assert scale.unseen(np.array([0.3, 0.1, 0.06]))
+
+
 def test_one_demonstration_of_other_than_three_numbers_does_not(reach):
     scale = ConditionScale.of(described(reach, lambda s, i: s[:2])[:1], EXTENT)
     assert not scale.lengths.any()

@@ -49,7 +49,3 @@ def test_the_positions_spread_as_those_of_motions_drawn_from_it(n, rng):
 def test_the_mean_square_is_that_of_positions_over_time(rng):
     spread = spread_of(ENCODING, rng.normal(size=(9, D)), np.ones(9), 0.5, PRIOR)
     assert spread.mean_square == pytest.approx(np.trace(spread.positions(75), axis1=1, axis2=2).mean())
-
-
-def test_the_usual_numbers():
-    assert SpreadPrior() == SpreadPrior(0.08, 0.2, 0.3, 2.0)

@@ -39,11 +39,25 @@ def test_directions_in_which_conditions_hardly_differ_teach_no_trend(rng):
     S -= S.mean(axis=0)
     S[:, 1] -= S[:, 0] * (S[:, 0] @ S[:, 1]) / (S[:, 0] @ S[:, 0])
     moments = Moments.of(S, rng.normal(size=(50, 2)))
-    axes, scatters = directions(moments, OPTIONS)
-    assert scatters.shape == (1,)
-    np.testing.assert_allclose(np.abs(axes[:, 0]), [1.0, 0.0], atol=1e-9)
+    axes, scatters, differs = directions(moments, OPTIONS)
+    assert differs.tolist() == [False, True]
+    assert scatters[1] == pytest.approx(S[:, 0] @ S[:, 0])
+    np.testing.assert_allclose(np.abs(axes[:, 1]), [1.0, 0.0], atol=1e-9)
     np.testing.assert_allclose(slopes(moments, OPTIONS)[0][1], 0.0, atol=1e-9)
-    assert directions(moments, TrendOptions(least=0.8 * OPTIONS.least))[1].size == 2
+    assert directions(moments, TrendOptions(least=0.8 * OPTIONS.least))[2].all()
+
+
+def test_many_sets_at_once_are_as_one_by_one(rng):
+    S, X = rng.normal(size=(9, 3)), rng.normal(size=(9, 4))
+    owner = np.repeat(np.arange(3), 3)
+    B, variance = (f(Moments.without_each(S, X, owner), OPTIONS) for f in (slopes, reach_variance))
+    for g in range(3):
+        alone = Moments.of(S[owner != g], X[owner != g])
+        np.testing.assert_allclose(B[g], slopes(alone, OPTIONS), atol=1e-10)
+        np.testing.assert_allclose(variance[g], reach_variance(alone, OPTIONS), rtol=1e-9)
+    away, radius = rng.normal(size=(6, 3)), rng.uniform(0.2, 1.0, size=6)
+    one_by_one = [limited(away[[i]], radius[[i]], OPTIONS)[0] for i in range(6)]
+    np.testing.assert_allclose(limited(away, radius, OPTIONS), one_by_one)
 
 
 def test_where_no_condition_differs_there_is_no_trend(rng):
@@ -61,28 +75,39 @@ def test_a_slope_is_the_less_known_the_less_its_direction_was_seen(data):
 def test_within_the_conditions_seen_a_trend_is_followed_whole(rng):
     away = rng.normal(size=(20, 3))
     away *= (2.0 * rng.uniform(size=20) / np.linalg.norm(away, axis=1))[:, None]
-    np.testing.assert_allclose(limited(away, 2.0, OPTIONS), away, rtol=1e-12)
-    np.testing.assert_array_equal(limited(np.zeros((1, 3)), 2.0, OPTIONS), 0.0)
+    np.testing.assert_allclose(limited(away, np.array([2.0]), OPTIONS), away, rtol=1e-12)
+    np.testing.assert_array_equal(limited(np.zeros((1, 3)), np.array([2.0]), OPTIONS), 0.0)
 
 
 def test_beyond_them_it_ends_softly_within_a_fraction_of_their_radius():
     distances = np.linspace(0.0, 40.0, 400)
-    followed = limited(distances[:, None] * [[0.6, 0.8]], 2.0, TrendOptions(softness=0.25))
+    followed = limited(distances[:, None] * [[0.6, 0.8]], np.array([2.0]), TrendOptions(softness=0.25))
     np.testing.assert_allclose(followed[:, 0] * 0.8, followed[:, 1] * 0.6, atol=1e-12)
     lengths = np.linalg.norm(followed, axis=1)
     slopes_along = np.diff(lengths) / np.diff(distances)
     assert (np.diff(slopes_along) < 1e-9).all()
     assert slopes_along.min() > -1e-9
     assert lengths[-1] == pytest.approx(2.0 + 0.25 * 2.0)
-    one_beyond = limited(np.array([[2.5]]), 2.0, TrendOptions(softness=0.25))[0, 0]
+    one_beyond = limited(np.array([[2.5]]), np.array([2.0]), TrendOptions(softness=0.25))[0, 0]
     assert one_beyond == pytest.approx(2.0 + 0.5 * (1.0 - np.exp(-1.0)))
 
 
 def test_a_single_condition_leads_nowhere():
-    np.testing.assert_array_equal(limited(np.array([[1.0, 2.0]]), 0.0, OPTIONS), 0.0)
+    np.testing.assert_allclose(limited(np.array([[1.0, 2.0]]), np.zeros(1), OPTIONS), 0.0, atol=1e-250)
 
 
-@pytest.mark.parametrize("shrinkages", [(-0.1, np.inf), (0.0, np.nan, np.inf)])
-def test_a_shrinkage_below_zero_or_none_at_all_is_refused(shrinkages):
+@pytest.mark.parametrize(
+    "shrinkages",
+    [
+        (-0.1, np.inf),
+        (0.0, np.nan, np.inf),
+        (0.0, 0.5),
+        (0.1, np.inf),
+        (0.0, 2.0, 1.0, np.inf),
+        (np.inf,),
+        (0.0, np.nan),
+    ],
+)
+def test_shrinkages_that_do_not_ascend_from_none_to_all_are_refused(shrinkages):
     with pytest.raises(OutOfRange, match="shrinkages"):
         TrendOptions(shrinkages=shrinkages)
