@@ -146,7 +146,13 @@ class AdaptiveProMP:
         return self.corrected(believed.condition, self.encoding.encode(believed), believed.provenance.at_s)
 
     def corrected(self, s: Array, x: Array, at_s: float | None = None) -> Self:
-        """The model that has also learnt that the vector x (D,) is right at the condition s (c,), at a time [s]."""
+        """The model that has also learnt that the vector x (D,) is right at the condition s (c,).
+
+        Args:
+            s: The condition.
+            x: See `Encoding.encode`.
+            at_s: When that was so, in seconds since 1970-01-01 UTC, where it is known.
+        """
         return replace(self, corrections=self.corrections.added(Correction(frozen(s), frozen(x), at_s)))
 
     def undone(self) -> Self:

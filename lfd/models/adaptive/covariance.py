@@ -142,8 +142,8 @@ class Solved:
             beyond: How far it lies outside what the demonstrations show.
 
         Returns:
-            In each kind how much of each change applies (3, J), of all together at most as much as is near; the share of the variance
-            left (3,); and the mean square of what might be a surprise there (3,).
+            In each kind how much of each change applies (3, J), of all together at most as much as is near; the share
+            of the variance left (3,); and the mean square of what might be a surprise there (3,).
         """
         std = place.surprise(self.surprises, self.acting)
         rows = self.variances[:, None] * place.fixed[:, 0] + std * self.std * place.wide[:, 0]

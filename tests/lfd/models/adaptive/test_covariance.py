@@ -63,7 +63,8 @@ class Reference:
         c = np.array([self.covariance(s, b, beyond, v) for b, v in pairs])
         weights = np.linalg.solve(C + CorrectionOptions().noise * np.diag(np.diag(C)), c)
         left = 1.0 - weights @ c / self.covariance(s, s, beyond, beyond)
-        return weights / max(np.abs(weights).sum(), 1.0) @ self.changes, left, self.surprise(s) ** 2
+        most = max(self.matern(s, place) for place in self.places)
+        return weights / max(np.abs(weights).sum() / most, 1.0) @ self.changes, left, self.surprise(s) ** 2
 
 
 @pytest.mark.parametrize("kind", range(3))
