@@ -92,6 +92,36 @@ def test_each_kind_tells_noise_from_change_by_itself(none):
     assert changed[-1] == pytest.approx(1.0, rel=0.01)
 
 
+def scattered(rng, K, sigma=0.03):
+    """Corrections of one world: 15 cm to a side, give or take in all three directions."""
+    offset = np.zeros((3, 6))
+    changes = []
+    for _ in range(K):
+        offset[:, :3] = rng.normal(size=3) * sigma / np.sqrt(3.0)
+        flat = np.append(offset.ravel(), 0.0)
+        changes.append(sized(POSITION, 0.15) + flat * (1.0 / sized(POSITION, 1.0)[0] / np.sqrt(3.0)))
+    return changes
+
+
+@pytest.mark.parametrize("K", [2, 3, 6, 12])
+def test_noisy_corrections_of_one_world_approach_their_mean_and_a_change_is_followed_at_once(taught, K):
+    """Scattering by 3 cm, of motions 60 cm long."""
+    missed, mean_missed = [], []
+    for seed in range(12):
+        changes = scattered(np.random.default_rng(seed), K)
+        held = corrections(taught, extent=0.6)
+        for y in changes:
+            held = correct(held, HERE, y)
+        now = change(held, HERE)
+        missed.append(KINDS.sizes((now - sized(POSITION, 0.15))[None])[POSITION, 0])
+        mean_missed.append(KINDS.sizes((np.mean(changes, axis=0) - sized(POSITION, 0.15))[None])[POSITION, 0])
+        opposite = sized(POSITION, -0.15)
+        left = change(correct(held, HERE, opposite), HERE) - opposite
+        gap = now - opposite
+        assert KINDS.sizes(left[None])[POSITION, 0] <= 0.04**2 * KINDS.sizes(gap[None])[POSITION, 0]
+    assert np.sqrt(np.mean(missed) / np.mean(mean_missed)) <= 1.3
+
+
 def test_corrections_apart_are_all_kept(none):
     told = {(-0.8, 0.0): 0.3, (0.0, 0.0): -0.2, (0.8, 0.0): 0.1}
     corrected = none
