@@ -132,8 +132,8 @@ def test_corrections_apart_are_all_kept(none):
 
 
 @given(st.integers(1, 6), st.integers(0, 2**32 - 1), st.sampled_from([POSITION, ORIENTATION, DURATION]))
-def test_weights_never_add_up_to_more_than_one(J, seed, kind):
-    """So nowhere is a change larger than the largest that was taught, in any number of it."""
+def test_together_corrections_do_no_more_than_the_nearest_could_alone(J, seed, kind):
+    """So nowhere is a change larger than the largest that was taught, in any number of it, and it fades as one does."""
     rng = np.random.default_rng(seed)
     conditions = rng.uniform(-0.3, 0.3, size=(int(rng.integers(1, 5)), 2))
     held = corrections(regression(conditions, rng.normal(size=(len(conditions), D))))
@@ -141,7 +141,9 @@ def test_weights_never_add_up_to_more_than_one(J, seed, kind):
         held = correct(held, s, sized(kind, 10.0 ** rng.uniform(-2.0, 1.0) * rng.choice([-1.0, 1.0])))
     most = np.abs(held.changes).max(axis=0)
     for s in [*rng.uniform(-1.0, 1.0, size=(5, 2)), *rng.uniform(-10.0, 10.0, size=(5, 2))]:
-        assert (np.abs(change(held, s)) <= most * (1.0 + 1e-9) + 1e-12).all()
+        nearest = min(np.linalg.norm(c.s - s) for c in held.held)
+        r = np.sqrt(3.0) * nearest / OPTIONS.covariance.reach[kind]
+        assert (np.abs(change(held, s)) <= most * (1.0 + r) * np.exp(-r) * (1.0 + 1e-9) + 1e-12).all()
 
 
 def sequence(rng, count):

@@ -63,7 +63,7 @@ class Reference:
         c = np.array([self.covariance(s, b, beyond, v) for b, v in pairs])
         weights = np.linalg.solve(C + CorrectionOptions().noise * np.diag(np.diag(C)), c)
         left = 1.0 - weights @ c / self.covariance(s, s, beyond, beyond)
-        most = max(self.matern(s, place) for place in self.places)
+        most = max(self.matern(s, a) for a in self.places)
         return weights / max(np.abs(weights).sum() / most, 1.0) @ self.changes, left, self.surprise(s) ** 2
 
 
