@@ -11,8 +11,7 @@ import numpy as np
 from lfd.arrays import Array, checked, frozen
 from lfd.bounds import NOT_NEGATIVE, at_least, check_number, check_options, check_points
 from lfd.exceptions import OutOfRange
-from lfd.models.encoding import OUTPUTS, Encoding
-from lfd.models.encoding import POSITION as POSITION  # noqa: PLC0414  # others know it from here
+from lfd.models.encoding import OUTPUTS, POSITION, Encoding
 from lfd.models.via_point import ViaPoint, gain_of, position_rows
 from lfd.motion.demonstration import Situation
 from lfd.motion.rotations import rotate, slerp

@@ -63,7 +63,10 @@ def _thinned(regression: Regression, most: int) -> Regression:
 
 
 def _best(regression: Regression, others: list[Regression], gain: float) -> Regression:
-    best = min(others, key=lambda other: other.score)
+    # What predicts exactly cannot be bettered, and among such rounding is not to choose.
+    if regression.score <= _EXACT:
+        return regression
+    best = min(others, key=lambda other: max(other.score, _EXACT))
     return best if best.score < (1.0 - gain) * regression.score else regression
 
 
@@ -80,3 +83,4 @@ def _smoothed(regression: Regression, near_spread: float, noise: float) -> Regre
 _FACTORS = (0.0, 0.5, 1.0, 2.0)
 _PROCESSES = ((0.2, 0.3), (0.5, 0.3), (0.5, 0.03), (1.0, 0.03), (1.0, 0.003))
 _ROUNDS = 3
+_EXACT = 1e-8  # as a score

@@ -8,8 +8,8 @@ import numpy as np
 from lfd.arrays import Array
 from lfd.bounds import POSITIVE, check_options
 from lfd.models.basis import GaussianBasis
-from lfd.models.distribution import POSITION, position_covariances
-from lfd.models.encoding import OUTPUTS, Encoding
+from lfd.models.distribution import position_covariances
+from lfd.models.encoding import OUTPUTS, POSITION, Encoding
 
 _SMOOTHNESS = 0.2  # phase over which the departures of a motion are alike, as far as is assumed
 
