@@ -5,7 +5,7 @@ from collections import deque
 import zenoh
 
 from services.bus.zenoh import ENCODING, Passing, close_session, open_session, watch
-from tests.system.harness import START_S
+from tests.system.harness import START_S, eventually
 
 
 class Stranger:
@@ -34,6 +34,18 @@ class Stranger:
         encoding = zenoh.Encoding(ENCODING).with_schema(schema)
         replies = self._session.get(key, payload=payload, encoding=encoding, timeout=5.0)
         return [reply.ok.payload.to_bytes() for reply in replies if reply.ok is not None]
+
+    def listened(self, key):
+        """Wait until somebody listens to a key, as far as the network knows: what is put before then is lost."""
+        publisher = self._session.declare_publisher(key)
+        eventually(lambda: publisher.matching_status.matching, START_S, f"somebody listens to {key}")
+        publisher.undeclare()
+
+    def answered(self, key):
+        """Wait until somebody answers on a key, as far as the network knows."""
+        querier = self._session.declare_querier(key)
+        eventually(lambda: querier.matching_status.matching, START_S, f"somebody answers on {key}")
+        querier.undeclare()
 
     def watch(self, key, callback):
         """Hand what passes on a key expression to the callback, on a thread of Zenoh's."""

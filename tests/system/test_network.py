@@ -24,6 +24,13 @@ pytestmark = [pytest.mark.system, pytest.mark.zenoh]
 WITHIN_S = 10.0
 
 
+@pytest.fixture
+def stranger(router):
+    """A program that is none of ours."""
+    with Stranger(router) as one:
+        yield one
+
+
 def answering(server, reply):
     """A condition that answers what has come; true once something has."""
 
@@ -89,12 +96,13 @@ def test_a_message_says_who_sent_it_and_when(bus):
         (b"\x80", "MasterState/9", "wrong_version"),
     ],
 )
-def test_what_is_thrown_away_is_counted_and_named_and_nothing_else_happens(bus, router, payload, schema, cause):
+def test_what_is_thrown_away_is_counted_and_named_and_nothing_else_happens(bus, stranger, payload, schema, cause):
     receiver = bus("b")
     subscription = receiver.subscribe(topics.MASTER_STATE)
-    with Stranger(router) as stranger:
-        stranger.put(topics.MASTER_STATE.key("robot1", "a"), payload, schema)
-        eventually(lambda: getattr(subscription.drops, cause) == 1, WITHIN_S, "it is counted")
+    key = topics.MASTER_STATE.key("robot1", "a")
+    stranger.listened(key)
+    stranger.put(key, payload, schema)
+    eventually(lambda: getattr(subscription.drops, cause) == 1, WITHIN_S, "it is counted")
     assert subscription.latest() is None
     assert "cmd/master_state" in receiver.faults()[0]
 
@@ -104,25 +112,27 @@ def test_what_is_thrown_away_is_counted_and_named_and_nothing_else_happens(bus, 
     [("robot2", "master", "master"), ("robot1", "master", "master-ann"), ("robot1", "station", "station")],
     ids=["another robot's", "another process' key", "not its publisher's"],
 )
-def test_a_sample_under_a_key_that_is_not_its_own_is_dropped_and_counted(bus, router, robot, source, process):
+def test_a_sample_under_a_key_that_is_not_its_own_is_dropped_and_counted(bus, stranger, robot, source, process):
     subscription = bus("robot").subscribe(topics.MASTER_STATE)
     message = MasterState(robot=robot, topic=topics.MASTER_STATE.name, process=process, sequence=1)
-    with Stranger(router) as stranger:
-        stranger.put(topics.MASTER_STATE.key("robot1", source), encode(topics.MASTER_STATE, message))
-        eventually(lambda: subscription.drops.misplaced == 1, WITHIN_S, "it is counted")
+    key = topics.MASTER_STATE.key("robot1", source)
+    stranger.listened(key)
+    stranger.put(key, encode(topics.MASTER_STATE, message))
+    eventually(lambda: subscription.drops.misplaced == 1, WITHIN_S, "it is counted")
     assert subscription.latest() is None
 
 
-def test_a_request_of_another_robot_is_refused(bus, router):
+def test_a_request_of_another_robot_is_refused(bus, stranger):
     server = bus("model").serve(queries.UNDO)
-    with Stranger(router) as stranger:
-        (answer,) = stranger.get(queries.UNDO.key("robot1"), b"\x80", "Undo/1 robot2 model/undo")
+    stranger.answered(queries.UNDO.key("robot1"))
+    (answer,) = stranger.get(queries.UNDO.key("robot1"), b"\x80", "Undo/1 robot2 model/undo")
     assert "robot 'robot2'" in decode_reply(queries.UNDO, answer).reason
     assert server.take() == []
 
 
-def test_a_change_that_is_asked_twice_is_made_once(bus):
+def test_a_change_that_is_asked_twice_is_made_once(bus, stranger):
     server, asker = bus("model").serve(queries.UNDO), bus("station")
+    stranger.answered(queries.UNDO.key("robot1"))
     request = queries.Undo(request=12345)
     for _ in range(2):
         lost = asker.ask(queries.UNDO, request, timeout_s=0.2)
@@ -134,8 +144,9 @@ def test_a_change_that_is_asked_twice_is_made_once(bus):
     assert server.take() == []
 
 
-def test_a_question_is_answered_and_a_refusal_is_an_answer(bus):
+def test_a_question_is_answered_and_a_refusal_is_an_answer(bus, stranger):
     server, asker = bus("model").serve(queries.UNDO), bus("station")
+    stranger.answered(queries.UNDO.key("robot1"))
     for reply in (
         queries.Refused("nothing to take back"),
         queries.Learnt(ModelState(kind="adaptive", version=3, demonstrations=2, updates=1, scene="table")),
@@ -152,8 +163,9 @@ def test_a_question_that_nobody_answers_fails_at_once_and_says_whom_it_misses(bu
     assert "model" in outcome.reason
 
 
-def test_a_question_whose_server_is_silent_fails_in_time(bus):
+def test_a_question_whose_server_is_silent_fails_in_time(bus, stranger):
     server = bus("model").serve(queries.UNDO)
+    stranger.answered(queries.UNDO.key("robot1"))
     pending = bus("station").ask(queries.UNDO, queries.Undo(), timeout_s=0.5)
     outcome = eventually(pending.poll, WITHIN_S, "the failure")
     assert isinstance(outcome, Failed)
@@ -223,13 +235,12 @@ def test_everybody_finds_a_router_that_was_killed_again(tmp_path):
                 connect(endpoint, "robot1", "model", SystemClock())
 
 
-def test_a_newer_version_of_a_message_with_one_field_more_is_read(bus, router):
+def test_a_newer_version_of_a_message_with_one_field_more_is_read(bus, stranger):
     subscription = bus("b").subscribe(topics.MASTER_STATE)
     place = {"robot": "robot1", "topic": topics.MASTER_STATE.name, "process": "master"}
     fields = {"publisher": 1, "sequence": 1, "stamp_ns": 1, "engaged": True, "colour": "a field of the next version"}
-    with Stranger(router) as stranger:
-        stranger.put(
-            topics.MASTER_STATE.key("robot1", "master"), msgpack.packb(place | fields), topics.MASTER_STATE.schema
-        )
-        eventually(subscription.latest, WITHIN_S, "it is read")
+    key = topics.MASTER_STATE.key("robot1", "master")
+    stranger.listened(key)
+    stranger.put(key, msgpack.packb(place | fields), topics.MASTER_STATE.schema)
+    eventually(subscription.latest, WITHIN_S, "it is read")
     assert subscription.latest().message.engaged
