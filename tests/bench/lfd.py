@@ -44,7 +44,7 @@ def main(arguments=None):
     if options.json is not None and not options.json.parent.is_dir():
         parser.error(f"--json: the folder {options.json.parent} does not exist")
     effort = Effort(seconds=0.02 if options.quick else 1.0, large=not options.quick, peers=not options.no_peers)
-    print(f"bench: about {'twenty seconds' if options.quick else 'three minutes'}", file=sys.stderr)
+    print(f"bench: about {'twenty seconds' if options.quick else 'six minutes'}", file=sys.stderr)
     results = []
     with threadpool_limits(1):  # as the processes of retouch have it
         for group in GROUPS:
