@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from lfd.models.basis import GaussianBasis
     from lfd.models.distribution import MotionDistribution, blend
     from lfd.models.dmp import DMP, DmpOptions, Scaling
-    from lfd.models.model import MovementModel, Prediction
+    from lfd.models.model import MovementModel, Prediction, Way
     from lfd.models.promp import ConditionedProMP, PrompOptions
     from lfd.models.via_point import ViaPoint
     from lfd.motion.alignment import Selection, align
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
         demonstrations_from_arrays,
         situation_from_arrays,
     )
-    from lfd.motion.refinement import refine
+    from lfd.motion.refinement import joined, refine
     from lfd.motion.resampling import Interpolation, from_samples, resample
     from lfd.motion.trajectory import Trajectory
     from lfd.motion.waypoints import through_waypoints
@@ -46,7 +46,7 @@ _MODULES = {
     "models.basis": ("GaussianBasis",),
     "models.distribution": ("MotionDistribution", "blend"),
     "models.dmp": ("DMP", "DmpOptions", "Scaling"),
-    "models.model": ("MovementModel", "Prediction"),
+    "models.model": ("MovementModel", "Prediction", "Way"),
     "models.promp": ("ConditionedProMP", "PrompOptions"),
     "models.via_point": ("ViaPoint",),
     "motion.alignment": ("Selection", "align"),
@@ -54,7 +54,7 @@ _MODULES = {
     "motion.dtw": ("Alignment", "dtw"),
     "motion.provenance": ("Provenance",),
     "motion.recording": ("demonstration_from_arrays", "demonstrations_from_arrays", "situation_from_arrays"),
-    "motion.refinement": ("refine",),
+    "motion.refinement": ("joined", "refine"),
     "motion.resampling": ("Interpolation", "from_samples", "resample"),
     "motion.trajectory": ("Trajectory",),
     "motion.waypoints": ("through_waypoints",),
@@ -90,12 +90,14 @@ __all__ = [
     "StoredDemonstration",
     "Trajectory",
     "ViaPoint",
+    "Way",
     "align",
     "blend",
     "demonstration_from_arrays",
     "demonstrations_from_arrays",
     "dtw",
     "from_samples",
+    "joined",
     "load",
     "read_demonstration",
     "read_recording",

@@ -11,6 +11,8 @@ LfdError
 ├── NotUnitQuaternion       an orientation is not a unit quaternion
 ├── TimesNotIncreasing      the times of samples do not increase strictly
 ├── OutOfRange              a number lies outside its range
+├── EmptyPart               a part of a motion holds nothing of it
+├── PartialDemonstration    a model is to begin with a part of a motion
 ├── UnreachableViaPoint     a via-point cannot be met without swinging the motion
 ├── NothingToTakeBack       a model without a correction has none to forget
 ├── TableError              a table cannot be read, or its numbers cannot be meant
@@ -120,6 +122,26 @@ class OutOfRange(LfdError):
         self.allowed = allowed
         shown = f"{value:g}" if isinstance(value, Real) else repr(value)
         super().__init__(f"{name} is {shown}: it must be {allowed}")
+
+
+class EmptyPart(LfdError):
+    """A part of a motion holds nothing of it."""
+
+    def __init__(self, first: float, last: float) -> None:
+        self.first = first
+        self.last = last
+        super().__init__(f"the part from phase {first:g} to {last:g} is empty: let it end after it begins")
+
+
+class PartialDemonstration(LfdError):
+    """A model is to begin with a part of a motion."""
+
+    def __init__(self, first: float, last: float) -> None:
+        self.first = first
+        self.last = last
+        super().__init__(
+            f"the demonstration speaks of phases {first:g} to {last:g} only: a model begins with whole motions"
+        )
 
 
 class UnreachableViaPoint(LfdError):

@@ -9,7 +9,8 @@ from lfd.bounds import FRACTION, check_number
 from lfd.exceptions import OutOfRange
 from lfd.models.distribution import MotionDistribution
 from lfd.motion.demonstration import Demonstration, Situation
-from lfd.motion.refinement import refine
+from lfd.motion.part import WHOLE
+from lfd.motion.refinement import joined, refine
 from lfd.motion.trajectory import PREDICTION_POINTS, Trajectory
 
 
@@ -75,6 +76,7 @@ class MovementModel(Protocol):
 
         Raises:
             TooFewDemonstrations: There is none.
+            PartialDemonstration: One speaks of a part of its motion only.
             WrongShape: Two conditions differ in dimension.
         """
         ...
@@ -82,7 +84,7 @@ class MovementModel(Protocol):
     def updated(self, demonstration: Demonstration) -> Self:
         """The model that has also learnt `demonstration`, the motion that a refinement led to.
 
-        How far it moves the prediction at its condition, its provenance's confidence says.
+        How far it moves the prediction at its condition, its provenance's confidence says; of which part, its part.
 
         Raises:
             WrongShape: Its condition has another dimension than those before.
@@ -112,6 +114,23 @@ class MovementModel(Protocol):
             WrongShape: The condition has another dimension than those of the demonstrations.
         """
         ...
+
+
+def completed(model: MovementModel, demonstration: Demonstration) -> Demonstration:
+    """The demonstration with the rest of its motion as the model predicts it: see `joined`.
+
+    Args:
+        model: That the demonstration corrects, before it has learnt it.
+        demonstration: Of any part of a motion.
+
+    Returns:
+        A demonstration of the whole motion; the same one where it is that already.
+    """
+    if demonstration.part == WHOLE:
+        return demonstration
+    predicted = model.predict(demonstration.situation, demonstration.trajectory.n_points).trajectory
+    whole = joined(predicted, demonstration.trajectory, demonstration.part)
+    return replace(demonstration, trajectory=whole, part=WHOLE)
 
 
 def in_part(model: MovementModel, demonstration: Demonstration) -> Demonstration:

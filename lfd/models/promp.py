@@ -12,7 +12,7 @@ from lfd.models.basis import GaussianBasis
 from lfd.models.distribution import MotionDistribution
 from lfd.models.encoding import OUTPUTS, Encoding, reference_rotation
 from lfd.models.gaussian import JointGaussian, condition, welford
-from lfd.models.model import Prediction, in_part
+from lfd.models.model import Prediction, completed, in_part
 from lfd.motion.alignment import Selection, align
 from lfd.motion.demonstration import Demonstration, Situation, check_demonstrations, check_dimension
 from lfd.motion.trajectory import PREDICTION_POINTS
@@ -87,6 +87,7 @@ class ConditionedProMP:
 
         Raises:
             TooFewDemonstrations: There is none.
+            PartialDemonstration: One speaks of a part of its motion only.
             WrongShape: Two conditions differ in dimension.
         """
         check_demonstrations(demonstrations)
@@ -99,7 +100,8 @@ class ConditionedProMP:
     def updated(self, demonstration: Demonstration) -> Self:
         """The model after one step of Welford's method: the new motion counts as much as each earlier one.
 
-        One that is believed in part is moved towards the prediction first, by equation (18).
+        One of a part of the motion is completed by the prediction first, and one that is believed in part moved towards
+        it, by equation (18).
 
         Args:
             demonstration: The newer motion (a correction, incremental learning).
@@ -108,7 +110,7 @@ class ConditionedProMP:
             WrongShape: Its condition has another dimension than those before.
         """
         self._check(demonstration.condition)
-        sample = _sample(self.encoding, in_part(self, demonstration))
+        sample = _sample(self.encoding, in_part(self, completed(self, demonstration)))
         return replace(self, joint=welford(self.joint, sample, self.options.kept))
 
     def predict(self, situation: Situation, n: int = PREDICTION_POINTS) -> Prediction:

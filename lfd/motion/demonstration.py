@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lfd.arrays import Array, checked, checked_quaternions
-from lfd.exceptions import TooFewDemonstrations, WrongShape
+from lfd.exceptions import PartialDemonstration, TooFewDemonstrations, WrongShape
+from lfd.motion.part import WHOLE, Part, check_part
 from lfd.motion.provenance import UNKNOWN, Provenance
 from lfd.motion.trajectory import Trajectory
 
@@ -77,18 +78,24 @@ class Demonstration:
         origin: See `Situation`, shape (3,) [m].
         condition: See `Situation`, shape (c,).
         provenance: Whose it is, since when, and how far it is believed.
+        part: First and last phase of the trajectory, from 0 to 1, between which it says what is right: a correction
+            of a part leaves the rest as predicted (`lfd.motion.refinement.joined`).
 
     Raises:
         WrongShape: An array has the wrong shape, or the condition is empty.
         NotFinite: A number is NaN or infinite.
+        OutOfRange: A phase of the part is not from 0 to 1.
+        EmptyPart: The part does not end after it begins.
     """
 
     trajectory: Trajectory
     origin: Array
     condition: Array
     provenance: Provenance = UNKNOWN
+    part: Part = WHOLE
 
     def __post_init__(self) -> None:
+        check_part(self.part)
         object.__setattr__(self, "origin", checked("origin", self.origin, (3,)))
         object.__setattr__(self, "condition", checked_condition(self.condition))
 
@@ -139,11 +146,14 @@ def check_demonstrations(demonstrations: Sequence[Demonstration]) -> None:
 
     Raises:
         TooFewDemonstrations: There is none.
+        PartialDemonstration: One speaks of a part of its motion only.
         WrongShape: Two conditions differ in dimension.
     """
     if not demonstrations:
         raise TooFewDemonstrations
     for demonstration in demonstrations:
+        if demonstration.part != WHOLE:
+            raise PartialDemonstration(*demonstration.part)
         check_dimension(demonstration.condition, len(demonstrations[0].condition))
 
 

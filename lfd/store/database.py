@@ -11,6 +11,7 @@ import numpy as np
 from lfd.arrays import Array
 from lfd.exceptions import BoundElsewhere, LfdError, NothingToUndo, StorageError
 from lfd.motion.demonstration import Demonstration
+from lfd.motion.part import Part
 from lfd.motion.provenance import Provenance
 from lfd.motion.trajectory import Trajectory
 from lfd.store.connection import Connection
@@ -172,9 +173,13 @@ class DemonstrationStore:
             self.check(binding)
             version = self._next(request)
             self._connection.rows(
-                "INSERT INTO demonstrations (added, kind, scene, duration, robot, author, at_s, confidence)"
-                " VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
-                (version, kind.value, binding.scene, trajectory.duration, binding.robot, *astuple(provenance)),
+                "INSERT INTO demonstrations"
+                " (added, kind, scene, duration, robot, author, at_s, confidence, part_first, part_last)"
+                " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                (
+                    *(version, kind.value, binding.scene, trajectory.duration, binding.robot),
+                    *(*astuple(provenance), *demonstration.part),
+                ),
             )
             for name, array in arrays.items():
                 row = (version, name, DTYPE, _shape_text(array), array.astype(DTYPE).tobytes())
@@ -211,14 +216,17 @@ class DemonstrationStore:
             StorageError: A record cannot be read.
         """
         rows = self._connection.rows(
-            "SELECT added, kind, scene, robot, duration, author, at_s, confidence FROM demonstrations"
-            " WHERE undone IS NULL ORDER BY added"
+            "SELECT added, kind, scene, robot, part_first, part_last, duration, author, at_s, confidence"
+            " FROM demonstrations WHERE undone IS NULL ORDER BY added"
         )
         return [
             StoredDemonstration(
-                added, Purpose(kind), Binding(scene, robot), self._demonstration(added, duration, *provenance)
+                added,
+                Purpose(kind),
+                Binding(scene, robot),
+                self._demonstration(added, duration, *provenance, part=(first, last)),
             )
-            for added, kind, scene, robot, duration, *provenance in rows
+            for added, kind, scene, robot, first, last, duration, *provenance in rows
         ]
 
     def _next(self, request: int) -> int:
@@ -229,14 +237,14 @@ class DemonstrationStore:
         return version
 
     def _demonstration(
-        self, added: int, duration: float, author: str, at_s: float | None, confidence: float
+        self, added: int, duration: float, author: str, at_s: float | None, confidence: float, *, part: Part
     ) -> Demonstration:
         rows = self._connection.rows("SELECT name, dtype, shape, bytes FROM arrays WHERE demonstration = ?", (added,))
         try:
             arrays = {name: _array(dtype, shape, data) for name, dtype, shape, data in rows}
             trajectory = Trajectory(arrays["positions"], arrays["orientations"], duration)
             provenance = Provenance(author, at_s, confidence)
-            return Demonstration(trajectory, arrays["origin"], arrays["condition"], provenance)
+            return Demonstration(trajectory, arrays["origin"], arrays["condition"], provenance, part)
         except (LfdError, ValueError, KeyError) as error:
             reason = f"demonstration {added} is damaged ({error})"
             raise StorageError(self._path, reason, "restore the file from a copy") from error

@@ -5,9 +5,9 @@ import numpy as np
 from lfd.exceptions import StorageError
 from lfd.store.connection import Connection
 
-SCHEMA_VERSION = 4
+SCHEMA_VERSION = 5
 """1 had no conditions: they were the object relative to the start. 2 knew neither robots nor requests, 3 no authors,
-times and confidences: its motions were stored as far as they were believed."""
+times and confidences: its motions were stored as far as they were believed. 4 knew whole motions only."""
 
 APPLICATION_ID = 0x52544348  # "RTCH" in the file's header tells our files from others
 DTYPE = "<f8"
@@ -22,7 +22,9 @@ CREATE TABLE demonstrations (
     robot TEXT NOT NULL DEFAULT '',
     author TEXT NOT NULL DEFAULT '',
     at_s REAL,
-    confidence REAL NOT NULL DEFAULT 1.0 CHECK (confidence BETWEEN 0.0 AND 1.0)
+    confidence REAL NOT NULL DEFAULT 1.0 CHECK (confidence BETWEEN 0.0 AND 1.0),
+    part_first REAL NOT NULL DEFAULT 0.0 CHECK (part_first BETWEEN 0.0 AND 1.0),
+    part_last REAL NOT NULL DEFAULT 1.0 CHECK (part_last BETWEEN 0.0 AND 1.0)
 ) STRICT
 """
 _ARRAYS = """
@@ -80,7 +82,7 @@ def _upgrade(connection: Connection, schema: int) -> None:
     with connection.transaction():
         if connection.value("PRAGMA user_version") != schema:
             return  # another process was first
-        for older_than, upgrade in ((2, _add_conditions), (3, _add_robots_and_requests), (4, _add_provenance)):
+        for older_than, upgrade in _UPGRADES:
             if schema < older_than:
                 upgrade(connection)
         connection.rows(f"PRAGMA user_version = {SCHEMA_VERSION}")
@@ -111,3 +113,15 @@ def _add_provenance(connection: Connection) -> None:
         "confidence REAL NOT NULL DEFAULT 1.0 CHECK (confidence BETWEEN 0.0 AND 1.0)",
     ):
         connection.rows(f"ALTER TABLE demonstrations ADD COLUMN {column}")
+
+
+def _add_parts(connection: Connection) -> None:
+    for column in (
+        "part_first REAL NOT NULL DEFAULT 0.0 CHECK (part_first BETWEEN 0.0 AND 1.0)",
+        "part_last REAL NOT NULL DEFAULT 1.0 CHECK (part_last BETWEEN 0.0 AND 1.0)",
+    ):
+        connection.rows(f"ALTER TABLE demonstrations ADD COLUMN {column}")
+
+
+_UPGRADES = ((2, _add_conditions), (3, _add_robots_and_requests), (4, _add_provenance), (5, _add_parts))
+"""In order, each with the schema that it leads to."""

@@ -24,7 +24,7 @@ from lfd.models.adaptive.spread import Spread, SpreadPrior, spread_of
 from lfd.models.basis import GaussianBasis
 from lfd.models.distribution import MotionDistribution
 from lfd.models.encoding import Encoding, reference_rotation
-from lfd.models.model import Prediction, in_part
+from lfd.models.model import Prediction, completed, in_part
 from lfd.motion.demonstration import Demonstration, Situation, check_demonstrations, check_dimension
 from lfd.motion.trajectory import PREDICTION_POINTS
 
@@ -96,6 +96,7 @@ class AdaptiveProMP:
 
         Raises:
             TooFewDemonstrations: There is none.
+            PartialDemonstration: One speaks of a part of its motion only.
             WrongShape: Two conditions differ in dimension.
         """
         check_demonstrations(demonstrations)
@@ -138,11 +139,13 @@ class AdaptiveProMP:
     def updated(self, demonstration: Demonstration) -> Self:
         """The model that has also learnt a motion newer than all others, as far as it is believed (equation (18)).
 
+        The prediction completes one that speaks of a part of the motion only.
+
         Raises:
             WrongShape: Its condition has another dimension than those before.
         """
         self._check(demonstration.condition)
-        believed = in_part(self, demonstration)
+        believed = in_part(self, completed(self, demonstration))
         return self.corrected(believed.condition, self.encoding.encode(believed), believed.provenance.at_s)
 
     def corrected(self, s: Array, x: Array, at_s: float | None = None) -> Self:

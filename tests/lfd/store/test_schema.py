@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from lfd.exceptions import BoundElsewhere, StorageError
+from lfd.motion.part import WHOLE
 from lfd.motion.provenance import UNKNOWN, Provenance
 from lfd.store.database import Binding, DemonstrationStore, Purpose
 
@@ -18,7 +19,16 @@ def path(tmp_path):
     return tmp_path / "demonstrations.sqlite"
 
 
+def _as_schema_4(path):
+    with sqlite3.connect(path) as old:
+        for column in ("part_first", "part_last"):
+            old.execute(f"ALTER TABLE demonstrations DROP COLUMN {column}")
+        old.execute("PRAGMA user_version = 4")
+    old.close()
+
+
 def _as_schema_3(path):
+    _as_schema_4(path)
     with sqlite3.connect(path) as old:
         for column in ("author", "at_s", "confidence"):
             old.execute(f"ALTER TABLE demonstrations DROP COLUMN {column}")
@@ -76,6 +86,16 @@ def test_what_a_file_of_schema_3_holds_is_nobodys_of_no_time_and_believed_whole(
         store.add(replace(reach([0.9, 0.2, 0.6]), provenance=given), Purpose.UPDATE, TABLE)
     with DemonstrationStore(path) as store:
         assert [stored.demonstration.provenance for stored in store.active()] == [UNKNOWN, given]
+
+
+def test_what_a_file_of_schema_4_holds_speaks_of_whole_motions(path, reach):
+    with DemonstrationStore(path) as store:
+        store.add(reach([0.9, 0.1, 0.6]), Purpose.INITIAL, TABLE)
+    _as_schema_4(path)
+    with DemonstrationStore(path) as store:
+        store.add(replace(reach([0.9, 0.2, 0.6]), part=(0.25, 0.75)), Purpose.UPDATE, TABLE)
+    with DemonstrationStore(path) as store:
+        assert [stored.demonstration.part for stored in store.active()] == [WHOLE, (0.25, 0.75)]
 
 
 def test_a_file_in_which_an_earlier_version_mixed_two_scenes_is_refused_by_both(path, reach):
