@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-Way = tuple[int, int]
+Direction = tuple[int, int]
 """An axis of the base frame, 0 to 2, and the sign along it."""
 
-PUSH_KEYS: Mapping[str, Way] = {
+PUSH_KEYS: Mapping[str, Direction] = {
     "KeyQ": (0, +1),
     "KeyA": (0, -1),
     "KeyW": (1, +1),
@@ -20,7 +20,7 @@ PUSH_KEYS: Mapping[str, Way] = {
 }
 """Keys that displace along an axis, as in the thesis."""
 
-TURN_KEYS: Mapping[str, Way] = {
+TURN_KEYS: Mapping[str, Direction] = {
     "KeyR": (0, +1),
     "KeyF": (0, -1),
     "KeyT": (1, +1),

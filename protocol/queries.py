@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
-from typing import Annotated, Any, Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 import msgspec
 
@@ -12,6 +12,7 @@ from protocol.messages import (
     Condition,
     Count,
     Duration,
+    Fraction,
     Mode,
     ModelState,
     Motion,
@@ -177,6 +178,7 @@ class AddDemonstration(Change, frozen=True):
         condition: the external state that it was right for; empty for the object relative to the motion's start.
         operator: who gave it; empty where nobody did.
         alpha: of eq. 18, how far the prediction is moved towards the motion; 1 learns the motion itself.
+        part: first and last phase of the motion, from 0 to 1, between which it was right; the rest stays as predicted.
     """
 
     kind: Kind
@@ -185,7 +187,13 @@ class AddDemonstration(Change, frozen=True):
     scene: Name
     condition: Condition = ()
     operator: Name = ""
-    alpha: Annotated[float, msgspec.Meta(ge=0.0, le=1.0)] = 1.0
+    alpha: Fraction = 1.0
+    part: tuple[Fraction, Fraction] = (0.0, 1.0)
+
+    def __post_init__(self) -> None:
+        first, last = self.part
+        if not first < last:
+            raise ValueError(f"the part from phase {first:g} to {last:g} is empty")
 
 
 class Undo(Change, frozen=True):

@@ -9,7 +9,7 @@ from protocol.messages.authority import AuthorityRenewal, AuthorityState
 from protocol.messages.camera import CameraImage
 from protocol.messages.command import MasterState, OperatorInput
 from protocol.messages.health import Figure, Heartbeat, TopicFigures
-from protocol.messages.model import ModelState, Prediction
+from protocol.messages.model import ModelState, Prediction, Way
 from protocol.messages.safety import EmergencyStop, SafetyState
 from protocol.messages.state import (
     Box,
@@ -31,6 +31,7 @@ from protocol.messages.values import (
     Condition,
     Count,
     Duration,
+    Fraction,
     Joints,
     Message,
     Motion,
@@ -58,6 +59,7 @@ __all__ = [
     "EpisodeResult",
     "ExecutionState",
     "Figure",
+    "Fraction",
     "Heartbeat",
     "Joints",
     "Light",
@@ -84,5 +86,6 @@ __all__ = [
     "TopicFigures",
     "Vector3",
     "Verdict",
+    "Way",
     "WorldState",
 ]

@@ -2,7 +2,29 @@
 
 from __future__ import annotations
 
-from protocol.messages.values import Array, Count, Message, Motion, Name, Vector3
+from typing import Annotated
+
+import msgspec
+
+from protocol.messages.values import Array, Count, Fraction, Message, Motion, Name, Vector3
+
+
+class Way(msgspec.Struct, frozen=True):
+    """Which of several ways a predicted motion takes.
+
+    Attributes:
+        index: of the way, from 0 in the order in which they were taught.
+        count: how many ways are known.
+        probability: of this one being right.
+    """
+
+    index: Count = 0
+    count: Annotated[int, msgspec.Meta(ge=1, le=10_000)] = 1
+    probability: Fraction = 1.0
+
+    def __post_init__(self) -> None:
+        if self.index >= self.count:
+            raise ValueError(f"way {self.index} is none of {self.count}, counted from 0")
 
 
 class Prediction(Message, frozen=True, kw_only=True):
@@ -14,6 +36,8 @@ class Prediction(Message, frozen=True, kw_only=True):
         deviations: one standard deviation on each axis, shape (n, 3) [m].
         model_version: of the model that predicts.
         object_position: the condition, in the base frame [m].
+        known: how much of the motion was shown or corrected there, from 1, all of it, to 0, nothing.
+        way: which of several ways it takes.
     """
 
     id: Count = 0
@@ -21,6 +45,8 @@ class Prediction(Message, frozen=True, kw_only=True):
     deviations: Array
     model_version: Count
     object_position: Vector3
+    known: Fraction = 1.0
+    way: Way = Way()
 
 
 class ModelState(Message, frozen=True, kw_only=True):

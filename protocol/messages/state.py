@@ -11,6 +11,7 @@ from protocol.messages.values import (
     Array,
     Condition,
     Count,
+    Fraction,
     Joints,
     Message,
     Motion,
@@ -220,6 +221,8 @@ class EpisodeResult(Message, frozen=True, kw_only=True):
         held: time spent holding [s].
         duration: from the first motion to the verdict [s].
         cut: what cut it short; None where it completed.
+        progress: share of the prediction that was executed; the three motions are as far as it.
+        clear_until: share of the prediction before anything was touched or kicked over; `progress` where nothing was.
     """
 
     episode: Count
@@ -237,6 +240,8 @@ class EpisodeResult(Message, frozen=True, kw_only=True):
     held: Real
     duration: Real
     cut: Cut | None = None
+    progress: Fraction = 1.0
+    clear_until: Fraction = 1.0
 
 
 class ObjectPose(Message, frozen=True, kw_only=True):

@@ -68,6 +68,7 @@ class TeachingState(Message, frozen=True, kw_only=True):
         loop_closed: a prediction failed, was refined, learnt, and a later one succeeded by itself.
         reason: why not, empty where it did.
         actions: what the operator may do now, by name.
+        recommended: which of them brings the run on; empty where there is nothing to choose.
     """
 
     phase: Name
@@ -82,6 +83,7 @@ class TeachingState(Message, frozen=True, kw_only=True):
     loop_closed: bool = False
     reason: Text = ""
     actions: Annotated[tuple[Name, ...], msgspec.Meta(max_length=16)] = ()
+    recommended: Name = ""
 
 
 class Recording(Message, frozen=True, kw_only=True):

@@ -1,13 +1,33 @@
-"""The newest predictions by their ids, as whoever hears the model knows them."""
+"""The newest predictions by their ids, as whoever hears the model knows them, and how sure they are, in words."""
 
 from __future__ import annotations
 
-from protocol.messages import Motion, Prediction
+from protocol.messages import Motion, Prediction, Way
 from protocol.topics import PREDICTION
 from services.bus.bus import Bus
 
 KEPT = 8
 """An execution names the newest one; those before it are for whoever comes late."""
+
+
+LITTLE = 0.5
+"""Where less of a motion is known than this, it is better shown than executed."""
+
+
+def certainty(prediction: Prediction) -> str:
+    """How much of a prediction is known, and which of several ways it takes, for people."""
+    way = way_taken(prediction.way)
+    return f"{percent(prediction.known)} known{', ' if way else ''}{way}"
+
+
+def way_taken(way: Way) -> str:
+    """Which of several ways, and how sure that is; empty where there is only one."""
+    return f"way {way.index + 1} of {way.count}, {percent(way.probability)}" if way.count > 1 else ""
+
+
+def percent(share: float) -> str:
+    """A share from 0 to 1, for people."""
+    return f"{100.0 * share:.0f} %"
 
 
 class Predictions:

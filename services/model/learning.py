@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from lfd.models.adaptive.adaptation import AdaptiveProMP
-from lfd.models.model import MovementModel, in_part
+from lfd.models.model import MovementModel
 from lfd.models.promp import ConditionedProMP
-from lfd.motion.demonstration import Demonstration
 from lfd.store.database import Purpose, StoredDemonstration
 
 MODELS: dict[str, type[AdaptiveProMP] | type[ConditionedProMP]] = {
@@ -35,10 +34,5 @@ def learn_all(kind: str, stored: Sequence[StoredDemonstration]) -> MovementModel
         return None
     model: MovementModel = MODELS[kind].fit(initial)
     for update in updates:
-        model = updated(model, update)
+        model = model.updated(update)
     return model
-
-
-def updated(model: MovementModel, update: Demonstration) -> MovementModel:
-    """The model that has also learnt an update, as far as it is believed."""
-    return model.updated(in_part(model, update))

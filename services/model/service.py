@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
+from dataclasses import replace
 from datetime import UTC, datetime
 from typing import TypeVar
 
@@ -21,7 +22,7 @@ from services.bus.arrays import motion_from_wire, motion_to_wire, to_wire
 from services.bus.bus import Bus, Rep, Req
 from services.bus.identity import new_number
 from services.bus.server import Server
-from services.model.learning import learn_all, updated
+from services.model.learning import learn_all
 from services.model.skill import binding_of, check_demonstration, check_duration, check_situation, open_store
 from services.process.clock import Clock
 from services.process.config import Configuration
@@ -138,6 +139,8 @@ class ModelService:
             deviations=to_wire(np.sqrt(np.maximum(variances, 0.0))),
             model_version=self._state.version,
             object_position=request.object_position,
+            known=prediction.known,
+            way=messages.Way(prediction.way.index, prediction.way.count, prediction.way.probability),
         )
         self._bus.publish(topics.PREDICTION, self._newest)
         return Predicted(self._newest)
@@ -158,7 +161,7 @@ class ModelService:
 
     def _extended(self, demonstration: Demonstration, purpose: Purpose) -> MovementModel | None:
         if purpose is Purpose.UPDATE and self._model is not None:
-            return updated(self._model, demonstration)
+            return self._model.updated(demonstration)
         added = StoredDemonstration(self._state.version + 1, purpose, self._binding, demonstration)
         return learn_all(self._kind, [*self._stored, added])
 
@@ -201,8 +204,8 @@ def _demonstration(request: AddDemonstration, at_s: float) -> Demonstration:
     origin = np.array(request.object_position, dtype=np.float64)
     provenance = Provenance(request.operator, at_s, request.alpha)
     if request.condition:
-        return Demonstration(motion, origin, np.array(request.condition), provenance)
-    return Demonstration.reaching(motion, origin, provenance)
+        return Demonstration(motion, origin, np.array(request.condition), provenance, request.part)
+    return replace(Demonstration.reaching(motion, origin, provenance), part=request.part)
 
 
 def _situation(request: Predict) -> Situation:

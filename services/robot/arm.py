@@ -163,6 +163,7 @@ class Arm:
             fault = self._broken(error)
         outcome = None
         if episode is not None:
+            episode.judged(self._verdict)
             if not (holding or fault):
                 commanded = self._kinematics.forward(self._q)
                 episode.record(self._reference, commanded, self.measured, clamped=bool(clamped))

@@ -39,6 +39,8 @@ class EpisodeOutcome:
         clamped: control periods in which something was clamped.
         held: time spent holding [s].
         duration: from the first motion to the verdict [s].
+        progress: share of the prediction that was executed.
+        clear_until: share of it before anything was touched or kicked over; `progress` where nothing was.
     """
 
     prediction: Trajectory
@@ -52,6 +54,8 @@ class EpisodeOutcome:
     clamped: int
     held: float
     duration: float
+    progress: float
+    clear_until: float
 
     @property
     def completed(self) -> bool:
@@ -84,6 +88,7 @@ class Episode:
         self._standing: Pose | None = None
         self._clamped = 0
         self._input = False
+        self._clear_until: float | None = None
 
     @property
     def settling(self) -> bool:
@@ -144,6 +149,11 @@ class Episode:
         if not self.execution.ramping:
             self.recording.add(self.execution.time, reference, commanded, measured)
 
+    def judged(self, verdict: Verdict) -> None:
+        """Remember how far the motion was when something was first touched or kicked over."""
+        if self._clear_until is None and (verdict.collision is not None or verdict.kicked_over):
+            self._clear_until = self.execution.progress
+
     def outcome(self, verdict: Verdict, measured: Pose, stopped: str = "") -> EpisodeOutcome:
         """The account.
 
@@ -154,6 +164,7 @@ class Episode:
         """
         cut, reason = (Cut.STOPPED, stopped) if stopped else (self._cut, self._reason)
         motions = self.recording.motions(self.prediction.n_points, measured, self._period)
+        progress = self.execution.progress
         return EpisodeOutcome(
             prediction=self.prediction,
             refined=motions.refined,
@@ -166,6 +177,8 @@ class Episode:
             clamped=self._clamped,
             held=self._held * self._period,
             duration=self._ticks * self._period,
+            progress=progress,
+            clear_until=progress if self._clear_until is None else self._clear_until,
         )
 
 

@@ -62,6 +62,8 @@ def episode_result(finished: Finished) -> messages.EpisodeResult:
         held=outcome.held,
         duration=outcome.duration,
         cut=outcome.cut,
+        progress=outcome.progress,
+        clear_until=outcome.clear_until,
     )
 
 

@@ -200,6 +200,7 @@ class StationService:
             authority=view.authority,
             authority_is_mine=mine,
             model=view.model,
+            prediction=_of(workflow.prediction, view.model),
             object_pose=message(ears.seen.latest()),
             recording=message(ears.recording.latest()),
             head=picture(ears.head, now_ns),
@@ -210,3 +211,9 @@ class StationService:
         latency = robot.message.applied_latency
         figures = (Figure("applied", latency, "s"),) if latency >= 0.0 else ()
         return replace(base, robot=robot.message, robot_age_s=robot.age_s(now_ns), latencies=figures)
+
+
+def _of(prediction: messages.Prediction | None, model: messages.ModelState | None) -> messages.Prediction | None:
+    """The prediction while it is the model's: what has been learnt or taken back since makes another one."""
+    current = prediction is not None and model is not None and prediction.model_version == model.version
+    return prediction if current else None

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from protocol.messages import Phase, RobotState, TeachingState, Verdict
+from protocol.messages import Phase, Prediction, RobotState, TeachingState, Verdict
+from services.bus.predictions import LITTLE, certainty
 
 SETTLED_NS = 500_000_000
 """What changes sooner is only counted."""
@@ -57,6 +58,11 @@ class Journal:
         yield from self._changed("kicked", Entry(kicked, "ERROR" if verdict.kicked_over else "INFO"))
         reached = "object reached" if verdict.reached else "object not reached"
         yield from self._settled("reached", Entry(reached, "INFO"), now_ns)
+
+    def prediction(self, prediction: Prediction) -> Iterator[Entry]:
+        """What is new about how sure the model is."""
+        text = f"prediction of model version {prediction.model_version}: {certainty(prediction)}"
+        yield from self._changed("prediction", Entry(text, "WARN" if prediction.known < LITTLE else "INFO"))
 
     def teaching(self, state: TeachingState) -> Iterator[Entry]:
         """What is new about the teaching."""

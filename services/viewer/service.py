@@ -194,6 +194,8 @@ class ViewerService:
         execution = self._execution.fresh(now_ns)
         predictions = self._predictions
         prediction = predictions.find(execution.prediction) if execution is not None else predictions.newest()
+        if prediction is not None:
+            self._write(*self._journal.prediction(prediction))
         if prediction is not None and self._changes.due("prediction", prediction, now_ns):
             positions = motions.drawable(prediction.motion.positions)
             deviations = motions.drawable(prediction.deviations)

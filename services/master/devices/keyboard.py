@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
-from protocol.keys import PUSH_KEYS, STEERING, TURN_KEYS, Way
+from protocol.keys import PUSH_KEYS, STEERING, TURN_KEYS, Direction
 from protocol.messages import Figure, OperatorInput, Phase, RobotState, Vector3
 from services.master.devices.device import ZERO, Moment, Sample
 from services.process.config import Keyboard
@@ -29,7 +29,7 @@ class Law:
     reach: float
 
 
-def directions(keys: Collection[str], table: Mapping[str, Way]) -> tuple[int, int, int]:
+def directions(keys: Collection[str], table: Mapping[str, Direction]) -> tuple[int, int, int]:
     """Which way each axis is pushed by a table's keys: -1, 0 or 1; keys against each other cancel out."""
     axes = [0, 0, 0]
     for key in set(keys) & table.keys():
@@ -57,7 +57,7 @@ class _Lever:
         law: by which they push.
     """
 
-    def __init__(self, table: Mapping[str, Way], law: Law) -> None:
+    def __init__(self, table: Mapping[str, Direction], law: Law) -> None:
         self._table = table
         self._law = law
         self.value = ZERO

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from protocol.keys import PUSH_KEYS, TURN_KEYS, Way
+from protocol.keys import PUSH_KEYS, TURN_KEYS, Direction
 from protocol.messages import SafetyState
 from services.station.page.input import Standing
 from services.station.page.values import Values
@@ -34,7 +34,7 @@ BUTTONS = (
     Button("refine", "Refine", "you correct it", "pen"),
     Button("go_on", "Go on", "with this motion", "next"),
     Button("finish", "Finish", "Space", "flag"),
-    Button("teach", "Teach this", "what you finished", "check"),
+    Button("teach", "Teach this", "what you showed", "check"),
     Button("next", "Next object", "a new place", "place"),
     Button("undo", "Undo", "the last update", "undo"),
     Button("end", "End", "this run", "end"),
@@ -66,7 +66,7 @@ _TURNS = (("roll right", "tilt down", "turn left"), ("roll left", "tilt up", "tu
 """Directions along the three axes, then against them: as the keys lie under the hand."""
 
 
-def _keyboard(table: Mapping[str, Way], directions: tuple[tuple[str, ...], ...]) -> tuple[tuple[Key, ...], ...]:
+def _keyboard(table: Mapping[str, Direction], directions: tuple[tuple[str, ...], ...]) -> tuple[tuple[Key, ...], ...]:
     code_of = {way: code for code, way in table.items()}
     return tuple(
         tuple(_key(code_of[axis, sign], axis, sign, direction) for axis, direction in enumerate(row))
@@ -83,10 +83,15 @@ KEYBOARDS = (_keyboard(PUSH_KEYS, _PUSHES), _keyboard(TURN_KEYS, _TURNS))
 
 
 def actions(shown: Shown) -> Values:
-    """What the operator may do now; the rest is there and cannot be pressed."""
+    """What the operator may do now, and what is recommended; the rest is there and cannot be pressed."""
     teaching = shown.view.teaching
     allowed = frozenset() if teaching is None else frozenset(teaching.actions)
-    return {f"action-{button.action}@disabled": button.action not in allowed for button in BUTTONS}
+    first = "" if teaching is None else teaching.recommended
+    values: dict[str, str | bool] = {}
+    for button in BUTTONS:
+        values[f"action-{button.action}@disabled"] = button.action not in allowed
+        values[f"action-{button.action}@data-first"] = "yes" if button.action == first else "no"
+    return values
 
 
 def emergency_stop(shown: Shown, standing: Standing) -> Values:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from protocol.messages import Light
+from protocol.messages import Light, Prediction
+from services.bus.predictions import LITTLE, certainty
 from services.station.page.input import Standing
 from services.station.page.readout import LIGHT_WORDS, criteria, is_stale, length, outcome, span, tone
 from services.station.page.values import Values
@@ -14,6 +15,7 @@ CHIPS = (
     ("latency", "Hand to robot"),
     ("object", "Object error"),
     ("model", "Model"),
+    ("prediction", "Prediction"),
     ("authority", "Authority"),
 )
 """Figures in the header: name and title."""
@@ -25,7 +27,7 @@ CRITERIA = (("reached", "Target reached"), ("kicked", "Not kicked over"), ("coll
 
 def header(shown: Shown, standing: Standing) -> Values:
     """The figures, and who has the authority."""
-    view, robot, model = shown.view, shown.view.robot, shown.view.model
+    view, robot, model, prediction = shown.view, shown.view.robot, shown.view.model, shown.view.prediction
     holder = view.authority.holder if view.authority is not None else ""
     yours = view.authority_is_mine and standing.armed
     return {
@@ -35,9 +37,18 @@ def header(shown: Shown, standing: Standing) -> Values:
         "chip-latency-text": " / ".join(span(figure.value) for figure in view.latencies) or "none",
         "chip-object-text": "not seen" if view.object_pose is None else length(view.object_pose.error),
         "chip-model-text": "none" if model is None else f"v{model.version}, {model.updates} learnt",
+        "chip-prediction-text": "none" if prediction is None else certainty(prediction),
+        "chip-prediction@data-tone": _sureness(prediction),
         "chip-authority-text": "yours" if yours else holder or "nobody",
         "chip-authority@data-tone": "good" if yours else "warn",
     }
+
+
+def _sureness(prediction: Prediction | None) -> str:
+    """The look of how much is known."""
+    if prediction is None:
+        return "none"
+    return "warn" if prediction.known < LITTLE else "good"
 
 
 def scene(shown: Shown) -> Values:

@@ -13,6 +13,7 @@ from protocol.messages import (
     Light,
     ModelState,
     ObjectPose,
+    Prediction,
     Recording,
     RobotState,
     SafetyState,
@@ -44,6 +45,7 @@ class PageView:
 
     Attributes:
         robot_age_s: age of the robot's state [s]; infinite where there is none.
+        prediction: of the model as it is now.
         authority_is_mine: this station holds the authority.
         latencies: measured delays worth showing, in seconds.
         notice: one line about what went wrong last; empty where nothing did.
@@ -57,6 +59,7 @@ class PageView:
     authority: AuthorityState | None = None
     authority_is_mine: bool = False
     model: ModelState | None = None
+    prediction: Prediction | None = None
     object_pose: ObjectPose | None = None
     recording: Recording | None = None
     head: Picture | None = None

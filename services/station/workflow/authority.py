@@ -83,7 +83,9 @@ def acquiring(state: Workflow, view: View, settings: Settings) -> Step:
 
 
 def _granted(state: Workflow, view: View, epoch: int) -> Workflow:
-    granted = replace(state, epoch=epoch, holding=True, confirmed=False, granted_s=view.now_s, watches=False)
+    granted = replace(
+        state, epoch=epoch, holding=True, confirmed=False, granted_s=view.now_s, watches=False, warned=False
+    )
     if not runs(state, view) or state.episode is None:
         return to(granted, Phase.LOOKING, view)
     number = state.episode.number or (view.robot.episode if view.robot is not None else 0)

@@ -54,15 +54,18 @@ def finished(state: Workflow, view: View, settings: Settings) -> Step:
 
 
 def _elsewhere(state: Workflow) -> Workflow:
-    return replace(state, placed=None, last=None, refinements=0, updates=0)
+    return replace(state, placed=None, last=None, refinements=0, updates=0, warned=False)
 
 
 def recommended(state: Workflow, settings: Settings) -> Action:
-    """What brings the run on, by the verdict of the newest episode at this place."""
-    if state.taught is not None:
+    """What brings the run on, by the verdict of the newest episode at this place, and by what is known there.
+
+    A part of a failed refinement is learnt where a person says so, and is never what is recommended.
+    """
+    if state.taught is not None and state.taught.whole:
         return Action.TEACH
     if state.last is None:
-        return Action.EXECUTE
+        return Action.REFINE if state.warned else Action.EXECUTE
     if not state.last.success:
         return Action.REFINE
     return Action.END if settings.once else Action.NEXT

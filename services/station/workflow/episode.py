@@ -8,9 +8,10 @@ from typing import Any
 import msgspec
 
 from protocol import queries
-from protocol.messages import Mode, Vector3
+from protocol.messages import Mode, Prediction, Vector3
 from protocol.messages import Phase as RobotPhase
 from protocol.queries import Query
+from services.bus.predictions import LITTLE
 from services.station.workflow.asking import RETRY_S, ask, not_done, to
 from services.station.workflow.authority import runs
 from services.station.workflow.state import Action, Episode, Phase, Place, Settings, Workflow
@@ -95,7 +96,16 @@ def predicting(state: Workflow, view: View, settings: Settings) -> Step:
         return _refused(state, view, settings, queries.PREDICT, reply)
     if isinstance(reply, Step):
         return reply
+    if _doubtful(state, reply.prediction, settings):
+        warned = replace(state, prediction=reply.prediction, last=None, warned=True)
+        return Step(to(warned, Phase.DECIDING, view, pressed=False))
     return Step(to(state, Phase.STARTING, view, prediction=reply.prediction))
+
+
+def _doubtful(state: Workflow, prediction: Prediction, settings: Settings) -> bool:
+    """A person is asked before the robot alone tries what little is known of; a script is there to see it try."""
+    alone = state.mode is Mode.AUTONOMOUS and not settings.scripted
+    return alone and not state.warned and prediction.known < LITTLE
 
 
 def starting(state: Workflow, view: View, settings: Settings) -> Step:

@@ -8,9 +8,9 @@ import msgspec
 
 from protocol import queries
 from protocol.messages import Motion
+from services.bus.predictions import percent
 from services.station.workflow.asking import ask, not_done, to
-from services.station.workflow.episode import ORIGIN
-from services.station.workflow.state import Phase, Settings, Workflow
+from services.station.workflow.state import Phase, Settings, Taught, Workflow
 from services.station.workflow.view import Step, View
 
 
@@ -23,7 +23,7 @@ def learning(state: Workflow, view: View, settings: Settings) -> Step:
         state,
         view,
         queries.ADD_DEMONSTRATION,
-        lambda intent: _request(state, view, settings, learnable(taught, settings.autonomous_s), intent),
+        lambda intent: _request(taught, view, settings, intent),
     )
     match reply:
         case Step():
@@ -34,20 +34,22 @@ def learning(state: Workflow, view: View, settings: Settings) -> Step:
                 return Step(to(state, Phase.FINISHED, view, owed=None, reason=notice))
             return Step(to(state, Phase.DECIDING, view, owed=None, event=notice))
         case _:
-            learnt = replace(state, taught=None, last=None, refinements=0, updates=state.updates + 1)
-            event = "The model has learnt the correction."
+            learnt = replace(state, taught=None, last=None, refinements=0, updates=state.updates + 1, warned=False)
+            upto = "" if taught.whole else f" up to {percent(taught.part[1])} of the motion"
+            event = f"The model has learnt the correction{upto}."
             return Step(to(learnt, Phase.DECIDING, view, owed=None, event=event))
 
 
-def _request(state: Workflow, view: View, settings: Settings, motion: Motion, intent: int) -> queries.AddDemonstration:
+def _request(taught: Taught, view: View, settings: Settings, intent: int) -> queries.AddDemonstration:
     return queries.AddDemonstration(
         queries.Kind.UPDATE,
-        motion,
-        state.looked or ORIGIN,
+        learnable(taught.motion, settings.autonomous_s),
+        taught.object_position,
         view.scene.name if view.scene is not None else "",
-        state.condition,
+        taught.condition,
         operator=settings.operator,
         alpha=settings.alpha,
+        part=taught.part,
         request=intent,
     )
 
@@ -67,5 +69,5 @@ def undoing(state: Workflow, view: View, settings: Settings) -> Step:
         case queries.Refused(reason):
             return Step(to(state, Phase.DECIDING, view, owed=None, event=not_done(queries.UNDO, reason)))
         case _:
-            undone = replace(state, last=None, updates=state.updates - 1)
+            undone = replace(state, last=None, updates=state.updates - 1, warned=False)
             return Step(to(undone, Phase.DECIDING, view, owed=None, event="The newest update was taken back."))

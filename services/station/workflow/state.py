@@ -10,6 +10,9 @@ from protocol.messages import Attempt, Condition, Mode, Motion, Outcome, Vector3
 from protocol.queries import Adapt, Reset
 from services.station.workflow.closure import Closure
 
+WHOLE = (0.0, 1.0)
+"""All phases of a motion."""
+
 
 class Action(Enum):
     """What the operator may do."""
@@ -114,6 +117,28 @@ class Episode:
 
 
 @dataclass(frozen=True)
+class Taught:
+    """What a refinement has shown.
+
+    Attributes:
+        motion: that it commanded.
+        object_position: that the motion is relative to, base frame [m].
+        condition: that it was right for; empty where it is the object's.
+        part: first and last phase of the motion between which it was right.
+    """
+
+    motion: Motion
+    object_position: Vector3
+    condition: Condition = ()
+    part: tuple[float, float] = WHOLE
+
+    @property
+    def whole(self) -> bool:
+        """All of the motion was right."""
+        return self.part == WHOLE
+
+
+@dataclass(frozen=True)
 class Owed:
     """A request of the model's that was left unanswered: it is asked again with the same number, so done once."""
 
@@ -147,7 +172,8 @@ class Workflow:
         looked: where the object was seen [m]; the base frame's origin where there is none.
         condition: that the robot stood in then; empty where it is the object's.
         prediction: the newest.
-        taught: what the newest successful refinement commanded, while it can be learnt.
+        warned: the operator was told that little is known at this place; Execute executes all the same.
+        taught: what the newest refinement has shown, while it can be learnt.
         last: verdict of the newest episode at this place.
         refinements: attempts since the last update.
         updates: at this place.
@@ -181,7 +207,8 @@ class Workflow:
     looked: Vector3 | None = None
     condition: Condition = ()
     prediction: messages.Prediction | None = None
-    taught: Motion | None = None
+    warned: bool = False
+    taught: Taught | None = None
     last: Outcome | None = None
     refinements: int = 0
     updates: int = 0

@@ -19,14 +19,16 @@ _UNDER = frozenset({Phase.STOPPED, Phase.RELEASING})
 def caught(state: Workflow, view: View) -> Workflow | None:
     """The state under a stop that was pressed or latched; None where there is none, or it stands there already.
 
-    What the stop cut short is not learnt, whatever it looked like; what the model was already told is.
+    What the stop cut short is not learnt, whatever it looked like; what the model was already told is, and the part of
+    a refinement before it failed where the operator says so afterwards.
     """
     if state.phase in _UNDER and not (state.phase is Phase.RELEASING and view.stopping):
         return None
     if not (view.latched or view.stopping):
         return None
     told = bool(state.intent) if state.phase is Phase.LEARNING else state.owed is not None
-    return to(state, Phase.STOPPED, view, pressed=False, taught=state.taught if told else None)
+    kept = state.taught is not None and (told or not state.taught.whole)
+    return to(state, Phase.STOPPED, view, pressed=False, taught=state.taught if kept else None)
 
 
 def stopped(state: Workflow, view: View, settings: Settings) -> Step:

@@ -4,14 +4,27 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
+from lfd.exceptions import LfdError
+from lfd.motion.resampling import at_phases
+from lfd.motion.trajectory import Trajectory
 from protocol.messages import Attempt, Cut, EpisodeResult, Mode, Motion, Outcome
+from services.bus.arrays import motion_from_wire, motion_to_wire
+from services.process.exceptions import ServiceError
 from services.station.workflow.asking import to
 from services.station.workflow.episode import ORIGIN
-from services.station.workflow.state import Episode, Phase, Workflow
+from services.station.workflow.state import WHOLE, Episode, Phase, Taught, Workflow
 from services.station.workflow.view import View
 
 ATTEMPTS_KEPT = 100
 """More than one run until the loop has closed may have; a day's are told as they come, by number."""
+
+MARGIN = 0.05
+"""Share of a motion that is not learnt before it failed: the correction led to the failure by then."""
+
+SHORTEST = 0.1
+"""Share of a motion that is worth learning at least."""
 
 _STANDING = frozenset({Phase.STOPPED, Phase.RELEASING})
 _ATTENDING = frozenset({Phase.STARTING, Phase.EXECUTING})
@@ -42,11 +55,11 @@ def judged(state: Workflow, view: View) -> Workflow:
         closure=state.closure.after(attempt),
         last=outcome,
         refinements=state.refinements + (result.mode is Mode.REFINE),
-        taught=None if state.phase in _STANDING else _learnable(result, outcome, episode),
+        taught=_kept(state, _taught(state, result, outcome, episode)),
     )
     if state.phase not in _ATTENDING:
         return known
-    learns = known.taught is not None and result.completed
+    learns = known.taught is not None and known.taught.whole and result.completed
     return to(known, Phase.LEARNING if learns else Phase.DECIDING, view, pressed=False, event=_end(result))
 
 
@@ -54,15 +67,46 @@ def _end(result: EpisodeResult) -> str:
     return "" if result.completed else f"It did not run to its end: {result.reason}."
 
 
-def _learnable(result: EpisodeResult, outcome: Outcome, episode: Episode) -> Motion | None:
+def _kept(state: Workflow, taught: Taught | None) -> Taught | None:
+    """Under a stop what came to its end is not learnt either, whatever it looked like."""
+    return None if state.phase in _STANDING and taught is not None and taught.whole else taught
+
+
+def _taught(state: Workflow, result: EpisodeResult, outcome: Outcome, episode: Episode) -> Taught | None:
     """What a refinement has shown: all of it where it came to its end and succeeded.
 
     In the thesis every refinement ends with the space bar, and is learnt where it succeeded. Here a motion ends by
     itself, and the space bar says "satisfied" as well as "I give up": one that its operator finished early and that
-    succeeded can be learnt, but only once the operator says so. One that anything else cut short, a stop above all, is
-    not learnt.
+    succeeded can be learnt, but only once the operator says so. So can the part of one before it failed, was given up
+    or was stopped; what came after that, and what another station cut short, is not learnt.
     """
-    if result.mode is not Mode.REFINE or not outcome.success:
+    if result.mode is not Mode.REFINE:
         return None
     finished = episode.finishing and result.cut is Cut.FINISHED
-    return result.commanded if result.completed or finished else None
+    succeeded = outcome.success and (result.completed or finished)
+    part = WHOLE if succeeded else _part_before(result, finished=finished)
+    motion = result.commanded if succeeded or part is None else _of_all_phases(result)
+    if part is None or motion is None:
+        return None
+    return Taught(motion, state.looked or ORIGIN, state.condition, part)
+
+
+def _part_before(result: EpisodeResult, *, finished: bool) -> tuple[float, float] | None:
+    """The part of a refinement before it failed or was cut short; None where there is none to speak of.
+
+    One that came to its end and merely missed the target does not say where it went wrong.
+    """
+    cut = finished or result.cut is Cut.STOPPED
+    spoilt = result.clear_until < result.progress and (result.completed or cut)
+    last = min(result.clear_until, result.progress) - MARGIN
+    return (0.0, last) if result.operator_input and (cut or spoilt) and last >= SHORTEST else None
+
+
+def _of_all_phases(result: EpisodeResult) -> Motion | None:
+    """What was commanded, as a motion of all the prediction's phases: where it was cut short, it stood from then on."""
+    try:
+        commanded = Trajectory(*motion_from_wire(result.commanded))
+    except (LfdError, ServiceError):
+        return None  # of numbers that no robot sends
+    whole = at_phases(commanded, np.minimum(commanded.phases / result.progress, 1.0))
+    return motion_to_wire(whole.positions, whole.orientations, commanded.duration)

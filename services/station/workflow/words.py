@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from protocol.messages import Light, Mode, Outcome, RobotState, SafetyState, TeachingState
 from protocol.messages import Phase as RobotPhase
+from services.bus.predictions import certainty, way_taken
 from services.station.workflow.authority import another, missing
+from services.station.workflow.deciding import recommended
 from services.station.workflow.state import Action, Phase, Settings, Workflow
 from services.station.workflow.view import View
 
@@ -37,6 +39,7 @@ def teaching_state(state: Workflow, view: View, settings: Settings) -> TeachingS
         loop_closed=state.closure.closed,
         reason=state.reason,
         actions=tuple(sorted(action.value for action in state.offered)),
+        recommended=recommended(state, settings).value if state.phase is Phase.DECIDING and state.offered else "",
     )
 
 
@@ -108,8 +111,15 @@ def _finished(state: Workflow) -> str:
 
 def _deciding(state: Workflow) -> str:
     if state.taught is not None:
-        return f"{outcome_text(state.last)} Teach this, or discard it by going on." if state.last else "Teach this?"
-    return f"{outcome_text(state.last)} What next?" if state.last else "Ready. Press Execute."
+        shown = "this" if state.taught.whole else "what you showed before"
+        outcome = f"{outcome_text(state.last)} " if state.last else ""
+        return f"{outcome}Teach {shown}, or discard it by going on."
+    if state.last:
+        return f"{outcome_text(state.last)} What next?"
+    if state.warned and state.prediction is not None:
+        known = certainty(state.prediction)
+        return f"Little is known here ({known}): show the motion with Refine, or execute it all the same."
+    return "Ready. Press Execute."
 
 
 def _executing(state: Workflow, view: View) -> str:
@@ -122,7 +132,8 @@ def _executing(state: Workflow, view: View) -> str:
         ramps = robot.phase is RobotPhase.RAMP
         return "Wait: the robot goes to where the motion goes on." if ramps else "The motion has ended."
     if state.mode is Mode.AUTONOMOUS:
-        return "The robot executes the prediction. Watch."
+        way = way_taken(state.prediction.way) if state.prediction is not None else ""
+        return f"The robot executes the prediction{f' ({way})' if way else ''}. Watch."
     if _collided(view):
         return "The robot has touched something: this attempt has failed. Finish it, or let it end."
     return "Let go of the keys: they count from then on." if state.let_go else "Correct the motion now."
