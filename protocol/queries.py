@@ -17,6 +17,7 @@ from protocol.messages import (
     ModelState,
     Motion,
     Name,
+    Part,
     Pose,
     Prediction,
     Text,
@@ -178,7 +179,7 @@ class AddDemonstration(Change, frozen=True):
         condition: the external state that it was right for; empty for the object relative to the motion's start.
         operator: who gave it; empty where nobody did.
         alpha: of eq. 18, how far the prediction is moved towards the motion; 1 learns the motion itself.
-        part: first and last phase of the motion, from 0 to 1, between which it was right; the rest stays as predicted.
+        part: of the motion that was right; the rest stays as predicted.
     """
 
     kind: Kind
@@ -188,12 +189,7 @@ class AddDemonstration(Change, frozen=True):
     condition: Condition = ()
     operator: Name = ""
     alpha: Fraction = 1.0
-    part: tuple[Fraction, Fraction] = (0.0, 1.0)
-
-    def __post_init__(self) -> None:
-        first, last = self.part
-        if not first < last:
-            raise ValueError(f"the part from phase {first:g} to {last:g} is empty")
+    part: Part = Part()
 
 
 class Undo(Change, frozen=True):

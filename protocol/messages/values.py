@@ -77,6 +77,17 @@ class Motion(msgspec.Struct, frozen=True):
             raise ValueError("a motion's arrays are '<f8'")
 
 
+class Part(msgspec.Struct, frozen=True):
+    """A part of a motion: its first and last phase, each from 0 to 1; the whole one by default."""
+
+    first: Fraction = 0.0
+    last: Fraction = 1.0
+
+    def __post_init__(self) -> None:
+        if not self.first < self.last:
+            raise ValueError(f"the part from phase {self.first:g} to {self.last:g} is empty")
+
+
 class Message(msgspec.Struct, frozen=True, kw_only=True):
     """What every message on a topic carries; the bus fills it in.
 

@@ -203,9 +203,10 @@ def _demonstration(request: AddDemonstration, at_s: float) -> Demonstration:
     motion = Trajectory(*motion_from_wire(request.motion))
     origin = np.array(request.object_position, dtype=np.float64)
     provenance = Provenance(request.operator, at_s, request.alpha)
+    part = request.part.first, request.part.last
     if request.condition:
-        return Demonstration(motion, origin, np.array(request.condition), provenance, request.part)
-    return replace(Demonstration.reaching(motion, origin, provenance), part=request.part)
+        return Demonstration(motion, origin, np.array(request.condition), provenance, part)
+    return replace(Demonstration.reaching(motion, origin, provenance), part=part)
 
 
 def _situation(request: Predict) -> Situation:

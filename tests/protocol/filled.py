@@ -6,12 +6,14 @@ import typing
 
 import msgspec
 
-from protocol.messages import Array, Motion, Pose
+from protocol.messages import Array, Motion, Part, Pose, Way
 
 EXAMPLES = {
     Pose: Pose((0.1, 0.2, 0.3), (1.0, 0.0, 0.0, 0.0)),
     Array: Array("<f8", (1, 2), b"\0" * 16),
     Motion: Motion(Array("<f8", (2, 3), b"\0" * 48), Array("<f8", (2, 4), b"\0" * 64), 1.0),
+    Part: Part(0.25, 0.75),
+    Way: Way(1, 2, 0.75),
     bool: True,
     int: 7,
     float: 0.5,

@@ -35,7 +35,7 @@ def learning(state: Workflow, view: View, settings: Settings) -> Step:
             return Step(to(state, Phase.DECIDING, view, owed=None, event=notice))
         case _:
             learnt = replace(state, taught=None, last=None, refinements=0, updates=state.updates + 1, warned=False)
-            upto = "" if taught.whole else f" up to {percent(taught.part[1])} of the motion"
+            upto = "" if taught.whole else f" up to {percent(taught.part.last)} of the motion"
             event = f"The model has learnt the correction{upto}."
             return Step(to(learnt, Phase.DECIDING, view, owed=None, event=event))
 

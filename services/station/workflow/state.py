@@ -6,11 +6,11 @@ from dataclasses import dataclass, field
 from enum import Enum
 
 from protocol import messages
-from protocol.messages import Attempt, Condition, Mode, Motion, Outcome, Vector3
+from protocol.messages import Attempt, Condition, Mode, Motion, Outcome, Part, Vector3
 from protocol.queries import Adapt, Reset
 from services.station.workflow.closure import Closure
 
-WHOLE = (0.0, 1.0)
+WHOLE = Part()
 """All phases of a motion."""
 
 
@@ -124,13 +124,13 @@ class Taught:
         motion: that it commanded.
         object_position: that the motion is relative to, base frame [m].
         condition: that it was right for; empty where it is the object's.
-        part: first and last phase of the motion between which it was right.
+        part: of the motion that was right.
     """
 
     motion: Motion
     object_position: Vector3
     condition: Condition = ()
-    part: tuple[float, float] = WHOLE
+    part: Part = WHOLE
 
     @property
     def whole(self) -> bool:

@@ -9,7 +9,7 @@ import numpy as np
 from lfd.exceptions import LfdError
 from lfd.motion.resampling import at_phases
 from lfd.motion.trajectory import Trajectory
-from protocol.messages import Attempt, Cut, EpisodeResult, Mode, Motion, Outcome
+from protocol.messages import Attempt, Cut, EpisodeResult, Mode, Motion, Outcome, Part
 from services.bus.arrays import motion_from_wire, motion_to_wire
 from services.process.exceptions import ServiceError
 from services.station.workflow.asking import to
@@ -91,7 +91,7 @@ def _taught(state: Workflow, result: EpisodeResult, outcome: Outcome, episode: E
     return Taught(motion, state.looked or ORIGIN, state.condition, part)
 
 
-def _part_before(result: EpisodeResult, *, finished: bool) -> tuple[float, float] | None:
+def _part_before(result: EpisodeResult, *, finished: bool) -> Part | None:
     """The part of a refinement before it failed or was cut short; None where there is none to speak of.
 
     One that came to its end and merely missed the target does not say where it went wrong.
@@ -99,7 +99,7 @@ def _part_before(result: EpisodeResult, *, finished: bool) -> tuple[float, float
     cut = finished or result.cut is Cut.STOPPED
     spoilt = result.clear_until < result.progress and (result.completed or cut)
     last = min(result.clear_until, result.progress) - MARGIN
-    return (0.0, last) if result.operator_input and (cut or spoilt) and last >= SHORTEST else None
+    return Part(0.0, last) if result.operator_input and (cut or spoilt) and last >= SHORTEST else None
 
 
 def _of_all_phases(result: EpisodeResult) -> Motion | None:

@@ -53,6 +53,7 @@ class Site:
         self.asked = []
         self.numbers = 0
         self.instead = {}
+        self.certainty = {}
         self.view = View(
             now_s=0.0,
             number=0,
@@ -107,6 +108,7 @@ class Site:
                         deviations=to_wire([[0.0] * 3] * 2),
                         model_version=self.version,
                         object_position=ask.request.object_position,
+                        **self.certainty,
                     )
                 )
             case queries.ADD_DEMONSTRATION | queries.UNDO:

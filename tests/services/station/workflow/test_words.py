@@ -5,11 +5,12 @@ from dataclasses import replace
 import msgspec
 import pytest
 
-from protocol.messages import Light, Mode, Outcome, RobotState, SafetyState, Verdict
+from protocol.messages import Light, Mode, Outcome, Part, RobotState, SafetyState, Verdict, Way
 from services.station.workflow.closure import Closure
-from services.station.workflow.state import Action, Episode, Phase, Workflow
+from services.station.workflow.state import Action, Episode, Phase, Taught, Workflow
 from services.station.workflow.view import View
 from services.station.workflow.words import outcome_text, teaching_state
+from tests.services.predictions import prediction
 from tests.services.station.workflow.site import (
     BY_HAND,
     COLLIDED,
@@ -26,6 +27,8 @@ from tests.services.station.workflow.site import (
 
 REFINING = Workflow(phase=Phase.EXECUTING, mode=Mode.REFINE, episode=Episode(1, 0, 1))
 ALONE = replace(REFINING, mode=Mode.AUTONOMOUS)
+TAUGHT = Taught(MOTION, (0.8, 0.0, 0.6))
+HARDLY_KNOWN = msgspec.structs.replace(prediction(MOTION), known=0.2, way=Way(1, 2, 0.8))
 HIT = Verdict(reached=False, kicked_over=False, collision=True)
 
 
@@ -56,12 +59,31 @@ def told(state, **seen):
         (Workflow(phase=Phase.DECIDING), {}, Light.GREEN, "Ready. Press Execute."),
         (Workflow(phase=Phase.DECIDING, last=REACHED), {}, Light.GREEN, "The target was reached. What next?"),
         (
-            Workflow(phase=Phase.DECIDING, last=REACHED, taught=MOTION),
+            Workflow(phase=Phase.DECIDING, last=REACHED, taught=TAUGHT),
             {},
             Light.GREEN,
             "The target was reached. Teach this, or discard it by going on.",
         ),
-        (Workflow(phase=Phase.DECIDING, taught=MOTION), {}, Light.GREEN, "Teach this?"),
+        (Workflow(phase=Phase.DECIDING, taught=TAUGHT), {}, Light.GREEN, "Teach this, or discard it by going on."),
+        (
+            Workflow(phase=Phase.DECIDING, last=COLLIDED, taught=replace(TAUGHT, part=Part(0.0, 0.5))),
+            {},
+            Light.GREEN,
+            "The robot collided, the target was not reached. Teach what you showed before, or discard it by going on.",
+        ),
+        (
+            Workflow(phase=Phase.DECIDING, warned=True, prediction=HARDLY_KNOWN),
+            {},
+            Light.GREEN,
+            "Little is known here (20 % known, way 2 of 2, 80 %): show the motion with Refine, or execute it all the"
+            " same.",
+        ),
+        (
+            replace(ALONE, prediction=HARDLY_KNOWN),
+            {"robot": robot(EXECUTE)},
+            Light.RED,
+            "The robot executes the prediction (way 2 of 2, 80 %). Watch.",
+        ),
         (Workflow(phase=Phase.LEARNING), {}, Light.AMBER, "The model learns from the correction."),
         (Workflow(phase=Phase.FINISHED, reason="ended by hand"), {}, Light.AMBER, "Ended: ended by hand."),
         (
@@ -144,6 +166,24 @@ def test_the_state_tells_counts_offers_and_the_end():
     assert (teaching.refinements, teaching.refinements_allowed) == (2, BY_HAND.refinements_allowed)
     assert (teaching.updates, teaching.updates_allowed) == (3, BY_HAND.updates_allowed)
     assert teaching.actions == ("execute", "refine")
+    assert teaching.recommended == ""
+
+
+@pytest.mark.parametrize(
+    ("state", "action"),
+    [
+        (Workflow(), "execute"),
+        (Workflow(warned=True), "refine"),
+        (Workflow(last=COLLIDED), "refine"),
+        (Workflow(last=REACHED), "next"),
+        (Workflow(last=REACHED, taught=TAUGHT), "teach"),
+        (Workflow(last=COLLIDED, taught=replace(TAUGHT, part=Part(0.0, 0.5))), "refine"),
+    ],
+)
+def test_what_is_recommended_is_told_while_there_is_a_choice(state, action):
+    asked = replace(state, phase=Phase.DECIDING, offered=frozenset({Action.EXECUTE, Action.REFINE}))
+    assert teaching_state(asked, View(now_s=1.0, number=1), BY_HAND).recommended == action
+    assert teaching_state(replace(asked, offered=frozenset()), View(now_s=1.0, number=1), BY_HAND).recommended == ""
 
 
 @pytest.mark.parametrize("phase", Phase)
