@@ -1,6 +1,7 @@
 """The model process: what it has acknowledged is on disk, and what it cannot do it refuses."""
 
 import sqlite3
+from dataclasses import replace
 from datetime import UTC, datetime
 
 import msgspec
@@ -8,10 +9,11 @@ import numpy as np
 import pytest
 
 from lfd.exceptions import StorageError
+from lfd.models.model import Way
 from lfd.store import connection
 from lfd.store.database import DemonstrationStore
 from protocol import messages, queries, topics
-from protocol.messages import Pose
+from protocol.messages import Part, Pose
 from protocol.queries import AddDemonstration, Kind, Learnt, Predicted, Undo
 from services.bus.arrays import motion_from_wire, motion_to_wire
 from services.bus.memory import MemoryNetwork
@@ -127,6 +129,48 @@ def test_a_correction_that_is_half_believed_moves_the_prediction_half_the_way(ri
     rig.teach(Kind.UPDATE, bend=0.1, alpha=0.5)
     raised = positions(rig.predict())[:, 2] - motion_from_wire(before.motion)[0][:, 2]
     assert np.max(raised) == pytest.approx(0.05, abs=0.005)
+
+
+def test_a_prediction_says_how_much_of_it_is_known(rig):
+    for y in (0.05, 0.1):
+        rig.teach(Kind.INITIAL, at=(0.85, y, 0.55))
+    shares = [rig.predict((0.85, y, 0.55)).prediction.known for y in (0.05, 0.15, 0.3, 0.5)]
+    assert shares[0] == 1.0
+    assert shares == sorted(shares, reverse=True)
+    assert shares[-1] < 0.1
+
+
+def test_a_prediction_says_which_of_several_ways_it_takes(rig, monkeypatch):
+    rig.teach(Kind.INITIAL)
+    predict = type(rig.service._model).predict
+    monkeypatch.setattr(
+        type(rig.service._model), "predict", lambda *asked: replace(predict(*asked), known=0.6, way=Way(1, 2, 0.8))
+    )
+    prediction = rig.predict().prediction
+    assert prediction.way == messages.Way(1, 2, 0.8)
+    assert prediction.known == 0.6
+
+
+@pytest.mark.parametrize("kind", ["adaptive", "promp"])
+def test_a_correction_of_a_part_leaves_the_rest_now_and_when_it_is_learnt_anew(path, kind):
+    rig = Rig(path, kind)
+    rig.teach(Kind.INITIAL)
+    before = positions(rig.predict())
+    rig.teach(Kind.UPDATE, bend=0.1, part=Part(0.0, 0.5))
+    corrected = positions(rig.predict())
+    rig.service.close()
+    again = Rig(path, kind)
+    np.testing.assert_allclose(positions(again.predict()), corrected, atol=1e-12)
+    again.service.close()
+    raised = corrected[:, 2] - before[:, 2]
+    assert raised[30] > 0.04
+    np.testing.assert_allclose(raised[55:], 0.0, atol=3e-3)
+
+
+def test_a_model_does_not_begin_with_a_part_of_a_motion(rig):
+    assert "whole motions" in rig.teach(Kind.INITIAL, part=Part(0.0, 0.5)).reason
+    assert "whole motions" in rig.teach(Kind.UPDATE, part=Part(0.0, 0.5)).reason
+    assert rig.described().version == 0
 
 
 def test_a_correction_is_stored_whole_with_its_author_its_time_and_how_far_it_is_believed(rig, path):

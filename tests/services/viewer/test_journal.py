@@ -1,7 +1,11 @@
 """What the viewer says in words."""
 
-from protocol.messages import Light, Mode, Phase, Pose, RobotState, TeachingState, Verdict
+import msgspec
+
+from protocol.messages import Light, Mode, Phase, Pose, RobotState, TeachingState, Verdict, Way
+from services.bus.arrays import motion_to_wire
 from services.viewer.journal import Journal
+from tests.services.predictions import prediction
 
 HERE = Pose((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
 SECOND = 1_000_000_000
@@ -55,6 +59,17 @@ def test_a_verdict_says_what_changed_only():
     list(journal.verdict(Verdict(reached=False, kicked_over=False, collision=False), 0))
     (entry,) = journal.verdict(Verdict(reached=False, kicked_over=False, collision=True, collision_force=31.4), 1)
     assert entry == ("collision, 31 N", "ERROR")
+
+
+def test_what_is_known_of_a_prediction_is_said_once_and_little_of_it_as_a_warning():
+    journal = Journal()
+    sure = prediction(motion_to_wire([[0.0] * 3, [1.0] * 3], [[1.0, 0.0, 0.0, 0.0]] * 2, 1.0))
+    unsure = msgspec.structs.replace(sure, known=0.2, way=Way(0, 2, 0.6))
+    entries = [entry for one in (sure, sure, unsure, unsure) for entry in journal.prediction(one)]
+    assert entries == [
+        ("prediction of model version 1: 100 % known", "INFO"),
+        ("prediction of model version 1: 20 % known, way 1 of 2, 60 %", "WARN"),
+    ]
 
 
 def test_teaching_is_said_in_its_own_words():

@@ -32,7 +32,7 @@ def test_every_action_of_the_workflow_has_a_button():
 
 def test_a_button_can_be_pressed_where_the_workflow_offers_it():
     values = actions(shown(teaching=teaching(actions=("finish", "undo"))))
-    assert {name for name, disabled in values.items() if not disabled} == {
+    assert {name for name, disabled in values.items() if disabled is False} == {
         "action-finish@disabled",
         "action-undo@disabled",
     }
@@ -40,6 +40,12 @@ def test_a_button_can_be_pressed_where_the_workflow_offers_it():
 
 def test_before_the_workflow_is_heard_no_button_can_be_pressed():
     assert all(actions(shown()).values())
+
+
+def test_what_is_recommended_stands_out():
+    values = actions(shown(teaching=teaching(actions=("execute", "refine"), recommended="refine")))
+    assert [name for name, value in values.items() if value == "yes"] == ["action-refine@data-first"]
+    assert "yes" not in actions(shown()).values()
 
 
 @pytest.mark.parametrize(

@@ -2,11 +2,16 @@
 
 from dataclasses import replace
 
+import msgspec
 import pytest
 from views import SEATED, shown, teaching
 
-from protocol.messages import AuthorityState, Light, Recording, SafetyState, Verdict
+from protocol.messages import AuthorityState, Light, Recording, SafetyState, Verdict, Way
+from services.bus.arrays import motion_to_wire
 from services.station.page.panels import counters, header, scene, traffic_light, verdict
+from tests.services.predictions import prediction
+
+MOTION = motion_to_wire([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], [[1.0, 0.0, 0.0, 0.0]] * 2, 1.0)
 
 LOOKING_ON = replace(SEATED, armed=False)
 NOT_COUNTING = replace(SEATED, let_go=True)
@@ -59,6 +64,26 @@ def test_the_authority_is_the_reader_s_only_where_s_he_has_the_input(mine, stand
 
 def test_an_authority_that_nobody_holds_is_nobody_s():
     assert header(shown(), SEATED)["chip-authority-text"] == "nobody"
+
+
+@pytest.mark.parametrize(
+    ("certainty", "words", "tone"),
+    [
+        ({}, "100 % known", "good"),
+        ({"known": 0.5}, "50 % known", "good"),
+        ({"known": 0.2}, "20 % known", "warn"),
+        ({"known": 0.6, "way": Way(1, 2, 0.8)}, "60 % known, way 2 of 2, 80 %", "good"),
+    ],
+)
+def test_a_prediction_is_told_by_what_is_known_and_which_way_it_takes(certainty, words, tone):
+    told = msgspec.structs.replace(prediction(MOTION), **certainty)
+    values = header(shown(prediction=told), SEATED)
+    assert (values["chip-prediction-text"], values["chip-prediction@data-tone"]) == (words, tone)
+
+
+def test_without_a_prediction_nothing_is_said_of_it():
+    values = header(shown(), SEATED)
+    assert (values["chip-prediction-text"], values["chip-prediction@data-tone"]) == ("none", "none")
 
 
 def test_the_live_view_is_told_with_its_recording_and_what_is_wrong_with_it():
