@@ -155,7 +155,14 @@ OBJECT_POSE = Topic(
     "state/object_pose", messages.ObjectPose, 15.0, QoS.STATE, "perception", 1_536, "the object as the camera sees it"
 )
 PREDICTION = Topic(
-    "model/prediction", messages.Prediction, 1.0, QoS.EVENT, "model", 1_048_576, "the newest prediction", kept=16
+    "model/prediction",
+    messages.Prediction,
+    1.0,
+    QoS.EVENT,
+    "model",
+    1_048_576,
+    "the newest prediction, how much of it is known, and which way it takes",
+    kept=16,
 )
 MODEL_STATE = Topic("model/state", messages.ModelState, 1.0, QoS.STATE, "model", 2_048, "the model as it lies on disk")
 TEACHING_STATE = Topic(
