@@ -13,6 +13,7 @@ import numpy as np
 
 from protocol import messages
 from protocol.messages import Figure, Light, Phase, Pose
+from services.bus.arrays import motion_to_wire, to_wire
 from services.process.clock import SystemClock
 from services.process.config import StationSection
 from services.station.page.page import Page
@@ -56,6 +57,14 @@ def working_view() -> PageView:
         authority=messages.AuthorityState(holder="station", epoch=4, expires_in=0.9),
         authority_is_mine=True,
         model=messages.ModelState(kind="adaptive", version=7, demonstrations=12, updates=1, scene="dishwasher"),
+        prediction=messages.Prediction(
+            motion=motion_to_wire([[0.5, 0.0, 0.4], [0.8, 0.1, 0.5]], [[1.0, 0.0, 0.0, 0.0]] * 2, 10.0),
+            deviations=to_wire([[0.01] * 3] * 2),
+            model_version=7,
+            object_position=POSE.position,
+            known=0.6,
+            way=messages.Way(1, 2, 0.8),
+        ),
         object_pose=messages.ObjectPose(pose=POSE, tag=582, error=0.0021, pictures=9),
         head=Picture(picture("head"), 0.02),
         wrist=Picture(picture("wrist"), 0.02),

@@ -82,6 +82,25 @@ def test_an_allowed_button_arrives_and_another_cannot_be_pressed(tab, station, e
     assert taken == ["undo"]
 
 
+def test_where_little_is_known_it_is_said_and_what_is_recommended_stands_out(tab, station):
+    _, feed = station
+    asking = {
+        "phase": "deciding",
+        "text": "Little is known here (12 % known, way 2 of 2, 55 %): show the motion with Refine, or execute it all"
+        " the same.",
+        "actions": ("end", "execute", "next", "refine", "undo"),
+        "recommended": "refine",
+    }
+    hardly_known = msgspec.structs.replace(feed.view.prediction, known=0.12)
+    feed.view = replace(
+        feed.view, teaching=msgspec.structs.replace(feed.view.teaching, **asking), prediction=hardly_known
+    )
+    tab.page.wait_for_selector(".light-text:has-text('Little is known here')")
+    tab.page.wait_for_selector("[data-chip=prediction][data-tone=warn] :text-is('12 % known, way 2 of 2, 80 %')")
+    tab.wait(".action[data-action=refine][data-first=yes]:enabled")
+    tab.wait(".action[data-action=execute][data-first=no]:enabled")
+
+
 def test_stale_data_is_shown(tab, station):
     _, feed = station
     tab.page.wait_for_selector("[data-chip=age][data-tone=good]")
