@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import logging
+import os
 import re
+import socket
 import threading
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import zenoh
@@ -77,11 +81,25 @@ def open_router(listen: str, connect: str | None = None) -> zenoh.Session:
     trip = probe(parse(connect)) if connect else 0.0
     open_ms = open_timeout_ms(0.0 if isinstance(trip, Silence) else trip)
     try:
-        return zenoh.open(_configuration("router", connect, listen, open_ms))
+        session = zenoh.open(_configuration("router", connect, listen, open_ms))
     except zenoh.ZError as error:
         if "listener bound to" in str(error):
             raise EndpointInUse(listen) from None
         raise BusError(f"cannot open a router on {listen}: {reason(error)}") from None
+    _give_up_with_the_lease()
+    return session
+
+
+def _give_up_with_the_lease() -> None:
+    """Let the kernel give up what cannot be delivered over an accepted link as soon as the lease does.
+
+    Zenoh closes a link with SO_LINGER, which holds up one of its few threads, and with it other links, until TCP has
+    sent the rest once more: up to seconds after a link that was cut is back. Accepted sockets inherit the time.
+    """
+    for file in list(Path("/proc/self/fd").iterdir()):
+        with contextlib.suppress(OSError), socket.socket(fileno=os.dup(int(file.name))) as listener:
+            if listener.getsockopt(socket.SOL_SOCKET, socket.SO_ACCEPTCONN):
+                listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT, LEASE_MS)
 
 
 def open_session(
