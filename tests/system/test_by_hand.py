@@ -19,6 +19,7 @@ playwright = pytest.importorskip("playwright.sync_api")
 pytestmark = [pytest.mark.system, pytest.mark.browser, pytest.mark.zenoh, pytest.mark.sim]
 
 EPISODE_S = 120.0
+TRIES = 3
 AXES = (("q", "a"), ("w", "s"), ("e", "d"))
 TOLERANCE_M = 0.008
 LEAD = 0.03
@@ -40,6 +41,10 @@ class Person:
         self._execution = witness.bus.subscribe(topics.EXECUTION)
         self._seen = witness.bus.subscribe(topics.OBJECT_POSE)
         self._held = set()
+        self._correction = None
+
+    def begin(self):
+        """Another motion to correct."""
         self._correction = None
 
     def look(self):
@@ -107,16 +112,25 @@ def test_one_correction_by_keyboard_is_learnt(tmp_path, page):
         page.goto(f"http://{station.host}:{station.port}/")
 
         person = Person(page, witness)
-        press(page, "execute")
-        teaching = eventually(lambda: person.look() or decides(page, witness, 1), EPISODE_S, up.tail)
-        assert teaching.attempts[0].verdict.collision
-        press(page, "refine")
-        teaching = eventually(lambda: person.look() or decides(page, witness, 2), EPISODE_S, up.tail)
-        assert teaching.updates == 1
-        press(page, "execute")
-        teaching = eventually(lambda: person.look() or decides(page, witness, 3), EPISODE_S, up.tail)
 
-        _, refined, last = teaching.attempts
+        def decided(attempts):
+            return eventually(lambda: person.look() or decides(page, witness, attempts), EPISODE_S, up.tail)
+
+        press(page, "execute")
+        teaching = decided(1)
+        assert teaching.attempts[0].verdict.collision
+        made = 1
+        while not teaching.updates:  # where a hand comes too late on a busy machine, it tries again
+            assert made <= TRIES, up.tail()
+            made += 1
+            person.begin()
+            press(page, "refine")
+            teaching = decided(made)
+        press(page, "execute")
+        teaching = decided(made + 1)
+
+        *_, refined, last = teaching.attempts
+        assert teaching.updates == 1
         assert refined.operator_input
         assert refined.verdict.success
         assert last.verdict.success
