@@ -1,6 +1,7 @@
 """Nothing that arrives on a network stops a process, moves the robot or changes what is known."""
 
 import random
+import secrets
 from collections import Counter
 
 import msgpack
@@ -29,6 +30,7 @@ QUIET_BEATS = 4
 REPEATS = 10
 LARGE_REPEATS = 2
 EPISODE_S = 60.0
+MARK = "mark"
 STILL_RAD = 1e-3
 
 
@@ -39,17 +41,24 @@ SOURCE_OF_ANY = "robot"
 class Network:
     """A whole system that waits for its operator, a stranger on its network, and what passed on each topic."""
 
-    def __init__(self, up, witness, stranger, samples):
+    def __init__(self, up, witness, stranger, samples, marks):
         self.up = up
         self.witness = witness
         self.stranger = stranger
         self.samples = samples
+        self._marks = marks
 
     def send(self, topic, payloads, schema=None):
         """Under the key of a process that publishes the topic, as a stranger can."""
         source = topic.publisher if topic.publisher != "any" else SOURCE_OF_ANY
         for payload in payloads:
             self.stranger.put(topic.key("robot1", source), payload, topic.schema if schema is None else schema)
+
+    def passed(self):
+        """Wait until what was sent has gone through the router: a link that is full for long is closed."""
+        mark = secrets.token_bytes(8)
+        self.stranger.put(MARK, mark)
+        eventually(lambda: self._marks and self._marks[-1].payload == mark, START_S, "what was sent has passed")
 
     def publish(self, topic, message):
         """A sound message, of a sender that nobody knows."""
@@ -78,6 +87,7 @@ def network(tmp_path_factory):
         Command("up", "--fresh", "--no-browser", "--config", configuration, folder=folder) as up,
         Witness(endpoint) as witness,
         Stranger(endpoint) as stranger,
+        Stranger(endpoint) as hearer,
         Somebody(station.host, station.port) as somebody,
     ):
         newest = {}
@@ -97,7 +107,9 @@ def network(tmp_path_factory):
             if topic.publisher == "any":
                 fields = msgpack.unpackb(samples[topic.name]) | {"process": SOURCE_OF_ANY}
                 samples[topic.name] = msgpack.packb(fields)
-        network = Network(up, witness, stranger, samples)
+        marks = hearer.listen(MARK)
+        stranger.listened(MARK)
+        network = Network(up, witness, stranger, samples, marks)
         # A process that came up after the only prediction was made has not heard it yet.
         network.send(topics.PREDICTION, [samples[topics.PREDICTION.name]])
         yield network
@@ -160,6 +172,7 @@ def test_every_topic_drops_and_counts_what_is_no_message(network, unmoved):
             for cause, payloads in kinds_of_garbage(topic, sample, rng).items():
                 network.send(topic, payloads, schema=garbage.ANOTHER_VERSION if cause == "wrong_version" else None)
                 sent[topic.name, cause] += len(payloads)
+            network.passed()
             foreign = topic.key("robot1", "stranger").replace("@v1", "@v9")
             network.stranger.put(foreign, sample, topic.schema)
     assert sent.total() > 10_000
