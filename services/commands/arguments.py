@@ -85,6 +85,14 @@ def position(text: str) -> Vector3:
     return (x, y, z)
 
 
+def place(text: str) -> tuple[float, ...]:
+    """A target's place in a scene: X,Y,Z of an object [m], or as many numbers as it has."""
+    try:
+        return tuple(finite(part) for part in text.split(","))
+    except ValueError:
+        raise ArgumentTypeError(f"must be numbers in metres, such as 0.86,0.20,0.553, not {text!r}") from None
+
+
 def finite(text: str) -> float:
     """The number.
 

@@ -34,8 +34,9 @@ class Plan:
         demonstrations: that the model starts from, in the base frame.
         taught: conditions, in the order in which Algorithm 1 goes through them.
         executed: conditions of the second round, without teaching.
-        seed: of the operator's tremor and of the eyes' error.
+        seed: of all that the operator does not mean, and of the eyes' error.
         exaggeration: of the operator's corrections; 1 is natural.
+        scatter: of the operator, see `Scripted` [m].
         refinements_allowed: attempts at one update.
         updates_allowed: under one condition.
     """
@@ -47,6 +48,7 @@ class Plan:
     executed: tuple[Arrangement, ...] = ()
     seed: int = 0
     exaggeration: float = 1.0
+    scatter: float = Scripted().scatter
     refinements_allowed: int = 10
     updates_allowed: int = 8
 
@@ -55,7 +57,7 @@ class Plan:
         return Configuration(
             seed=self.seed,
             robot=RobotSection(scene=self.scene),
-            master=MasterSection(device=Scripted(exaggeration=self.exaggeration)),
+            master=MasterSection(device=Scripted(exaggeration=self.exaggeration, scatter=self.scatter)),
             model=ModelSection(kind=self.kind, database=str(database)),
             station=StationSection(scripted=True, once=True, updates_allowed=self.updates_allowed),
         )

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from lfd.motion.trajectory import Trajectory
 from protocol.messages import Condition, EpisodeResult, Mode, Motion, Pose, Vector3, Verdict
 from protocol.queries import Reset
-from services.bus.arrays import motion_from_wire
+from services.bus.arrays import motion_from_wire, vector3
 
 
 @dataclass(frozen=True)
@@ -29,6 +29,17 @@ class Arrangement:
     object_position: Vector3 | None = None
     start: Pose | None = None
     condition: Condition | None = None
+
+    @classmethod
+    def of(cls, variant: str, place: tuple[float, ...], *, has_object: bool) -> Arrangement:
+        """Of a target at a place, as the scene counts it.
+
+        Args:
+            variant: of the scene.
+            place: of the target, shape (d,) [m].
+            has_object: the scene has an object there; else it is a condition.
+        """
+        return cls(variant, vector3(np.array(place))) if has_object else cls(variant, condition=place)
 
     @property
     def place(self) -> NDArray[np.float64]:

@@ -12,10 +12,12 @@ from scipy.stats import qmc
 
 from protocol.messages import Vector3
 from services.bus.arrays import vector3
+from services.offline.proportion import Proportion
 from sim.pose import Pose
-from sim.tasks.scene import ReachingScene
+from sim.tasks import AnyScene
 
 Array = NDArray[np.float64]
+Target = tuple[float, ...]
 
 
 class Ending(Enum):
@@ -32,14 +34,14 @@ class Setting(msgspec.Struct, frozen=True):
     """A condition of a map.
 
     Attributes:
-        object_position: of the object's centre, base frame [m].
+        target: place of the target: centre of the object, or y of the via-points, shape (d,) [m].
         offset: of the start from the scene's own, base axes [m].
     """
 
-    object_position: Vector3
+    target: Target
     offset: Vector3 = (0.0, 0.0, 0.0)
 
-    def start(self, scene: ReachingScene) -> Pose:
+    def start(self, scene: AnyScene) -> Pose:
         """Of the motion; the orientation is the scene's."""
         return Pose(scene.start.position + np.array(self.offset), scene.start.orientation)
 
@@ -56,13 +58,15 @@ class Trial(msgspec.Struct, frozen=True):
     touched: tuple[str, str] | None = None
 
 
+_CANDIDATES = 8  # about the square root of how many places a correction is sought among
+
 UNREACHABLE = Trial(Ending.UNREACHABLE)
 
 
 class Condition(msgspec.Struct, frozen=True):
-    """A place, and what became of the prediction there at each stage of the model."""
+    """A setting, and what became of the prediction there at each stage of the model."""
 
-    place: Setting
+    setting: Setting
     trials: tuple[Trial, ...]
 
 
@@ -73,8 +77,10 @@ class SuccessMap(msgspec.Struct, frozen=True):
         scene: by name.
         variant: of the scene.
         kind: of the model.
-        corrections: that the model had learnt at each stage, growing.
+        corrections: that the model had learnt at each stage, growing; the most that anybody gave.
         conditions: that were tried.
+        corrected: places of the corrections, in the order in which they were given; the first person's.
+        people: who corrected, one after another; their models took turns at the conditions.
     """
 
     scene: str
@@ -82,6 +88,8 @@ class SuccessMap(msgspec.Struct, frozen=True):
     kind: str
     corrections: tuple[int, ...]
     conditions: tuple[Condition, ...]
+    corrected: tuple[Target, ...] = ()
+    people: int = 1
 
     def count(self, stage: int, outcome: Ending) -> int:
         """Conditions with an outcome at a stage."""
@@ -96,11 +104,12 @@ class SuccessMap(msgspec.Struct, frozen=True):
         """What came out, in a line."""
         reachable = self.reachable
         reached = [self.count(stage, Ending.REACHED) for stage in range(len(self.corrections))]
-        said = f"{reached[-1]} of {reachable} reachable conditions succeed ({_percent(reached[-1], reachable)})"
+        said = f"{reached[-1]} of {reachable} reachable conditions succeed ({Proportion(reached[-1], reachable)})"
         if len(reached) == 1:
             return f"{stage_name(self.corrections[0])}: {said}"
-        before = f"{reached[0]} ({_percent(reached[0], reachable)})"
-        return f"{stage_name(self.corrections[-1])}: {said}; {stage_name(self.corrections[0], before=True)}: {before}"
+        before = f"{reached[0]} ({Proportion(reached[0], reachable)})"
+        after = stage_name(self.corrections[-1]) + (f" by each of {self.people} people" if self.people > 1 else "")
+        return f"{after}: {said}; {stage_name(self.corrections[0], before=True)}: {before}"
 
 
 def stage_name(corrections: int, *, before: bool = False) -> str:
@@ -115,11 +124,11 @@ def stage_name(corrections: int, *, before: bool = False) -> str:
     return f"after {corrections} correction{'' if corrections == 1 else 's'}"
 
 
-def grid(scene: ReachingScene, n: int, spread: float) -> tuple[Setting, ...]:
-    """About n * n object positions evenly all over a scene's region, each with a start of its own.
+def grid(scene: AnyScene, n: int, spread: float) -> tuple[Setting, ...]:
+    """About n * n targets evenly all over a scene's region, each with a start of its own.
 
     The cells are as square as the region allows. The starts fill their cube evenly (a Halton sequence), so that each
-    neighbourhood of objects has starts from all sides.
+    neighbourhood of targets has starts from all sides; where a person cannot move the robot they do not move either.
 
     Args:
         scene: where.
@@ -127,17 +136,33 @@ def grid(scene: ReachingScene, n: int, spread: float) -> tuple[Setting, ...]:
         spread: of a start from the scene's own along each axis, at most [m].
     """
     lower, upper = np.array(scene.region.lower), np.array(scene.region.upper)
-    depth, width, _ = upper - lower
+    depth, width = (upper - lower)[:2]
     across = max(1, round(n * math.sqrt(width / depth)))
     along = max(1, round(n * n / across))
     x, y = np.meshgrid(_middles(along), _middles(across), indexing="ij")
-    shares = np.column_stack([x.ravel(), y.ravel(), np.full(x.size, 0.5)])
+    shares = np.full((x.size, len(lower)), 0.5)
+    shares[:, 0], shares[:, 1] = x.ravel(), y.ravel()
     starts = qmc.Halton(3, scramble=False).random(x.size + 1)[1:]  # its first point is a corner
-    return _places(lower + shares * (upper - lower), spread * (2.0 * starts - 1.0))
+    return _settings(lower + shares * (upper - lower), spread * np.array(scene.freedom.axes) * (2.0 * starts - 1.0))
 
 
-def sample(scene: ReachingScene, n: int, spread: float, rng: np.random.Generator) -> tuple[Setting, ...]:
-    """Random object positions and starts, both even.
+def in_turn(scene: AnyScene, n: int) -> list[Target]:
+    """Places to correct at, one after another: the training positions, then always the one that is furthest from all.
+
+    Args:
+        scene: where.
+        n: how many.
+    """
+    chosen = [np.array(place) for place in scene.training_positions[:n]]
+    candidates = np.array([setting.target for setting in grid(scene, _CANDIDATES, 0.0)])
+    while len(chosen) < n:
+        apart = np.linalg.norm(candidates[:, None] - np.array(chosen), axis=2).min(axis=1)
+        chosen.append(candidates[np.argmax(apart)])
+    return [tuple(place.tolist()) for place in chosen]
+
+
+def sample(scene: AnyScene, n: int, spread: float, rng: np.random.Generator) -> tuple[Setting, ...]:
+    """Random targets and starts, both even.
 
     Args:
         scene: where.
@@ -145,8 +170,8 @@ def sample(scene: ReachingScene, n: int, spread: float, rng: np.random.Generator
         spread: of a start from the scene's own along each axis, at most [m].
         rng: of the draws.
     """
-    objects = np.array([scene.region.sample(rng) for _ in range(n)])
-    return _places(objects, rng.uniform(-spread, spread, (n, 3)))
+    targets = np.array([scene.region.sample(rng) for _ in range(n)])
+    return _settings(targets, np.array(scene.freedom.axes) * rng.uniform(-spread, spread, (n, 3)))
 
 
 def _middles(n: int) -> Array:
@@ -154,9 +179,6 @@ def _middles(n: int) -> Array:
     return (np.arange(n) + 0.5) / n
 
 
-def _places(objects: Array, offsets: Array) -> tuple[Setting, ...]:
-    return tuple(Setting(vector3(one), vector3(offset)) for one, offset in zip(objects, offsets, strict=True))
-
-
-def _percent(part: int, whole: int) -> str:
-    return f"{100.0 * part / whole:.1f} %" if whole else "none is reachable"
+def _settings(targets: Array, offsets: Array) -> tuple[Setting, ...]:
+    pairs = zip(targets.tolist(), offsets, strict=True)
+    return tuple(Setting(tuple(target), vector3(offset)) for target, offset in pairs)

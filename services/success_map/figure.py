@@ -1,8 +1,8 @@
-"""The picture of a map: object positions from above and starts from the side, before a correction and after it."""
+"""The picture of a map: targets and starts, before a correction and after it, and where the corrections were given."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,14 +14,16 @@ from lfd.motion.rotations import matrix_from_quaternion
 from services.reproduction.analysis import Figure
 from services.reproduction.models import Contender
 from services.reproduction.style import ADAPTIVE, CONDITIONED, OBSTACLE, REFINEMENT, TRUTH, drawn, panels
-from services.success_map.conditions import Condition, Ending, SuccessMap, stage_name
-from sim.tasks.scene import OBJECT_SIZE, Box, Group, ReachingScene
+from services.success_map.conditions import Condition, Ending, SuccessMap, Target, stage_name
+from sim.tasks import AnyScene
+from sim.tasks.scene import OBJECT_SIZE, Box, Group
 
 Array = NDArray[np.float64]
 
 _HEIGHT = 3.1  # [inch] of a row
 _EDGE = "#7c8794"
-_BELOW, _ABOVE = OBJECT_SIZE[2], 0.25  # [m] an object's centre: the slice that is seen from above
+_START = "the scene's start"
+_BELOW, _ABOVE = 0.6 * OBJECT_SIZE[2], 0.25  # [m] an object's centre: the slice that is seen from above
 
 
 @dataclass(frozen=True)
@@ -52,8 +54,11 @@ class _View:
         from_start: positions are relative to the scene's start.
         room: around what is marked [m].
         size: of the marks, as a share: objects stand closer together on paper than starts.
-        point: what is marked of a condition, shape (3,) [m].
+        point: what is marked of a condition, shape (d,) [m].
         labels: of the axes.
+        title: what is seen.
+        slice: axis of space, least and greatest value of what stands around it; None where nothing does [m].
+        corrections: places of corrections are marked.
     """
 
     across: int
@@ -64,56 +69,98 @@ class _View:
     size: float
     point: Callable[[Condition], Array]
     labels: tuple[str, str]
+    title: str
+    slice: tuple[int, float, float] | None = None
+    corrections: bool = False
 
 
-_FROM_ABOVE = _View(
-    across=1,
-    up=0,
-    mirrored=True,
-    from_start=False,
-    room=0.06,
-    size=0.4,
-    point=lambda one: np.array(one.place.object_position),
-    labels=("y [m]", "x [m]"),
-)
-_FROM_THE_SIDE = _View(
-    across=0,
-    up=2,
-    mirrored=False,
-    from_start=True,
-    room=0.02,
-    size=1.0,
-    point=lambda one: np.array(one.place.offset),
-    labels=("x from the scene's start [m]", "z from the scene's start [m]"),
-)
+def _views(scene: AnyScene) -> tuple[_View, ...]:
+    """Objects from above and starts from the side; or the conditions themselves, whose starts differ along y alone."""
+    if not scene.has_object:
+        return (
+            _View(
+                across=0,
+                up=1,
+                mirrored=False,
+                from_start=False,
+                room=0.02,
+                size=1.6,
+                point=lambda one: np.array(one.setting.target),
+                labels=("y of the first via-point [m]", "y of the second via-point [m]"),
+                title="conditions",
+                corrections=True,
+            ),
+        )
+    z, y = scene.region.lower[2], float(scene.start.position[1])
+    return (
+        _View(
+            across=1,
+            up=0,
+            mirrored=True,
+            from_start=False,
+            room=0.06,
+            size=0.4,
+            point=lambda one: np.array(one.setting.target),
+            labels=("y [m]", "x [m]"),
+            title="object positions, from above",
+            slice=(2, z - _BELOW, z + _ABOVE),
+            corrections=True,
+        ),
+        _View(
+            across=0,
+            up=2,
+            mirrored=False,
+            from_start=True,
+            room=0.02,
+            size=1.0,
+            point=lambda one: np.array(one.setting.offset),
+            labels=("x from the scene's start [m]", "z from the scene's start [m]"),
+            title="starts, from the side",
+            slice=(1, y, y),
+        ),
+    )
 
 
-def figure(scene: ReachingScene, found: SuccessMap, kind: Contender) -> Figure:
-    """A column for each stage: above it where the object stood, below it where the motion started.
+def figure(scene: AnyScene, found: SuccessMap, kind: Contender) -> Figure:
+    """A column for each stage: above it the targets, below it where the motion started; corrections by their number.
 
     Args:
         scene: of the map.
         found: the map.
         kind: of the model.
     """
-    stages = range(len(found.corrections))
+    stages, views = range(len(found.corrections)), _views(scene)
     names = [stage_name(n, before=n == 0) for n in found.corrections]
-    titles = [f"{name}: object positions, from above" for name in names]
-    titles += [f"{name}: starts, from the side" for name in names]
-    canvas, panes = panels(titles, height=_HEIGHT, rows=2)
+    titles = [f"{name}: {view.title}" for view in views for name in names]
+    canvas, panes = panels(titles, height=_HEIGHT + 0.6 * (len(views) == 1), rows=len(views))
     boxes = [box for box in scene.boxes(found.variant) if box.group is not Group.DETAIL]
-    z, y = scene.region.lower[2], scene.start.position[1]
-    seen = _within(boxes, 2, z - _BELOW, z + _ABOVE), _within(boxes, 1, y, y)
-    for stage in stages:
-        for number, view in enumerate((_FROM_ABOVE, _FROM_THE_SIDE)):
+    for number, view in enumerate(views):
+        for stage in stages:
             axes = panes[number * len(stages) + stage]
-            origin = scene.start.position * view.from_start
             _draw(axes, view, found, stage)
-            start = scene.start.position - origin
-            axes.plot(start[view.across], start[view.up], "+", color=TRUTH, markersize=9.0, label="the scene's start")
-            _outline(axes, view, seen[number], origin)
-    canvas.suptitle(f"{scene.name}, {found.variant}: {kind.label}\n{found.summary()}", fontsize=9.5)
+            if view.corrections:
+                _number(axes, view, found.corrected[: found.corrections[stage]])
+            if view.slice is not None:
+                origin = scene.start.position * view.from_start
+                start = scene.start.position - origin
+                axes.plot(start[view.across], start[view.up], "+", color=TRUTH, markersize=9.0, label=_START)
+                _outline(axes, view, _within(boxes, *view.slice), origin)
+    canvas.suptitle(
+        f"{scene.name}, {found.variant}: {kind.label}\n" + found.summary().replace("; ", "\n"), fontsize=9.5
+    )
     return drawn(canvas, "map", "", raster=True)
+
+
+def _number(axes: Axes, view: _View, places: Sequence[Target]) -> None:
+    """Mark where corrections were given by their numbers, joined in their order."""
+    if not places:
+        return
+    across, up = (np.array([place[axis] for place in places]) for axis in (view.across, view.up))
+    axes.plot(across, up, color=TRUTH, linewidth=0.7, linestyle=(0.0, (3.0, 2.0)), zorder=4.0)
+    label = "corrections, in their order"
+    axes.scatter(across, up, s=62.0, c="white", edgecolors=TRUTH, linewidths=1.0, zorder=5.0, label=label)
+    for number, (x, y) in enumerate(zip(across, up, strict=True), 1):
+        axes.annotate(str(number), (x, y), ha="center", va="center_baseline", fontsize=6.5, zorder=6.0)
 
 
 def _draw(axes: Axes, view: _View, found: SuccessMap, stage: int) -> None:

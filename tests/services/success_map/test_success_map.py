@@ -16,19 +16,30 @@ from services.commands.map import Request, draw_map
 from services.model.learning import MODELS, learn_all
 from services.model.skill import binding_of
 from services.offline.first_demonstrations import first_demonstrations
+from services.offline.steering import steered
 from services.reproduction.models import BY_NAME, DEFAULT
 from services.reproduction.scripted import demonstrate
-from services.success_map.conditions import Condition, Ending, Setting, SuccessMap, Trial, grid, sample, stage_name
+from services.success_map.conditions import (
+    Condition,
+    Ending,
+    Setting,
+    SuccessMap,
+    Trial,
+    grid,
+    in_turn,
+    sample,
+    stage_name,
+)
 from services.success_map.figure import figure
 from services.success_map.work import Tried, conditions
-from sim.tasks import DISHWASHER, REACHING, TABLE
+from sim.tasks import DISHWASHER, PARTICLE, SCENES, TABLE
 
-SCENE = pytest.mark.parametrize("scene", REACHING.values(), ids=REACHING)
+SCENE = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 HOME = tuple(DISHWASHER.training_positions[0].tolist())
 
 
 def within(places, scene, spread):
-    inside = all(scene.region.contains(np.array(place.object_position)) for place in places)
+    inside = all(scene.region.contains(np.array(place.target)) for place in places)
     return inside and np.max(np.abs([place.offset for place in places])) <= spread
 
 
@@ -43,9 +54,9 @@ def mapped(*outcomes, corrections=(0, 1)):
 def test_a_grid_has_about_its_square_of_places_evenly_all_over_the_region(scene, n, spread):
     places = grid(scene, n, spread)
     assert within(places, scene, spread)
-    positions = np.array([place.object_position for place in places])
+    positions = np.array([place.target for place in places])
     assert len(np.unique(positions, axis=0)) == len(places)
-    assert abs(len(places) - n * n) <= n + 2 * n * max(1.0, np.sqrt(6.0)) / 2
+    assert abs(len(places) - n * n) <= n + 2 * n * max(1.0, np.sqrt(8.0)) / 2
     middle = (np.array(scene.region.lower) + scene.region.upper) / 2
     np.testing.assert_allclose(positions.mean(axis=0), middle, atol=1e-9)
 
@@ -78,16 +89,21 @@ R, C, U = Ending.REACHED, Ending.COLLISION, Ending.UNREACHABLE
 def test_a_summary_counts_among_what_is_reachable():
     found = mapped((C, R), (C, R), (R, R), (Ending.KICKED_OVER, Ending.NOT_REACHED), (U, U))
     assert found.reachable == 4
-    assert found.summary() == "after 1 correction: 3 of 4 reachable conditions succeed (75.0 %); before: 1 (25.0 %)"
+    assert found.summary() == (
+        "after 1 correction: 3 of 4 reachable conditions succeed (75.0 %, 95 % interval 30 to 95 %);"
+        " before: 1 (25.0 %, 95 % interval 5 to 70 %)"
+    )
     for stage in (0, 1):
         assert sum(found.count(stage, outcome) for outcome in Ending) == len(found.conditions)
 
 
 def test_a_summary_of_one_stage_and_of_nothing():
     found = mapped((R,), (C,), corrections=(0,))
-    assert found.summary() == "without correction: 1 of 2 reachable conditions succeed (50.0 %)"
+    assert (
+        found.summary() == "without correction: 1 of 2 reachable conditions succeed (50.0 %, 95 % interval 9 to 91 %)"
+    )
     nothing = mapped((U,), corrections=(2,))
-    assert nothing.summary() == "after 2 corrections: 0 of 0 reachable conditions succeed (none is reachable)"
+    assert nothing.summary() == "after 2 corrections: 0 of 0 reachable conditions succeed (none was tried)"
     assert stage_name(3, before=True) == "after 3 corrections"
 
 
@@ -150,7 +166,11 @@ def said(capsys, *flags):
         (["--kind", "dmp"], "invalid choice: 'dmp'"),
         (["--jobs", "0"], "--jobs: must be a whole number"),
         (["--scene", "kitchen"], "kitchen"),
-        (["--scene", "particle"], "scene particle has no object to reach: map one of dishwasher, table, post"),
+        (["--corrections", "2"], "--corrections, --at, --people and --scatter say how to teach: give --teach too"),
+        (["--teach", "--corrections", "2", "--at", "0.86,0.2,0.553"], "--corrections 2 at 1 places: give as many --at"),
+        (["--teach", "--at", "here"], "--at: must be numbers in metres"),
+        (["--teach", "--at", "2.0,0.2,0.553"], "beyond where targets of scene dishwasher can be"),
+        (["--teach", "--people", "0"], "--people: must be a whole number"),
         (["--variant", "b3"], "b3"),
         (["--before", "2"], "--before takes back updates of a database"),
         (["--teach", "--database", "x.sqlite"], "leave out --database, or --teach"),
@@ -175,7 +195,7 @@ def test_a_database_with_fewer_updates_is_one_line(database, capsys):
 
 
 def test_a_model_of_another_condition_is_one_line(database, capsys):
-    assert "more than the object's position" in said(capsys, "--database", database(condition=[1.0, 2.0]))
+    assert "more than the target's place" in said(capsys, "--database", database(condition=[1.0, 2.0]))
 
 
 def test_a_model_that_began_with_its_updates_has_no_stage_before_all_of_them(database, capsys):
@@ -187,9 +207,9 @@ def test_what_becomes_of_a_condition_is_the_models_doing_where_a_motion_can_succ
     demonstrations = first_demonstrations(DISHWASHER)
     model = DEFAULT.fit(demonstrations)
     far, blocked = Setting((1.3, 0.07, HOME[2])), Setting(HOME, (0.09, 0.04, 0.01))
-    trained = conditions(Tried("dishwasher", "b1", (model,), (Setting(HOME), far, blocked)), jobs=1)
+    trained = conditions(Tried("dishwasher", "b1", ((model,),), (Setting(HOME), far, blocked)), jobs=1)
     assert [one.trials[0].outcome for one in trained] == [R, U, R]
-    changed, impossible = conditions(Tried("dishwasher", "b2", (model, model), (Setting(HOME), blocked)), jobs=1)
+    changed, impossible = conditions(Tried("dishwasher", "b2", ((model, model),), (Setting(HOME), blocked)), jobs=1)
     assert [trial.outcome for trial in impossible.trials] == [U, U]
     assert changed.trials[0] == changed.trials[1]
     assert changed.trials[0].outcome is C
@@ -225,6 +245,52 @@ def test_a_database_without_its_last_update_and_with_it(tmp_path, capsys):
     assert "before: 0 (0.0 %)" in said.err
     assert said.out.strip() == str(out)
     assert out.read_bytes().startswith(b"\x89PNG")
+
+
+@SCENE
+def test_corrections_go_through_the_trained_places_first_and_then_as_far_apart_as_can_be(scene):
+    targets = in_turn(scene, 6)
+    trained = len(scene.training_positions)
+    np.testing.assert_allclose(targets[: min(6, trained)], scene.training_positions[:6])
+    assert all(scene.region.contains(np.array(target)) for target in targets)
+    candidates = np.array([setting.target for setting in grid(scene, 8, 0.0)])
+    for n in range(trained, 6):
+        nearest = np.linalg.norm(candidates[:, None] - np.array(targets[:n]), axis=2).min(axis=1)
+        assert np.linalg.norm(np.subtract(targets[:n], targets[n]), axis=1).min() == pytest.approx(nearest.max())
+
+
+@pytest.mark.sim
+def test_the_figure_of_the_particle_shows_conditions_and_the_order_of_corrections():
+    places = [Setting((0.01 * i, -0.01 * i)) for i in range(5)]
+    tried = tuple(Condition(one, (Trial(C), Trial(R))) for one in places)
+    order = ((0.0, 0.0), (0.1, 0.1), (-0.1, 0.05))
+    plain, marked = (
+        matplotlib.image.imread(
+            io.BytesIO(
+                figure(
+                    PARTICLE, SuccessMap("particle", "obstacle", "adaptive", (0, 3), tried, corrected), DEFAULT
+                ).image
+            )
+        )
+        for corrected in ((), order)
+    )
+    assert marked.shape[1] > 600
+    assert plain.shape != marked.shape or np.any(plain != marked)
+
+
+@pytest.mark.sim
+def test_people_take_turns_at_the_conditions_of_the_particle():
+    model = DEFAULT.fit(first_demonstrations(PARTICLE))
+    taught_too = model.updated(
+        Demonstration(
+            steered(PARTICLE.corridor("free", np.array([0.1, 0.1])), None, PARTICLE.freedom),
+            np.zeros(3),
+            np.array([0.1, 0.1]),
+        )
+    )
+    settings = (Setting((0.1, 0.1)), Setting((0.1, 0.1)), Setting((0.0, 0.0)))
+    found = conditions(Tried("particle", "free", ((model,), (taught_too,)), settings), jobs=1)
+    assert [one.trials[0].outcome for one in found] == [Ending.NOT_REACHED, R, R]
 
 
 @pytest.mark.sim
