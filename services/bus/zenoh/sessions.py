@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import json
 import logging
-import os
 import re
 import socket
 import threading
@@ -97,7 +96,10 @@ def _give_up_with_the_lease() -> None:
     sent the rest once more: up to seconds after a link that was cut is back. Accepted sockets inherit the time.
     """
     for file in list(Path("/proc/self/fd").iterdir()):
-        with contextlib.suppress(OSError), socket.socket(fileno=os.dup(int(file.name))) as listener:
+        with (
+            contextlib.suppress(OSError),  # this one is no socket, or the listing's own
+            socket.fromfd(int(file.name), socket.AF_INET, socket.SOCK_STREAM) as listener,
+        ):
             if listener.getsockopt(socket.SOL_SOCKET, socket.SO_ACCEPTCONN):
                 listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT, LEASE_MS)
 
