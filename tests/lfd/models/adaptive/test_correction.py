@@ -82,6 +82,18 @@ def test_corrections_that_agree_are_averaged_and_all_count(none):
     assert effect(corrected, HERE).evidence == pytest.approx(5.0, rel=0.01)
 
 
+@pytest.mark.parametrize("K", [2, 5])
+def test_corrections_that_repeat_each_other_scatter_by_the_noise_that_was_learnt(none, K):
+    """K corrections y at one place: y K C / (K C + r C + sigma^2), where C is y^2; a single one knows no sigma."""
+    corrected = none
+    for _ in range(K):
+        corrected = correct(corrected, HERE, sized(POSITION, 0.05))
+    C, sigma = 0.05**2, OPTIONS.world.noise
+    share = K * C / (K * C + OPTIONS.noise * C + sigma**2)
+    np.testing.assert_allclose(change(corrected, HERE), share * sized(POSITION, 0.05), rtol=1e-9, atol=1e-12)
+    assert effect(corrected, HERE).open_share == pytest.approx(1.0 - share, rel=1e-6)
+
+
 def test_each_kind_tells_noise_from_change_by_itself(none):
     """The way is the same, the duration has changed."""
     corrected = none
@@ -276,6 +288,19 @@ def test_what_no_longer_holds_is_no_way(none):
     """A world that changed at one condition is followed, not offered as another way."""
     turned = correct(correct(none, HERE, sized(POSITION, 0.3)), HERE, sized(POSITION, -0.3))
     assert effect(turned, HERE).way == ONLY_WAY
+
+
+def test_an_orientation_that_still_holds_goes_the_way_of_what_is_nearest(none):
+    """To the right now instead of to the left, rolled as before; beside it the way is still to the left."""
+    there = [0.3, 0.1]
+    held = correct(none, HERE, sized(POSITION, 0.3) + sized(ORIENTATION, 0.40))
+    held = correct(held, HERE, sized(POSITION, -0.3) + sized(ORIENTATION, 0.42))
+    held = correct(held, there, sized(POSITION, 0.3))
+    told = effect(held, HERE)
+    columns = KINDS.columns[ORIENTATION]
+    assert (told.way.index, told.way.count) == (0, 2)
+    np.testing.assert_allclose(told.change[columns], sized(ORIENTATION, 0.41)[columns], rtol=0.005)
+    np.testing.assert_allclose(effect(held, there).change[columns], 0.0, atol=0.01)
 
 
 def test_the_mean_square_is_that_of_the_positions(none):

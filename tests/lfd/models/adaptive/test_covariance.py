@@ -11,7 +11,7 @@ from lfd.models.adaptive.kinds import POSITION
 from tests.lfd.models.adaptive.vectors import KINDS, D, correct, corrections, effect, regression, sized
 
 EXTENT = 0.5
-OPTIONS = CovarianceOptions(reach=(2.5, 1.5, 4.0))
+OPTIONS = CovarianceOptions(open_slope=1.7, near_std=0.03, near=0.4, reach=(2.5, 1.5, 4.0), beside=0.15)
 UNITS = (EXTENT, 1.0, 1.0)
 
 
