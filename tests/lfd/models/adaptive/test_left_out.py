@@ -9,8 +9,8 @@ OPTIONS = TrendOptions(least=0.01)
 NOISE, LENGTH = 0.2, 0.8
 
 
-def kernel(a, b):
-    return np.exp(-0.5 * np.sum((a[:, None] - b) ** 2, axis=2) / LENGTH**2)
+def kernel(a, b, length=LENGTH):
+    return np.exp(-0.5 * np.sum((a[:, None] - b) ** 2, axis=2) / length**2)
 
 
 def left_out(z, Y, groups):
@@ -62,3 +62,12 @@ def test_a_condition_without_which_a_direction_is_lost_tells_nothing():
     found = left_out(z, np.eye(4), [np.array([i]) for i in range(4)])
     assert found.telling.tolist() == [True, True, True, False]
     assert directions(Moments.of(z, np.eye(4)), OPTIONS)[2].all()
+
+
+def test_beside_others_hardly_anything_is_left_open_and_never_less_than_nothing():
+    z = np.linspace(-0.1, 0.1, 9)[:, None]
+    inverse = np.linalg.inv(kernel(z, z, length=5.0) + 0.01 * np.eye(9))
+    groups = [np.array([i]) for i in range(9)]
+    found = leave_out(z, np.ones((9, 2)), groups, inverse, noise=0.01, options=OPTIONS)
+    assert found.unexplained.max() < 0.01
+    assert found.unexplained.min() >= 0.0
