@@ -187,13 +187,13 @@ def test_how_much_is_known_falls_as_the_detail_of_a_place_does():
 
 @pytest.fixture(scope="module")
 def round_a_thing():
-    """A post stands at the middle: it was passed on the left once and on the right once, 8 cm apart."""
+    """A post stands at the middle: it was passed on the left once and on the right once, 20 cm apart."""
     model = AdaptiveProMP.fit([placed(-0.2), placed(0.2)])
-    return model.updated(placed(-0.04, side=-0.15)).updated(placed(0.04, side=0.15))
+    return model.updated(placed(-0.1, side=-0.15)).updated(placed(0.1, side=0.15))
 
 
 def test_between_left_and_right_it_is_one_of_them_and_never_the_middle(round_a_thing):
-    for y in np.linspace(-0.04, 0.04, 17):
+    for y in np.linspace(-0.1, 0.1, 17):
         side = path(round_a_thing, placed(y))[:, 1] - path(AdaptiveProMP.fit([placed(0.1)]), placed(y))[:, 1]
         most = side[np.abs(side).argmax()]
         assert 0.75 * 0.15 < abs(most) < 1.25 * 0.15
@@ -209,7 +209,7 @@ def test_halfway_nothing_is_known_and_the_deviation_is_half_of_what_lies_between
 
 
 def test_at_its_corrections_a_way_is_known(round_a_thing):
-    at_one = predict(round_a_thing, placed(0.04))
+    at_one = predict(round_a_thing, placed(0.1))
     assert at_one.way.count == 2
     assert at_one.way.probability > 0.95
     assert at_one.known > 0.9
