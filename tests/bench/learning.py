@@ -47,11 +47,11 @@ def measure(folder, initial, part):
     console = Console(stderr=True)
     for model in track(list(MODELS) if first else [], "adapting", console=console, disable=not first):
         adaptations += [adapt(model, first, s) for s in chosen.sequences]
-        transfers.append(transfer(model, first, chosen.sequences))
+        transfers += transfer(model, first, chosen.sequences)
     work = [(name, model) for name in chosen.sets for model in MODELS]
     for name, model in track(work, "leaving out", console=console, disable=not work):
         left_out.append(leave_out(model, name, chosen.sets[name]))
-    transfers, left_out = ([row for row in rows if row is not None] for rows in (transfers, left_out))
+    left_out = [row for row in left_out if row is not None]
     return Measured(part, chosen, every.part(Part.TUNE), adaptations, transfers, left_out)
 
 

@@ -24,21 +24,26 @@ class Adaptation:
 
 @dataclass(frozen=True)
 class Transfer:
-    """One model, over pairs of persons: the share of a gap that is left after somebody else's correction [-].
+    """One model: the share of a person's first gaps that is left after corrections by others [-].
 
     Attributes:
         model: By its name.
-        pairs: A first correction by one person, and one by another at the same condition, in that order.
+        taught: ONE correction by another person, at the same condition, or the first ones of EVERYBODY else.
+        pairs: Shares counted: of pairs of corrections, or of a person's own and those of everybody else.
         median: Of the shares left; above 1 the prediction is worse than before.
         nine_in_ten: Nine in ten shares are at most this.
         worse: How many of the shares are above 1 [-].
     """
 
     model: str
+    taught: str
     pairs: int
     median: float
     nine_in_ten: float
     worse: float
+
+
+ONE, EVERYBODY = "one correction", "everybody else's"
 
 
 def gap(model, wanted):
@@ -59,22 +64,38 @@ def adapt(name, initial, sequence):
 
 
 def transfer(name, initial, sequences):
-    """The first corrections of each sequence, from one person to another; None where no two are to be compared.
+    """What first corrections of each sequence do for other persons; nothing where there are none to be compared.
 
     Only first ones: what comes later answers a prediction that had learnt from its own operator already.
     """
     model = MODELS[name].fit(initial)
-    firsts = [(s.operator, s.refinements[0]) for s in sequences]
-    gaps = [gap(model, wanted) for _, wanted in firsts]
+    firsts = [(s.operator, s.refinements[0], gap(model, s.refinements[0])) for s in sequences]
+    shares = {ONE: _after_one(model, firsts), EVERYBODY: _after_everybody(model, firsts)}
+    return [_transfer(name, taught, np.array(left)) for taught, left in shares.items() if left]
+
+
+def _after_one(model, firsts):
     left = []
-    for teacher, correction in firsts:
+    for teacher, correction, _ in firsts:
         taught = model.updated(correction)
-        for (operator, wanted), before in zip(firsts, gaps, strict=True):
+        for operator, wanted, before in firsts:
             near = np.linalg.norm(wanted.condition - correction.condition) <= SAME_CONDITION
             if operator != teacher and near:
                 left.append(gap(taught, wanted) / before)
-    if not left:
-        return None
-    return Transfer(
-        name, len(left), float(np.median(left)), float(np.quantile(left, 0.9)), float(np.mean(np.array(left) > 1.0))
-    )
+    return left
+
+
+def _after_everybody(model, firsts):
+    left = []
+    for operator in dict.fromkeys(operator for operator, _, _ in firsts):
+        taught = model
+        for teacher, correction, _ in firsts:
+            taught = taught.updated(correction) if teacher != operator else taught
+        if taught is not model:
+            left += [gap(taught, wanted) / before for own, wanted, before in firsts if own == operator]
+    return left
+
+
+def _transfer(name, taught, left):
+    worse = float(np.mean(left > 1.0))
+    return Transfer(name, taught, len(left), float(np.median(left)), float(np.quantile(left, 0.9)), worse)

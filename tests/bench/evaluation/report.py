@@ -8,6 +8,7 @@ from rich.text import Text
 
 from tests.bench.baselines.models import DEFAULT, MODELS
 from tests.bench.evaluation.parts import Recordings
+from tests.bench.evaluation.refinements import EVERYBODY, ONE
 from tests.bench.evaluation.summary import DEGENERATE, bests, first_shares, means, next_gaps
 
 
@@ -48,7 +49,7 @@ def show(console, measured, figures):
     if transfers:
         console.print(_transfers(transfers))
         console.print(
-            "Pairs of first corrections, each by another person at the same condition, from the initial model."
+            "First corrections, from the initial model; one correction: of another person, at the same condition."
         )
     console.print(_figures(figures))
 
@@ -115,10 +116,18 @@ def _corrections(adaptations):
 
 
 def _transfers(transfers):
-    title = "How much does somebody else's correction at the same condition leave of the gap? [-]"
-    table = Table("model", "median", "nine in ten", "worse than before", "pairs", title=title)
-    for t in transfers:
-        table.add_row(t.model, f"{t.median:.3f}", f"{t.nine_in_ten:.3f}", f"{t.worse:.1%}", str(t.pairs))
+    table = Table(title="How much do others' corrections leave of a person's gap? [-]")
+    table.add_column("model", no_wrap=True)
+    for taught in (ONE, EVERYBODY):
+        for column in ("median", "nine in ten", "worse", "counted"):
+            table.add_column(f"{taught}: {column}", width=14)
+    by = {(t.model, t.taught): t for t in transfers}
+    for model in dict.fromkeys(t.model for t in transfers):
+        cells = []
+        for taught in (ONE, EVERYBODY):
+            t = by.get((model, taught))
+            cells += [f"{t.median:.3f}", f"{t.nine_in_ten:.3f}", f"{t.worse:.1%}", str(t.pairs)] if t else [""] * 4
+        table.add_row(model, *cells)
     return table
 
 

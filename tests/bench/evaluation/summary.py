@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tests.bench.baselines.models import BASELINES, DEFAULT, MODELS, THESIS
+from tests.bench.evaluation.refinements import ONE
 
 DEGENERATE = 2  # conditions: one of two left out leaves a single one, from which nothing about the condition is learnt
 
@@ -84,10 +85,10 @@ def figures(adaptations, transfers, left_out):
     results = []
     if adaptations:
         results += _of_corrections(adaptations)
-    if transfers:
-        share = {t.model: t.median for t in transfers}
+    if any(t.taught == ONE for t in transfers):
+        share = {t.model: t.median for t in transfers if t.taught == ONE}
         results.append(_lowest("gap left after somebody else's correction, median", share, 0.60, "of the gap"))
-        worse = {t.model: t.worse for t in transfers}
+        worse = {t.model: t.worse for t in transfers if t.taught == ONE}
         results.append(_lowest("worse than before somebody else's correction", worse, 0.08, "of the cases"))
     if left_out:
         results += _of_sets(left_out)

@@ -11,7 +11,7 @@ from tests.bench.baselines import models
 from tests.bench.baselines.models import BASELINES, DEFAULT, MODELS, THESIS
 from tests.bench.evaluation.left_out import LeftOut, leave_out
 from tests.bench.evaluation.parts import Part, Recordings
-from tests.bench.evaluation.refinements import Adaptation, adapt, transfer
+from tests.bench.evaluation.refinements import EVERYBODY, ONE, Adaptation, adapt, transfer
 from tests.bench.evaluation.summary import bests, figures, means, next_gaps
 from tests.recordings import Sequence
 
@@ -77,7 +77,7 @@ def test_a_correction_is_transferred_to_others_at_its_condition_alone(halfway):
         Sequence("B", "by hand", "1", (motion(1.0),)),
         Sequence("C", "by hand", "1", (motion(-1.0, y=1.0),)),
     ]
-    found = transfer(halfway, [motion(0.0)], sequences)
+    found = next(t for t in transfer(halfway, [motion(0.0)], sequences) if t.taught == ONE)
     # From 0: A's 2 and 40 lead to 1 and 20, where B wanted 1; B's 1 to 0.5, where A wanted 2 and 40.
     left = [0.0, 19.0, 1.5 / 2.0, 39.5 / 40.0]
     assert found.pairs == 4
@@ -86,7 +86,16 @@ def test_a_correction_is_transferred_to_others_at_its_condition_alone(halfway):
 
 
 def test_nobody_else_is_nothing_to_transfer(halfway):
-    assert transfer(halfway, [motion(0.0)], [Sequence("A", "by hand", "1", (motion(2.0),))]) is None
+    assert transfer(halfway, [motion(0.0)], [Sequence("A", "by hand", "1", (motion(2.0),))]) == []
+
+
+def test_everybody_else_teaches_in_the_order_of_the_recordings(halfway):
+    heights = {"A": 2.0, "B": 4.0, "C": -2.0}
+    sequences = [Sequence(person, "by hand", "1", (motion(height),)) for person, height in heights.items()]
+    found = next(t for t in transfer(halfway, [motion(0.0)], sequences) if t.taught == EVERYBODY)
+    # From 0: B and C lead to 0, where A wanted 2; A and C to -0.5, where B wanted 4; A and B to 2.5, where C wanted -2.
+    assert found.pairs == 3
+    assert found.median == pytest.approx(np.median([2.0 / 2.0, 4.5 / 4.0, 4.5 / 2.0]))
 
 
 def test_all_motions_of_a_condition_are_left_out_together(halfway):
