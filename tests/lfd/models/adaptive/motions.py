@@ -56,3 +56,13 @@ def anything(rng, c, n=20):
 
 def standard_deviation(model, demonstration):
     return np.sqrt(np.trace(predict(model, demonstration).position_covariances, axis1=1, axis2=2).mean())
+
+
+def placed(y, size=None, duration=4.0, side=0.0):
+    """A motion to a place, its condition in metres; and, if given, the size of what stands there, which lifts it."""
+    t = np.linspace(0.0, 1.0, 30)
+    lift = 0.0 if size is None else size
+    positions = np.column_stack([0.4 * t, t * y + side * np.sin(np.pi * t), 0.1 * t + lift * np.sin(np.pi * t)])
+    still = np.tile([1.0, 0.0, 0.0, 0.0], (30, 1))
+    condition = [0.4, y, 0.1] if size is None else [y, size]
+    return Demonstration(Trajectory(positions, still, duration), np.array([0.4, y, 0.1]), np.array(condition))
