@@ -5,11 +5,35 @@ import secrets
 
 import msgpack
 
+from protocol import topics
 from services.bus.identity import boot_identity
+from services.process.clock import SystemClock
 
 HOUR_NS = 3_600_000_000_000
 NESTED = 100_000
 ANOTHER_VERSION = "Nonsense/9"
+
+REPEATS = 10
+LARGE_REPEATS = 2
+
+
+def by_cause(topic, sample, rng):
+    """Cause to payloads that have to be dropped for it."""
+    repeats = LARGE_REPEATS if topic.max_bytes > 100_000 else REPEATS
+    now_ns = SystemClock().now_ns()
+    return {
+        "malformed": [
+            *no_messages(topic.max_bytes),
+            *malformed(sample, rng, repeats),
+            *(fuzz(rng, topic.max_bytes) for _ in range(5 * repeats)),
+        ],
+        "oversized": oversized(topic.max_bytes, repeats),
+        "wrong_version": [sample] * repeats,
+        # A stop is a stop whatever its stamp and however often it comes, and no message is too late to be an event.
+        "future": from_the_future(sample, now_ns, repeats) if topic is not topics.EMERGENCY_STOP else [],
+        "repeated": [sample] * repeats if topic is not topics.EMERGENCY_STOP else [],
+        "stale": from_the_past(sample, now_ns, repeats) if topic.stale_after_ns is not None else [],
+    }
 
 
 def no_messages(bound: int) -> list[bytes]:

@@ -27,8 +27,6 @@ pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.sim]
 
 ROUNDS = 12
 QUIET_BEATS = 4
-REPEATS = 10
-LARGE_REPEATS = 2
 EPISODE_S = 60.0
 MARK = "mark"
 STILL_RAD = 1e-3
@@ -141,25 +139,6 @@ def drops(beats):
     return {(name, figures.topic): figures for name, beat in beats.items() for figures in beat.topics}
 
 
-def kinds_of_garbage(topic, sample, rng):
-    """Cause to payloads that have to be dropped for it."""
-    repeats = LARGE_REPEATS if topic.max_bytes > 100_000 else REPEATS
-    now_ns = SystemClock().now_ns()
-    return {
-        "malformed": [
-            *garbage.no_messages(topic.max_bytes),
-            *garbage.malformed(sample, rng, repeats),
-            *(garbage.fuzz(rng, topic.max_bytes) for _ in range(5 * repeats)),
-        ],
-        "oversized": garbage.oversized(topic.max_bytes, repeats),
-        "wrong_version": [sample] * repeats,
-        # A stop is a stop whatever its stamp and however often it comes, and no message is too late to be an event.
-        "future": garbage.from_the_future(sample, now_ns, repeats) if topic is not topics.EMERGENCY_STOP else [],
-        "repeated": [sample] * repeats if topic is not topics.EMERGENCY_STOP else [],
-        "stale": garbage.from_the_past(sample, now_ns, repeats) if topic.stale_after_ns is not None else [],
-    }
-
-
 def test_every_topic_drops_and_counts_what_is_no_message(network, unmoved):
     rng = random.Random(1)
     for _ in range(QUIET_BEATS):
@@ -169,7 +148,7 @@ def test_every_topic_drops_and_counts_what_is_no_message(network, unmoved):
     for _ in range(ROUNDS):
         for topic in TOPICS:
             sample = network.samples[topic.name]
-            for cause, payloads in kinds_of_garbage(topic, sample, rng).items():
+            for cause, payloads in garbage.by_cause(topic, sample, rng).items():
                 network.send(topic, payloads, schema=garbage.ANOTHER_VERSION if cause == "wrong_version" else None)
                 sent[topic.name, cause] += len(payloads)
             network.passed()
@@ -208,7 +187,7 @@ def test_every_query_refuses_what_is_no_request(network, unmoved):
         )
         wrong = [
             *garbage.no_messages(query.max_bytes),
-            *(garbage.fuzz(rng, 4096) for _ in range(REPEATS)),
+            *(garbage.fuzz(rng, 4096) for _ in range(garbage.REPEATS)),
             b"\0" * (query.max_bytes + 1),
         ]
         if query.request not in (queries.Undo, queries.Describe):  # which have no field that could be wrong
