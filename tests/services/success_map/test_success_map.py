@@ -242,7 +242,7 @@ def test_a_database_without_its_last_update_and_with_it(tmp_path, capsys):
     assert found.corrections == (0, 2)
     said = capsys.readouterr()
     assert f"after 2 corrections: {found.reachable} of {found.reachable} reachable" in said.err
-    assert "before: 0 (0.0 %)" in said.err
+    assert "before: 0 (0.0 %, 95 % interval" in said.err
     assert said.out.strip() == str(out)
     assert out.read_bytes().startswith(b"\x89PNG")
 
