@@ -49,7 +49,8 @@ def show(console, measured, figures):
     if transfers:
         console.print(_transfers(transfers))
         console.print(
-            "First corrections, from the initial model; one correction: of another person, at the same condition."
+            "First corrections, from the initial model; worse: the share of those of which more than all is left."
+            " One: after one of another person, at the same condition; all: after those of everybody else."
         )
     console.print(_figures(figures))
 
@@ -118,9 +119,9 @@ def _corrections(adaptations):
 def _transfers(transfers):
     table = Table(title="How much do others' corrections leave of a person's gap? [-]")
     table.add_column("model", no_wrap=True)
-    for taught in (ONE, EVERYBODY):
+    for taught in ("one", "all"):
         for column in ("median", "nine in ten", "worse", "counted"):
-            table.add_column(f"{taught}: {column}", width=14)
+            table.add_column(f"{taught}: {column}", width=9)
     by = {(t.model, t.taught): t for t in transfers}
     for model in dict.fromkeys(t.model for t in transfers):
         cells = []
