@@ -55,6 +55,11 @@ class Later(Executor):
             future, fn, args, kwargs = self.waiting.pop(0)
             future.set_result(fn(*args, **kwargs))
 
+    def fail(self, error):
+        """All of it fails."""
+        while self.waiting:
+            self.waiting.pop(0)[0].set_exception(error)
+
 
 class Site:
     """See the module."""

@@ -93,6 +93,20 @@ def test_a_renewal_that_comes_late_does_not_shorten_the_lease():
     assert lease.expires_in_s(SECOND) == 1.0
 
 
+def test_nothing_runs_out_where_nobody_holds_it():
+    lease = Lease(1.0, epoch=7)
+    lease.expire(5 * SECOND)
+    assert lease.epoch == 7
+
+
+def test_a_command_of_another_epoch_is_refused_with_both_and_who_holds_it():
+    lease = Lease(1.0, epoch=7)
+    lease.acquire("ann", 0)
+    with pytest.raises(Refusal) as refused:
+        lease.check(7)
+    assert str(refused.value) == "the command is of epoch 7, the authority of epoch 8 is ann's"
+
+
 def test_the_lease_ends_after_its_last_nanosecond():
     lease = Lease(1.0)
     lease.acquire("ann", 0)
@@ -114,6 +128,8 @@ def test_nobody_has_no_silence_and_a_new_holder_has_not_been_heard():
     assert lease.silence_s(0) is None
     epoch = lease.acquire("ann", 0)
     assert lease.silence_s(SECOND) is None
+    lease.renew("ann", epoch, 0)
+    assert lease.silence_s(0) == 0.0
     lease.renew("ann", epoch, SECOND)
     assert lease.silence_s(SECOND + SECOND // 4) == 0.25
     lease.renew("ann", epoch, SECOND // 2)

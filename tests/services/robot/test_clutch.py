@@ -36,8 +36,13 @@ def test_a_hand_that_rested_is_followed_exactly():
 
 
 @pytest.mark.parametrize("asked", [along(1.01 * NEUTRAL), along(0.0, 1.01 * NEUTRAL_TURN)])
+def test_a_hand_that_was_never_neutral_does_not_count(asked):
+    assert step(Clutch(PERIOD), asked) is UNCORRECTED
+
+
+@pytest.mark.parametrize("asked", [along(1.01 * NEUTRAL), along(0.0, 1.01 * NEUTRAL_TURN)])
 def test_a_key_that_was_held_on_the_ramp_does_not_act_at_its_end(asked):
-    clutch = Clutch(PERIOD)
+    clutch = taken_up()
     clutch.rest()
     for _ in range(100):
         assert step(clutch, asked) is UNCORRECTED
@@ -45,11 +50,14 @@ def test_a_key_that_was_held_on_the_ramp_does_not_act_at_its_end(asked):
     np.testing.assert_array_equal(step(clutch, along(0.05)).offset, [0.05, 0.0, 0.0])
 
 
-@pytest.mark.parametrize("asked", [along(0.99 * NEUTRAL), along(0.0, 0.99 * NEUTRAL_TURN)])
+@pytest.mark.parametrize("asked", [along(NEUTRAL), along(0.0, NEUTRAL_TURN)])
 def test_a_hand_that_trembles_on_the_ramp_counts_and_does_not_jump(asked):
-    wanted = step(Clutch(PERIOD), asked)
+    clutch = Clutch(PERIOD)
+    wanted = step(clutch, asked)
     np.testing.assert_array_equal(wanted.offset, np.zeros(3))
     np.testing.assert_array_equal(wanted.turn, np.zeros(3))
+    moved = step(clutch, Correction(2.0 * asked.offset, 2.0 * asked.turn))
+    assert np.any(moved.offset) or np.any(moved.turn)
 
 
 def test_after_a_ramp_a_hand_counts_that_agrees_with_what_is_applied():
@@ -58,6 +66,14 @@ def test_after_a_ramp_a_hand_counts_that_agrees_with_what_is_applied():
     np.testing.assert_array_equal(step(clutch, along(0.2), along(0.1)).offset, along(0.1).offset)
     np.testing.assert_allclose(step(clutch, along(0.105), along(0.1)).offset[0], 0.1)
     np.testing.assert_allclose(step(clutch, along(0.155), along(0.1)).offset[0], 0.15, atol=FADE * PERIOD)
+
+
+def test_after_a_ramp_a_hand_counts_that_was_neutral_wherever_the_robot_is():
+    clutch = taken_up()
+    clutch.rest()
+    step(clutch, along(0.2), along(0.1))
+    np.testing.assert_array_equal(step(clutch, UNCORRECTED, along(0.1)).offset, along(0.1).offset)
+    np.testing.assert_allclose(step(clutch, along(0.05), along(0.1)).offset[0], 0.15, atol=FADE * PERIOD)
 
 
 @given(vectors, vectors)

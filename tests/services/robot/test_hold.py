@@ -20,6 +20,12 @@ def held(hold, milliseconds, since=0, epoch=7):
         assert hold.reason(now * MS, "nobody there", epoch) == "nobody there"
 
 
+def test_what_nobody_asked_for_waits():
+    hold = Hold()
+    assert not hold.waiting
+    assert hold.reason(0, "", 1) == ANOTHER_AUTHORITY
+
+
 def test_without_a_cause_a_motion_goes_on(hold):
     assert hold.reason(0, "", 7) == ""
     assert not hold.waiting
@@ -66,3 +72,9 @@ def test_under_another_authority_a_motion_waits_at_once(hold):
     assert hold.reason(10 * MS, "", 7) == ANOTHER_AUTHORITY
     hold.ask(8)
     assert hold.reason(20 * MS, "", 8) == ""
+
+
+def test_a_long_hold_does_not_hide_that_the_authority_is_another(hold):
+    hold.reason(0, "nobody there", 8)
+    held(hold, 1000, since=10)
+    assert hold.reason(1020 * MS, "", 7) == ANOTHER_AUTHORITY

@@ -3,7 +3,7 @@
 import pytest
 
 from services.process import config
-from services.robot import admission, clutch, episode, execution, hold, latch, safety
+from services.robot import admission, clutch, episode, execution, hold, latch, memory, safety
 
 
 @pytest.mark.parametrize(
@@ -46,6 +46,7 @@ from services.robot import admission, clutch, episode, execution, hold, latch, s
         ),
         (clutch, {"NEUTRAL": 0.01, "NEUTRAL_TURN": 0.1, "FADE": 0.05, "FADE_TURN": 0.2}),
         (hold, {"LONG_HOLD_S": 0.5}),
+        (memory, {"RESERVED": 1024, "RETRY": 100}),
         (latch, {"LONGEST_REASON": 500}),
         (episode, {"SETTLE_S": 0.5, "INPUT_THRESHOLD": 0.0005, "TURN_THRESHOLD": 0.005}),
     ],

@@ -3,12 +3,14 @@
 import errno
 import json
 import logging
+import threading
+from pathlib import Path
 
 import pytest
 
 from services.robot import memory as memory_module
 from services.robot.latch import LONGEST_REASON, Latch
-from services.robot.memory import RESERVED, RETRY, SafetyFile, safety_file
+from services.robot.memory import RESERVED, RETRY, SafetyFile, Volatile, safety_file
 from tests.services.robot.site import AtOnce, Later
 
 NOW = "2026-03-01T08:00:00+00:00"
@@ -17,7 +19,7 @@ PRESSED = Latch(latched=True, by="bob", reason="smoke", at=NOW)
 
 @pytest.fixture
 def path(tmp_path):
-    return tmp_path / "robot1" / "safety.json"
+    return tmp_path / "state" / "robot1" / "safety.json"
 
 
 def remembered(path):
@@ -31,14 +33,13 @@ def test_a_robot_without_a_file_is_not_stopped(path):
 
 def test_a_latched_stop_is_recalled_as_it_was(path):
     remembered(path).keep(PRESSED, 7)
-    record = remembered(path).recall("later")
-    assert (record.latched, record.by, record.reason, record.at) == (True, "bob", "smoke", NOW)
+    assert remembered(path).recall("later").latch == PRESSED
 
 
 def test_a_release_is_recalled_with_who_and_when(path):
     remembered(path).keep(PRESSED.released("ann", "then"), 7)
-    record = remembered(path).recall("later")
-    assert (record.latched, record.released_by, record.at) == (False, "ann", "then")
+    latch = remembered(path).recall("later").latch
+    assert (latch.latched, latch.released_by, latch.at) == (False, "ann", "then")
 
 
 def test_the_bound_is_above_every_epoch_that_was_given_out(path):
@@ -57,6 +58,17 @@ def test_a_change_of_the_epoch_waits_for_no_disk(path, monkeypatch):
     assert len(written) == 2
 
 
+def test_epochs_are_reserved_anew_when_less_than_half_of_them_are_left(path):
+    memory = remembered(path)
+    for epoch, bound in (
+        (0, RESERVED),
+        (RESERVED // 2, RESERVED),
+        (RESERVED // 2 + 1, RESERVED // 2 + 1 + RESERVED),
+    ):
+        memory.keep(Latch(), epoch)
+        assert json.loads(path.read_bytes())["epoch_bound"] == bound
+
+
 @pytest.mark.parametrize(
     "content",
     [
@@ -71,7 +83,7 @@ def test_a_change_of_the_epoch_waits_for_no_disk(path, monkeypatch):
     ],
 )
 def test_a_file_that_cannot_be_understood_is_a_latched_stop_that_says_so(path, content, caplog):
-    path.parent.mkdir()
+    path.parent.mkdir(parents=True)
     path.write_bytes(content)
     record = remembered(path).recall(NOW)
     assert (record.latched, record.by, record.at) == (True, "robot", NOW)
@@ -80,11 +92,23 @@ def test_a_file_that_cannot_be_understood_is_a_latched_stop_that_says_so(path, c
     assert [entry.levelno for entry in caplog.records] == [logging.ERROR]
 
 
-def test_a_file_that_cannot_be_read_is_a_latched_stop_too(path):
-    path.mkdir(parents=True)
+def test_a_file_that_says_more_than_is_known_is_a_latched_stop(path):
+    remembered(path).keep(Latch(), 7)
+    path.write_text(json.dumps(json.loads(path.read_bytes()) | {"paused": True}))
+    assert remembered(path).recall(NOW).latched
+
+
+@pytest.mark.parametrize(
+    ("error", "cause"), [(OSError(errno.EIO, "Input/output error"), "Input/output error"), (OSError("odd"), "odd")]
+)
+def test_a_file_that_cannot_be_read_is_a_latched_stop_that_says_what_to_do(path, monkeypatch, error, cause):
+    def read(_):
+        raise error
+
+    monkeypatch.setattr(Path, "read_bytes", read)
     record = remembered(path).recall(NOW)
     assert record.latched
-    assert "Is a directory" in record.reason
+    assert record.reason == f"{path} cannot be read ({cause}): look at the robot, then release the stop"
 
 
 def test_a_reason_is_kept_as_far_as_it_can_be_told_again():
@@ -102,6 +126,53 @@ def test_what_is_being_written_is_not_settled(path):
     assert memory.settled
     assert memory.fault == ""
     assert json.loads(path.read_bytes())["latched"] is True
+
+
+@pytest.mark.parametrize(
+    ("error", "cause"), [(OSError(errno.EIO, "Input/output error"), "Input/output error"), (OSError("odd"), "odd")]
+)
+def test_what_cannot_be_written_is_a_fault_that_says_where_and_why(path, error, cause):
+    disk = Later()
+    memory = SafetyFile(path, disk)
+    assert memory.fault == ""
+    memory.keep(PRESSED, 1)
+    disk.fail(error)
+    assert memory.fault == f"the stop would not outlive this process: {path} cannot be written ({cause})"
+
+
+def test_what_was_written_is_not_written_again(path):
+    disk = Later()
+    memory = SafetyFile(path, disk)
+    memory.keep(PRESSED, 1)
+    disk.catch_up()
+    for _ in range(3 * RETRY):
+        assert memory.settled
+        memory.keep(PRESSED, 1)
+    assert disk.waiting == []
+
+
+def test_what_could_not_be_written_is_tried_again_now_and_then(path):
+    disk = Later()
+    memory = SafetyFile(path, disk)
+    tried = []
+    for call in range(1, 3 * RETRY + 1):
+        memory.keep(PRESSED, 1)
+        if disk.waiting:
+            tried.append(call)
+            disk.fail(OSError(errno.ENOSPC, "No space left on device"))
+        assert memory.fault
+    assert tried == [1, RETRY, 2 * RETRY, 3 * RETRY]
+
+
+def test_while_a_disk_does_not_answer_no_second_attempt_piles_up(path):
+    disk = Later()
+    memory = SafetyFile(path, disk)
+    memory.keep(PRESSED, 1)
+    disk.fail(OSError(errno.EIO, "Input/output error"))
+    for _ in range(3 * RETRY):
+        assert memory.fault
+        memory.keep(PRESSED, 1)
+    assert len(disk.waiting) == 1
 
 
 def test_a_full_disk_is_said_once_and_tried_again(path, monkeypatch, caplog):
@@ -123,6 +194,7 @@ def test_a_full_disk_is_said_once_and_tried_again(path, monkeypatch, caplog):
         memory.keep(PRESSED, 1)
         assert memory.settled
     assert memory.fault == ""
+    assert len(caplog.records) == 1
 
 
 def test_the_file_lies_in_the_robots_own_state_folder(tmp_path, monkeypatch):
@@ -131,3 +203,32 @@ def test_the_file_lies_in_the_robots_own_state_folder(tmp_path, monkeypatch):
     memory.keep(PRESSED, 1)
     memory.close()
     assert (tmp_path / "retouch" / "kitchen" / "safety.json").is_file()
+
+
+def test_one_record_is_written_after_another(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    disk_answers = threading.Event()
+    written = []
+
+    def write(path, content):
+        assert disk_answers.wait(10.0)
+        written.append(json.loads(content)["by"])
+
+    monkeypatch.setattr(memory_module, "write_whole", write)
+    memory = safety_file("kitchen")
+    names = [f"operator {number}" for number in range(5)]
+    for name in names:
+        memory.keep(Latch().pressed(name, "", NOW), 1)
+    writers = [thread for thread in threading.enumerate() if thread.name.startswith("safety-file")]
+    disk_answers.set()
+    memory.close()
+    assert len(writers) == 1
+    assert written == names
+
+
+def test_a_robot_that_remembers_nothing_has_no_stop_and_no_fault():
+    memory = Volatile()
+    memory.keep(PRESSED, 7)
+    assert (memory.settled, memory.fault) == (True, "")
+    record = memory.recall(NOW)
+    assert (record.latch, record.epoch_bound) == (Latch(), 0)

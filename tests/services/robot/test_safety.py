@@ -147,6 +147,24 @@ def test_every_joint_beyond_its_limits_or_its_speed_is_named():
     assert names == ("speed lift", "speed elbow")
 
 
+def test_a_speed_that_is_a_little_too_fast_is_named():
+    result, names = LIMITS.clamp(np.array([0.1, 0.0]), np.array([0.10101, 0.0]), PERIOD)
+    np.testing.assert_allclose(result, [0.101, 0.0])
+    assert names == ("speed lift",)
+
+
+def test_what_exceeds_a_limit_by_no_more_than_rounding_is_not_clamped():
+    more = 1.0 + safety.ROUNDING
+    wide = JointLimits(("elbow",), np.array([0.0]), np.array([2.0]), np.array([1.0]))
+    assert wide.clamp(np.zeros(1), np.array([-safety.ROUNDING]), 1.0)[1] == ()
+    assert wide.clamp(np.zeros(1), np.array([more]), 1.0)[1] == ()
+    vector = np.array([0.0, 0.3 * more, 0.0])
+    assert safety.clamp_length(vector, 0.3) == (vector, False)
+    half = 0.5 * safety.REFERENCE_TURN_SPEED * PERIOD * more
+    turned = Pose(np.zeros(3), np.array([math.cos(half), 0.0, math.sin(half), 0.0]))
+    assert safety.clamp_reference(Pose(np.zeros(3), IDENTITY), turned, PERIOD) == (turned, ())
+
+
 @pytest.mark.parametrize(("force", "stops"), [(0.0, False), (300.0, False), (300.1, True), (600.0, True)])
 def test_a_touch_that_pushes_harder_than_any_motion_should_stops_the_arm(force, stops):
     assert safety.too_forceful(force) is stops
