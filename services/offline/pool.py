@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 import signal
+import struct
 import warnings
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
-from multiprocessing import get_context
-from multiprocessing.managers import SyncManager
-from queue import Queue
+from multiprocessing import Pipe
+from multiprocessing.connection import Connection
 from threading import Thread
 from typing import TypeVar
 
@@ -30,9 +30,10 @@ Progress = Callable[[float], None]
 Advance = Callable[[int, float], None]
 """Called with the number of an item and the share of it that is done: 0 when it is begun, 1 at its end."""
 
-States = Queue[tuple[int, float] | None]
+_REPORT = struct.Struct("qd")  # so short that a pipe takes it whole: nobody has to lock it, and may die when he likes
+_NO_MORE = -1  # instead of an item's number
 
-_apart = False  # whether this is a process of the pool
+_reports: Connection | None = None  # to whoever shares the work out; only a process of the pool has one
 
 
 class ProcessDied(CommandFailed):
@@ -62,29 +63,32 @@ def each(
     Raises:
         ProcessDied: a process did not live to the end of its work.
     """
-    if min(jobs, len(items)) <= 1 or _apart:
+    if min(jobs, len(items)) <= 1 or _reports is not None:
         for number, item in enumerate(items):
             yield _done(work, item, number, advance)
         return
-    with _reports(advance) as reports:
-        parallel = Parallel(
-            min(jobs, len(items)),
-            backend="loky",
-            return_as="generator_unordered",
-            batch_size=1,
-            initializer=_begin,
-            initargs=(os.getpid(),),
-        )
-        results = parallel(delayed(_report)(work, item, number, reports) for number, item in enumerate(items))
+    with _listening(advance) as reports:
         try:
-            for result in results:  # noqa: UP028 - it is closed below, after what it warns of
-                yield result
-        except TerminatedWorkerError:
-            raise ProcessDied from None
+            with _deaf_to_ctrl_c():
+                parallel = Parallel(
+                    min(jobs, len(items)),
+                    backend="loky",
+                    return_as="generator_unordered",
+                    batch_size=1,
+                    initializer=_begin,
+                    initargs=(os.getpid(), reports),
+                )
+                results = parallel(delayed(_report)(work, item, number) for number, item in enumerate(items))
+            try:
+                for result in results:  # noqa: UP028 - it is closed below, after what it warns of
+                    yield result
+            except TerminatedWorkerError:
+                raise ProcessDied from None
+            finally:
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore")  # whoever closes it knows that work is left undone
+                    results.close()
         finally:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")  # whoever closes it knows that work is left undone
-                results.close()
             get_reusable_executor().shutdown(wait=True, kill_workers=True)
 
 
@@ -107,33 +111,50 @@ def _done(work: Callable[[Item, Progress], Result], item: Item, number: int, adv
 
 
 @contextmanager
-def _reports(advance: Advance) -> Iterator[States]:
-    """A queue that reaches from the processes to here, and is listened to until what follows is done."""
-    manager = SyncManager(ctx=get_context("spawn"))
-    manager.start(_begin, (os.getpid(),))
-    with manager:
-        reports: States = manager.Queue()
-        listener = Thread(target=_listen, args=(reports, advance), daemon=True)
+def _listening(advance: Advance) -> Iterator[Connection]:
+    """A pipe that reaches from the processes to here, and is listened to until what follows is done."""
+    receiver, sender = Pipe(duplex=False)
+    listener = Thread(target=_listen, args=(receiver, advance), daemon=True)
+    with receiver, sender:
         listener.start()
         try:
-            yield reports
+            yield sender
         finally:
-            reports.put(None)
+            os.write(sender.fileno(), _REPORT.pack(_NO_MORE, 0.0))
             listener.join()
 
 
-def _listen(reports: States, advance: Advance) -> None:
-    while (report := reports.get()) is not None:
-        advance(*report)
+def _listen(receiver: Connection, advance: Advance) -> None:
+    while True:
+        number, share = _REPORT.unpack(os.read(receiver.fileno(), _REPORT.size))
+        if number == _NO_MORE:
+            return
+        advance(number, share)
 
 
-def _begin(parent: int) -> None:
-    global _apart  # noqa: PLW0603 - a process belongs to the pool for all its life
-    _apart = True
+@contextmanager
+def _deaf_to_ctrl_c() -> Iterator[None]:
+    """Processes that are started meanwhile never hear Ctrl-C, not even while they import.
+
+    It reaches every process of the terminal, and the parent decides what it means.
+    """
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT,))
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _begin(parent: int, reports: Connection) -> None:
+    global _reports  # noqa: PLW0603 - a process belongs to the pool for all its life
+    _reports = reports
     die_with_parent(parent)
-    # Ctrl-C reaches every process of the terminal: the parent decides what it means.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
-def _report(work: Callable[[Item, Progress], Result], item: Item, number: int, reports: States) -> tuple[int, Result]:
-    return _done(work, item, number, lambda number, share: reports.put((number, share)))
+def _report(work: Callable[[Item, Progress], Result], item: Item, number: int) -> tuple[int, Result]:
+    return _done(work, item, number, _tell)
+
+
+def _tell(number: int, share: float) -> None:
+    assert _reports is not None
+    os.write(_reports.fileno(), _REPORT.pack(number, share))

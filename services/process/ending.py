@@ -38,11 +38,12 @@ class Patience:
     seconds: float
 
 
-def end_within(seconds: float = WITHIN_S) -> Patience:
+def end_within(seconds: float = WITHIN_S, forced: Exit = Exit.CRASHED) -> Patience:
     """From now on a signal that ends this process does so within the time, even where something hangs.
 
     Args:
         seconds: from the signal; a process that ends by itself is left alone [s].
+        forced: the exit code where it does not.
 
     Returns:
         The time, to be changed when there is more or less to finish.
@@ -52,11 +53,11 @@ def end_within(seconds: float = WITHIN_S) -> Patience:
     told.setblocking(False)
     # Written by the signal's handler in C, so that it does not depend on what Python's main thread is doing.
     signal.set_wakeup_fd(told.fileno(), warn_on_full_buffer=False)
-    threading.Thread(target=_guard, args=(heard, told, patience), name="end", daemon=True).start()
+    threading.Thread(target=_guard, args=(heard, told, patience, forced), name="end", daemon=True).start()
     return patience
 
 
-def _guard(heard: socket.socket, told: socket.socket, patience: Patience) -> None:
+def _guard(heard: socket.socket, told: socket.socket, patience: Patience, forced: Exit) -> None:
     with heard, told:
         while not _ENDING.intersection(heard.recv(64)):
             pass
@@ -66,7 +67,7 @@ def _guard(heard: socket.socket, told: socket.socket, patience: Patience) -> Non
         with contextlib.suppress(OSError, ValueError):
             if select.select([], [_STDERR], [], 0.0)[1]:  # a stopped terminal would hold this up too
                 os.write(_STDERR, b"retouch: did not end in time: ended by force\n")
-        os._exit(Exit.CRASHED)
+        os._exit(forced)
 
 
 def leave(code: int) -> NoReturn:

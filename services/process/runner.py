@@ -118,6 +118,21 @@ def stop_on_signals() -> threading.Event:
     return stop
 
 
+def interrupt_on_signals() -> None:
+    """Let SIGTERM and SIGHUP interrupt as Ctrl-C does; once, so that what is tidied up then is not interrupted too.
+
+    Raises:
+        KeyboardInterrupt: wherever the main thread is when the signal comes.
+    """
+
+    def interrupt(number: int, frame: FrameType | None) -> None:
+        del number, frame
+        _on_signals(lambda number, frame: None)
+        raise KeyboardInterrupt
+
+    _on_signals(interrupt)
+
+
 def _on_signals(handler: Callable[[int, FrameType | None], None]) -> None:
     signal.signal(signal.SIGTERM, handler)
     signal.signal(signal.SIGINT, handler)

@@ -12,7 +12,7 @@ import pytest
 from services.process.exit_codes import Exit
 from services.process.processes import PROCESS_NAMES
 from services.viewer.web_files import sdk_program
-from tests.system.harness import START_S, Command, Witness, configured, free_endpoint, reachable
+from tests.system.harness import START_S, Command, Witness, configured, eventually, free_endpoint, reachable
 
 pytestmark = [pytest.mark.system, pytest.mark.zenoh]
 
@@ -49,6 +49,36 @@ def test_a_process_that_stands_alone_ends_with_0(tmp_path, number):
                 command.process.send_signal(number)
                 assert command.ended(STOP_S) == 0
                 assert "Traceback" not in command.err
+
+
+def _pool(command):
+    """The processes that share a command's work."""
+    lines = [process.cmdline() for process in command.left() if process.pid != command.process.pid]
+    return [line for line in lines if any("popen_loky" in argument for argument in line)]
+
+
+@pytest.mark.sim
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("reproduce", "--jobs", "2"), "interrupted with "),
+        (("map", "--jobs", "2", "--grid", "30"), "interrupted: no map is drawn"),
+    ],
+    ids=["reproduce", "map"],
+)
+def test_work_that_is_shared_out_is_left_at_once_with_one_line_and_without_its_processes(
+    tmp_path, arguments, said, number
+):
+    with Command(*arguments, folder=tmp_path) as command:
+        command.until(lambda: _pool(command), START_S, "a process has been started, and imports yet")
+        before = command.err
+        os.killpg(command.process.pid, number)  # as a terminal does
+        assert command.ended(STOP_S) == Exit.INTERRUPTED
+        eventually(lambda: command.left() == [], STOP_S, lambda: command.left())
+    lines = [line for line in command.err.removeprefix(before).splitlines() if line]
+    assert len(lines) == 1
+    assert lines[0].startswith(said)
 
 
 def test_an_interrupted_run_that_should_have_closed_the_loop_says_so(tmp_path):
