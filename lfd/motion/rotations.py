@@ -122,19 +122,3 @@ def matrix_from_quaternion(q: Array) -> Array:
     """Rotation matrices, shape (..., 3, 3), from quaternions, shape (..., 4)."""
     columns = [rotate(q, axis) for axis in np.eye(3)]
     return np.stack(columns, axis=-1)
-
-
-def quaternion_from_matrix(R: Array) -> Array:
-    """Unit quaternion (4,), w >= 0, of one rotation matrix (3, 3).
-
-    The quaternion is the largest eigenvector of a symmetric matrix made of R (Bar-Itzhack, 2000), which has no
-    singular case and projects a slightly non-orthogonal R.
-    """
-    k = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
-    K = np.zeros((4, 4))  # its lower triangle, which is all that is read
-    K[0, 0] = np.trace(R)
-    K[1:, 0] = k
-    K[1:, 1:] = R + R.T - np.trace(R) * np.eye(3)
-    _, vectors = np.linalg.eigh(K)
-    q: Array = vectors[:, -1]
-    return -q if q[0] < 0.0 else q

@@ -115,9 +115,10 @@ class StationService:
             log.debug("%s -> %s", before.value, step.state.phase.value)
             if step.state.phase is Phase.RESETTING and step.state.placed is None:
                 self._drawn = None
-        self._publish(now_ns, view, held)
+        teaching = teaching_state(self._workflow, view, self._settings)
+        self._publish(now_ns, held, teaching)
         if self._page is not None:
-            self._page.show(self._page_view(now_ns, view))
+            self._page.show(self._page_view(now_ns, view, teaching))
 
     def figures(self) -> tuple[Figure, ...]:
         """Of the page."""
@@ -178,7 +179,7 @@ class StationService:
             self._drawn = Place(condition=drawn) if scene.condition else Place(object_position=vector3(drawn))
         return self._drawn
 
-    def _publish(self, now_ns: int, view: View, held: OperatorInput) -> None:
+    def _publish(self, now_ns: int, held: OperatorInput, teaching: messages.TeachingState) -> None:
         """Who is here and what is held; that s/he is present, where this station holds the authority; the run."""
         operator, holder, epoch = self._settings.operator, self._settings.holder, self._workflow.held_epoch
         said = msgspec.structs.replace(held, operator=operator, holder=holder, epoch=epoch)
@@ -187,14 +188,14 @@ class StationService:
             renewal = messages.AuthorityRenewal(operator=operator, holder=holder, epoch=epoch)
             self._bus.publish(topics.AUTHORITY_RENEWAL, renewal)
         if self._schedule.due(topics.TEACHING_STATE, now_ns):
-            self._bus.publish(topics.TEACHING_STATE, teaching_state(self._workflow, view, self._settings))
+            self._bus.publish(topics.TEACHING_STATE, teaching)
 
-    def _page_view(self, now_ns: int, view: View) -> PageView:
+    def _page_view(self, now_ns: int, view: View, teaching: messages.TeachingState) -> PageView:
         ears, workflow = self._ears, self._workflow
         robot = ears.robot.latest()
         mine = view.authority is not None and view.authority.holder == self._settings.holder
         base = PageView(
-            teaching=teaching_state(workflow, view, self._settings),
+            teaching=teaching,
             verdict=message(ears.verdict.latest()),
             safety=view.safety,
             authority=view.authority,

@@ -75,7 +75,7 @@ def test_work_that_is_shared_out_is_left_at_once_with_one_line_and_without_its_p
         before = command.err
         os.killpg(command.process.pid, number)  # as a terminal does
         assert command.ended(STOP_S) == Exit.INTERRUPTED
-        eventually(lambda: command.left() == [], STOP_S, lambda: command.left())
+        eventually(lambda: command.left() == [], STOP_S, command.left)
     lines = [line for line in command.err.removeprefix(before).splitlines() if line]
     assert len(lines) == 1
     assert lines[0].startswith(said)
