@@ -2,60 +2,30 @@
 
 import numpy as np
 
-from protocol import messages, queries, topics
+from protocol import queries, topics
 from protocol.messages import Mode
-from protocol.queries import AuthorityGranted, EpisodeStarted
+from protocol.queries import EpisodeStarted
 from services.bus.arrays import motion_to_wire
-from services.bus.memory import MemoryNetwork
-from services.process.clock import ManualClock
 from services.process.config import Configuration
 from services.robot.memory import Volatile
 from services.robot.service import build
 from sim.tasks import scene
 from tests.services.predictions import announce
+from tests.services.robot.operated import Operated
 
 SCENE = scene("dishwasher")
 DURATION = 1.48  # [s]: a look-ahead of two control periods
 
 
-class Site:
-    """A robot process, an operator, and a clock that is moved by hand."""
+class Site(Operated):
+    """See the module."""
 
     def __init__(self):
-        self.clock = ManualClock()
-        self.network = MemoryNetwork(self.clock)
-        self.operator = self.network.bus()
-        self.service = build(self.network.bus(), self.clock, Configuration(), Volatile())
+        super().__init__(lambda bus, clock: build(bus, clock, Configuration(), Volatile()))
         self.robot_state = self.operator.subscribe(topics.ROBOT_STATE)
         self.results = self.operator.subscribe(topics.EPISODE_RESULT)
         self.safety = self.operator.subscribe(topics.SAFETY_STATE)
         self.execution = self.operator.subscribe(topics.EXECUTION)
-        self.epoch = 0
-
-    def run(self, seconds, *, renew=True, master=None, rotation=(0.0, 0.0, 0.0), epoch=None):
-        for _ in range(round(seconds * 100)):
-            self.clock.advance(0.01)
-            epoch_now = self.epoch if epoch is None else epoch
-            if renew:
-                self.operator.publish(
-                    topics.AUTHORITY_RENEWAL, messages.AuthorityRenewal(holder="ann", epoch=self.epoch)
-                )
-            if master is not None:
-                state = messages.MasterState(
-                    displacement=master, rotation=rotation, engaged=True, holder="ann", epoch=epoch_now
-                )
-                self.operator.publish(topics.MASTER_STATE, state)
-            self.service.step(self.clock.now_ns())
-
-    def ask(self, query, request):
-        pending = self.operator.ask(query, request)
-        self.run(0.01)
-        return pending.poll()
-
-    def acquire(self, holder="ann", *, take_over=False):
-        reply = self.ask(queries.ACQUIRE, queries.AcquireAuthority(holder, take_over=take_over))
-        assert isinstance(reply, AuthorityGranted)
-        self.epoch = reply.epoch
 
     def execute(self, mode=Mode.AUTONOMOUS, *, request=0, motion=None, adapt=queries.Adapt.NEXT):
         motion = self.lift() if motion is None else motion

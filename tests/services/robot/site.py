@@ -8,10 +8,8 @@ import numpy as np
 
 from protocol import messages, queries, topics
 from protocol.messages import Mode
-from protocol.queries import AuthorityGranted, EpisodeStarted
+from protocol.queries import EpisodeStarted
 from services.bus.arrays import motion_to_wire
-from services.bus.memory import MemoryNetwork
-from services.process.clock import ManualClock
 from services.robot.assembly import kinematics_of, simulated_arm
 from services.robot.control import Control
 from services.robot.memory import Volatile
@@ -20,6 +18,7 @@ from services.robot.service import RobotService, TimedKinematics
 from sim.robots.description import RobotDescription
 from sim.tasks import PARTICLE
 from tests.services.predictions import announce
+from tests.services.robot.operated import Operated
 
 FREE, OBSTACLE = PARTICLE.variants
 MORNING = datetime(2026, 3, 1, 8, 0, tzinfo=UTC)
@@ -61,58 +60,34 @@ class Later(Executor):
             self.waiting.pop(0)[0].set_exception(error)
 
 
-class Site:
+class Site(Operated):
     """See the module."""
 
     def __init__(self, memory=None, *, master_gain=1.0, kinematics=None, morning=MORNING):
-        self.clock = ManualClock()
         self.morning = morning
-        self.network = MemoryNetwork(self.clock)
-        self.operator = self.network.bus()
-        timed = TimedKinematics(self.clock, kinematics or kinematics_of(PARTICLE, NO_DESCRIPTION))
-        self.arm = simulated_arm(PARTICLE, FREE, NO_DESCRIPTION, kinematics=timed)
-        self.control = Control(
-            self.arm,
-            PARTICLE,
-            lease_s=1.0,
-            watchdog=Watchdog(hold_after_s=0.1, presence_after_s=0.2),
-            master_gain=master_gain,
-            memory=memory or Volatile(),
-            utc=self.utc,
-        )
-        self.service = RobotService(self.network.bus(), self.clock, self.control, timed)
+
+        def build(bus, clock):
+            timed = TimedKinematics(clock, kinematics or kinematics_of(PARTICLE, NO_DESCRIPTION))
+            self.arm = simulated_arm(PARTICLE, FREE, NO_DESCRIPTION, kinematics=timed)
+            self.control = Control(
+                self.arm,
+                PARTICLE,
+                lease_s=1.0,
+                watchdog=Watchdog(hold_after_s=0.1, presence_after_s=0.2),
+                master_gain=master_gain,
+                memory=memory or Volatile(),
+                utc=self.utc,
+            )
+            return RobotService(bus, clock, self.control, timed)
+
+        super().__init__(build)
         self.states = self.operator.subscribe(topics.ROBOT_STATE)
         self.results = self.operator.subscribe(topics.EPISODE_RESULT)
         self.safety_states = self.operator.subscribe(topics.SAFETY_STATE)
         self.authority_states = self.operator.subscribe(topics.AUTHORITY_STATE)
-        self.epoch = 0
-        self.holder = "ann"
 
     def utc(self):
         return self.morning + timedelta(microseconds=self.clock.now_ns() // 1000)
-
-    def run(self, seconds, *, renew=True, master=None, engaged=True):
-        """Let time pass: with the operator present or not, with a displacement of the master or without a master."""
-        for _ in range(round(seconds * 100)):
-            self.clock.advance(0.01)
-            if renew:
-                renewal = messages.AuthorityRenewal(holder=self.holder, epoch=self.epoch)
-                self.operator.publish(topics.AUTHORITY_RENEWAL, renewal)
-            if master is not None:
-                state = messages.MasterState(displacement=master, engaged=engaged, holder=self.holder, epoch=self.epoch)
-                self.operator.publish(topics.MASTER_STATE, state)
-            self.service.step(self.clock.now_ns())
-
-    def ask(self, query, request):
-        pending = self.operator.ask(query, request)
-        self.run(0.01)
-        return pending.poll()
-
-    def acquire(self, holder="ann", *, take_over=False):
-        reply = self.ask(queries.ACQUIRE, queries.AcquireAuthority(holder, take_over=take_over))
-        assert isinstance(reply, AuthorityGranted)
-        self.epoch, self.holder = reply.epoch, holder
-        return reply.epoch
 
     def ask_to_execute(self, mode=Mode.AUTONOMOUS, motion=None):
         motion = straight() if motion is None else motion
