@@ -22,11 +22,10 @@ from services.model.learning import learn_all
 from services.model.skill import binding_of
 from services.offline.first_demonstrations import first_demonstrations
 from services.process.config import Scripted
-from services.process.ending import end_within
 from services.process.exceptions import CommandFailed
 from services.process.exit_codes import Exit
 from services.process.files import write_whole
-from services.process.runner import interrupt_on_signals
+from services.process.runner import interruptible
 from services.reproduction.exceptions import CannotKeep, NothingToMap
 from services.reproduction.models import BY_NAME
 from services.success_map import conditions as success_map
@@ -119,13 +118,12 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """See `Action`."""
-    interrupt_on_signals()
-    end_within(forced=Exit.INTERRUPTED)
-    try:
-        draw_map(Request.from_arguments(arguments))
-    except KeyboardInterrupt:
-        Terminal(stderr=True, highlight=False).print("interrupted: no map is drawn")
-        raise
+    with interruptible():
+        try:
+            draw_map(Request.from_arguments(arguments))
+        except KeyboardInterrupt:
+            Terminal(stderr=True, highlight=False).print("interrupted: no map is drawn")
+            raise
     return Exit.DONE
 
 

@@ -13,9 +13,8 @@ from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedCo
 
 from services.commands.arguments import add_debug, whole
 from services.commands.terminal import Terminal
-from services.process.ending import end_within
 from services.process.exit_codes import Exit
-from services.process.runner import interrupt_on_signals
+from services.process.runner import interruptible
 from services.reproduction.analyses import ANALYSES
 from services.reproduction.analysis import Analysis, Holds
 from services.reproduction.exceptions import UnknownAnalysis
@@ -52,9 +51,8 @@ def run(arguments: Namespace) -> int:
     if arguments.list:
         show_list()
         return 0
-    interrupt_on_signals()
-    end_within(forced=Exit.INTERRUPTED)
-    return reproduce(Request.from_arguments(arguments))
+    with interruptible():
+        return reproduce(Request.from_arguments(arguments))
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,8 @@ WITHIN_S = 1.5
 """From the signal to the end by force; the rest of the two seconds is the kernel's, which frees the memory."""
 
 _STDERR = 2
-_ENDING = {signal.SIGTERM, signal.SIGINT, signal.SIGHUP}
+ENDING = (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
+"""Signals that tell a process to end."""
 
 
 @dataclass
@@ -36,6 +37,12 @@ class Patience:
     """
 
     seconds: float
+    _told: socket.socket
+
+    def dismiss(self) -> None:
+        """Guard the end no longer."""
+        signal.set_wakeup_fd(-1)
+        self._told.shutdown(socket.SHUT_WR)
 
 
 def end_within(seconds: float = WITHIN_S, forced: Exit = Exit.CRASHED) -> Patience:
@@ -48,8 +55,8 @@ def end_within(seconds: float = WITHIN_S, forced: Exit = Exit.CRASHED) -> Patien
     Returns:
         The time, to be changed when there is more or less to finish.
     """
-    patience = Patience(seconds)
     heard, told = socket.socketpair()
+    patience = Patience(seconds, told)
     told.setblocking(False)
     # Written by the signal's handler in C, so that it does not depend on what Python's main thread is doing.
     signal.set_wakeup_fd(told.fileno(), warn_on_full_buffer=False)
@@ -59,8 +66,9 @@ def end_within(seconds: float = WITHIN_S, forced: Exit = Exit.CRASHED) -> Patien
 
 def _guard(heard: socket.socket, told: socket.socket, patience: Patience, forced: Exit) -> None:
     with heard, told:
-        while not _ENDING.intersection(heard.recv(64)):
-            pass
+        while not set(ENDING).intersection(signals := heard.recv(64)):
+            if not signals:
+                return
         if patience.seconds <= 0.0:
             os._exit(Exit.DONE)
         time.sleep(patience.seconds)

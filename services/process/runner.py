@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import gc
 import logging
 import os
@@ -12,7 +13,7 @@ import sys
 import threading
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from types import FrameType
 from typing import Protocol, runtime_checkable
 
@@ -20,6 +21,8 @@ from protocol.messages import Figure, Heartbeat
 from protocol.topics import HEARTBEAT
 from services.bus.bus import Bus
 from services.process.clock import Clock
+from services.process.ending import ENDING, end_within
+from services.process.exit_codes import Exit
 
 log = logging.getLogger(__name__)
 
@@ -118,8 +121,11 @@ def stop_on_signals() -> threading.Event:
     return stop
 
 
-def interrupt_on_signals() -> None:
-    """Let SIGTERM and SIGHUP interrupt as Ctrl-C does; once, so that what is tidied up then is not interrupted too.
+@contextlib.contextmanager
+def interruptible() -> Iterator[None]:
+    """Within it SIGTERM and SIGHUP interrupt as Ctrl-C does, and what hangs after that is ended by force.
+
+    Once it is interrupted nothing interrupts what is tidied up, and that stays so: the process is about to end.
 
     Raises:
         KeyboardInterrupt: wherever the main thread is when the signal comes.
@@ -130,7 +136,20 @@ def interrupt_on_signals() -> None:
         _on_signals(lambda number, frame: None)
         raise KeyboardInterrupt
 
+    before = {number: signal.getsignal(number) for number in ENDING}
     _on_signals(interrupt)
+    patience = end_within(forced=Exit.INTERRUPTED)
+    interrupted = False
+    try:
+        yield
+    except KeyboardInterrupt:
+        interrupted = True
+        raise
+    finally:
+        if not interrupted:
+            patience.dismiss()
+            for number, handler in before.items():
+                signal.signal(number, handler)
 
 
 def _on_signals(handler: Callable[[int, FrameType | None], None]) -> None:

@@ -73,7 +73,10 @@ def test_work_that_is_shared_out_is_left_at_once_with_one_line_and_without_its_p
     with Command(*arguments, folder=tmp_path) as command:
         command.until(lambda: _pool(command), START_S, "a process has been started, and imports yet")
         before = command.err
-        os.killpg(command.process.pid, number)  # as a terminal does
+        if number == signal.SIGINT:
+            os.killpg(command.process.pid, number)  # as a terminal does
+        else:
+            command.process.send_signal(number)
         assert command.ended(STOP_S) == Exit.INTERRUPTED
         eventually(lambda: command.left() == [], STOP_S, command.left)
     lines = [line for line in command.err.removeprefix(before).splitlines() if line]

@@ -9,7 +9,8 @@ import pytest
 from protocol import topics
 from services.bus.memory import MemoryNetwork
 from services.process.clock import ManualClock
-from services.process.runner import TickStatistics, leave_on_signals, run, stop_on_signals
+from services.process.ending import ENDING
+from services.process.runner import TickStatistics, interruptible, leave_on_signals, run, stop_on_signals
 
 MS = 1_000_000
 
@@ -122,3 +123,11 @@ def test_a_start_is_left_where_it_stands(handlers):
     with pytest.raises(SystemExit) as left:
         signal.raise_signal(signal.SIGTERM)
     assert left.value.code == 0
+
+
+def test_what_could_be_interrupted_and_was_not_leaves_the_signals_as_they_were():
+    before = [signal.getsignal(number) for number in ENDING]
+    with interruptible():
+        assert [signal.getsignal(number) for number in ENDING] != before
+    assert [signal.getsignal(number) for number in ENDING] == before
+    assert signal.set_wakeup_fd(-1) == -1
