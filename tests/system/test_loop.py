@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 
 from services.viewer.web_files import sdk_program
-from sim.tasks import SCENES
 from tests.system.harness import EVERYBODY, Command, configured, free_endpoint
 
 pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.sim]
@@ -21,7 +20,7 @@ def succeeded(attempt):
     return verdict["reached"] and not verdict["kicked_over"] and not verdict["collision"]
 
 
-@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize("scene", ["dishwasher", "table", "particle"])  # a fourth, the post, costs a minute more
 def test_a_prediction_fails_is_refined_and_the_next_one_succeeds_by_itself(tmp_path, scene):
     configuration = configured(tmp_path, free_endpoint())
     arguments = ("--fresh", "--headless", "--once", "--scene", scene, "--json", "out.json", "--config", configuration)
