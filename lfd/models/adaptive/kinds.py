@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 from lfd.arrays import Array, frozen
 from lfd.models.encoding import OUTPUTS, Encoding
+from lfd.models.encoding import POSITION as POSITIONS
 
 POSITION, ORIENTATION, DURATION = range(3)
 KINDS = 3
 
 _PHASES = 25  # at which motions are compared
-_POSITIONS = 3  # of the outputs, the first
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +40,7 @@ class Kinds:
         """What is compared of vectors (m, D), kind by kind: shapes (m, 3 P), (m, 3 P) and (m, 1)."""
         m = len(X)
         outputs = self.rows @ X[:, :-1].reshape(m, -1, OUTPUTS)
-        positions, rotations = outputs[..., :_POSITIONS], outputs[..., _POSITIONS:]
+        positions, rotations = outputs[..., :POSITIONS], outputs[..., POSITIONS:]
         return positions.reshape(m, -1), rotations.reshape(m, -1), X[:, -1:]
 
     def sizes(self, X: Array) -> Array:
@@ -50,7 +50,7 @@ class Kinds:
     @cached_property
     def of_column(self) -> NDArray[np.intp]:
         """The kind that each entry of a vector belongs to, shape (D,)."""
-        a_function = np.repeat([POSITION, ORIENTATION], [_POSITIONS, OUTPUTS - _POSITIONS])
+        a_function = np.repeat([POSITION, ORIENTATION], [POSITIONS, OUTPUTS - POSITIONS])
         return np.append(np.tile(a_function, self.rows.shape[1]), DURATION)
 
     @cached_property
