@@ -8,6 +8,9 @@ is where the wrist camera sits.
 import math
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 GRASPING_FRAME = "grasping_frame"
 WRIST_CAMERA_FRAME = "wrist_camera_frame"
 PARENT_LINK = "wrist_ft_tool_link"
@@ -83,3 +86,14 @@ def _joint_urdf(child: str, xyz: tuple[float, ...], rpy: tuple[float, ...]) -> s
         f'<joint name="{child}_joint" type="fixed"><parent link="{PARENT_LINK}"/><child link="{child}"/>'
         f'<origin xyz="{" ".join(map(str, xyz))}" rpy="{" ".join(map(str, rpy))}"/></joint>'
     )
+
+
+def pitched_down(pitch: float) -> NDArray[np.float64]:
+    """Return the orientation of a gripper that points forward and down, scalar first, shape (4,).
+
+    The arm's usual roll of 180 degrees is included: the gripper's -z axis points up.
+
+    Args:
+        pitch: Angle below the horizontal [rad].
+    """
+    return np.array([0.0, math.cos(pitch / 2), 0.0, -math.sin(pitch / 2)])

@@ -10,8 +10,9 @@ import numpy as np
 
 from sim.pose import Pose
 from sim.region import Region
+from sim.robots.gripper import pitched_down
 from sim.robots.robot import TIAGO
-from sim.tasks.scene import Array, Box, Corridor, Group, ReachingScene, pitched_down
+from sim.tasks.scene import Array, Box, Corridor, Group, ReachingScene
 
 _B1, _B2 = "b1", "b2"
 _BASKET_FRONT = {_B1: 0.73, _B2: 0.55}  # [m] x of the front panel

@@ -13,9 +13,10 @@ import numpy as np
 
 from sim.pose import Pose
 from sim.region import Region
+from sim.robots.gripper import pitched_down
 from sim.robots.robot import TIAGO
 from sim.tasks.furniture import table
-from sim.tasks.scene import Array, Box, Corridor, Eye, Group, ReachingScene, pitched_down
+from sim.tasks.scene import Array, Box, Corridor, Eye, Group, ReachingScene
 
 _CLEAR, _POST = "clear", "post"
 _TOP_Z = 0.50  # [m]

@@ -290,14 +290,3 @@ def _joined(route: Corridor, start: Pose) -> Corridor:
     positions = route.positions + left * (start.position - route.positions[0])
     near = np.copysign(1.0, start.orientation @ route.orientations[1])  # q and -q are one orientation
     return Corridor(positions, np.vstack([near * start.orientation, route.orientations[1:]]))
-
-
-def pitched_down(pitch: float) -> Array:
-    """Return the orientation of a gripper that points forward and down, scalar first, shape (4,).
-
-    The arm's usual roll of 180 degrees is included: the gripper's -z axis points up.
-
-    Args:
-        pitch: Angle below the horizontal [rad].
-    """
-    return np.array([0.0, math.cos(pitch / 2), 0.0, -math.sin(pitch / 2)])

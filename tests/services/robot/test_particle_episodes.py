@@ -23,9 +23,9 @@ from services.robot.service import build
 from services.robot.starts import StartImpossible
 from sim.pose import Pose
 from sim.robots.description import prepare
+from sim.robots.gripper import pitched_down
 from sim.tasks import PARTICLE
 from sim.tasks.particle import OBSTACLE_TRAINING
-from sim.tasks.scene import pitched_down
 from tests.services.predictions import announce
 
 pytestmark = pytest.mark.sim

@@ -3,8 +3,9 @@ import pytest
 
 from sim.exceptions import UnknownScene, UnknownVariant, WrongPlace
 from sim.pose import Pose
+from sim.robots.gripper import pitched_down
 from sim.tasks import REACHING, SCENES, scene
-from sim.tasks.scene import OBJECT_SIZE, ReachingScene, Scene, pitched_down
+from sim.tasks.scene import OBJECT_SIZE, ReachingScene, Scene
 
 SCENE = pytest.mark.parametrize("place", SCENES.values(), ids=SCENES)
 REACHING_SCENE = pytest.mark.parametrize("place", REACHING.values(), ids=REACHING)
