@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Any, TypeVar
 
 import msgspec
@@ -10,8 +9,8 @@ import msgspec
 from protocol.exceptions import MalformedMessage, OversizedMessage, WrongVersion
 from protocol.fitting import fit
 from protocol.messages import Message
-from protocol.queries import Query, Refused
-from protocol.topics import Topic
+from protocol.queries import QUERIES, Query, Refused
+from protocol.topics import TOPICS, Topic
 
 M = TypeVar("M", bound=Message)
 Req = TypeVar("Req", bound=msgspec.Struct)
@@ -19,10 +18,12 @@ Rep = TypeVar("Rep", bound=msgspec.Struct)
 
 _ENCODER = msgspec.msgpack.Encoder()
 
+_READ: list[Any] = [topic.type for topic in TOPICS]
+_READ += [type_ for query in QUERIES for type_ in (query.request, query.reply | Refused)]
 
-@cache
-def _decoder(type_: Any) -> msgspec.msgpack.Decoder[Any]:
-    return msgspec.msgpack.Decoder(type_)
+_DECODERS: dict[Any, msgspec.msgpack.Decoder[Any]] = {type_: msgspec.msgpack.Decoder(type_) for type_ in _READ}
+"""All of them before the first message: msgspec lets other threads see a description of a struct that it has not
+finished, and a decoder that follows one ends the process (segmentation fault, msgspec 0.22)."""
 
 
 def encode(topic: Topic[M], message: M) -> bytes:
@@ -108,6 +109,6 @@ def _check_schema(subject: str, announced: str, expected: str) -> None:
 def _decode(subject: str, payload: bytes, bound: int, type_: Any) -> Any:
     _bounded(subject, payload, bound)
     try:
-        return _decoder(type_).decode(payload)
+        return _DECODERS[type_].decode(payload)
     except (msgspec.DecodeError, RecursionError) as error:
         raise MalformedMessage(subject, str(error)) from None

@@ -1,6 +1,8 @@
 """Nothing malformed passes the codec, and any language can read what does."""
 
 import contextlib
+import subprocess
+import sys
 
 import msgpack
 import msgspec
@@ -52,6 +54,25 @@ def test_a_request_and_its_reply_survive_the_wire(query, fill):
 def test_a_refusal_is_told_from_a_reply(query):
     refused = queries.Refused("because")
     assert decode_reply(query, encode_reply(query, refused)) == refused
+
+
+def test_no_decoder_is_made_while_messages_come_in():
+    """One thread that makes a decoder while another decodes the same struct for the first time ends the process."""
+    script = """
+import msgspec
+from protocol import codec, exceptions, queries, topics
+
+msgspec.msgpack.Decoder = None
+read = [(codec.decode, topic) for topic in topics.TOPICS]
+read += [(do, query) for query in queries.QUERIES for do in (codec.decode_request, codec.decode_reply)]
+for do, subject in read:
+    try:
+        do(subject, b"\\xc0")
+    except exceptions.MalformedMessage:
+        pass
+"""
+    told = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert told.returncode == 0, told.stderr
 
 
 @by_topic
