@@ -22,6 +22,9 @@ EPISODE_S = 120.0
 TRIES = 3
 AXES = (("q", "a"), ("w", "s"), ("e", "d"))
 TOLERANCE_M = 0.008
+SHOWN = "[document.body.matches('[data-let-go]'), document.querySelector('[data-action=go_on]:enabled') !== null]"
+"""Whether the page says to let go of the keys, and whether it asks to go on: one look, not one for each."""
+
 LEAD = 0.03
 """A person looks a little ahead: share of the motion."""
 
@@ -50,10 +53,11 @@ class Person:
     def look(self):
         """One look, and what it calls for: the keys, or to let go of them, or to go on."""
         robot = self._witness.robot
-        if self._page.locator("body[data-let-go]").count():
+        let_go, asked = self._page.evaluate(SHOWN)
+        if let_go:
             self._hold(set())
             return
-        if self._page.locator("[data-action=go_on]:enabled").count():
+        if asked:
             self._hold(set())
             # The robot may not ask any more by now.
             with contextlib.suppress(playwright.TimeoutError):

@@ -15,7 +15,7 @@ from typing import Any
 
 import zenoh
 
-from services.bus.reach import Silence, open_timeout_ms, probe
+from services.bus.reach import OPEN_MOST_MS, Silence, open_timeout_ms, probe
 from services.process.endpoint import Endpoint, parse
 from services.process.exceptions import BusError, EndpointInUse, RouterUnreachable, ServiceError
 
@@ -26,6 +26,9 @@ LEASE_MS = 1000
 
 REDIAL_MS = 20
 """Between two attempts to open a link again."""
+
+ATTEMPTS = 3
+"""To open a session's first link, before each may take longer."""
 
 FULL_LINK_US = 200_000
 """How long what may not be dropped (a declaration) waits for room on a full link; then the link is dialled anew."""
@@ -39,16 +42,26 @@ TELL_S = 1.0
 POLL_S = 0.02
 
 
-def _configuration(mode: str, connect: str | None, listen: str | None, open_ms: int) -> zenoh.Config:
-    """No discovery: a network is what was named. Links that die are noticed and dialled again within a second."""
+def _configuration(
+    mode: str, connect: str | None, listen: str | None, open_ms: int, within_ms: int = -1
+) -> zenoh.Config:
+    """No discovery: a network is what was named. Links that die are noticed and dialled again within a second.
+
+    Args:
+        mode: "client" or "router".
+        connect: whom to dial.
+        listen: where to listen.
+        open_ms: how long one attempt to open a link may take [ms].
+        within_ms: a session that has no link by then does not open [ms]; -1 to open it without.
+    """
     config: dict[str, Any] = {
         "mode": mode,
         "scouting": {"multicast": {"enabled": False}, "gossip": {"enabled": False}},
         "listen": {"endpoints": [listen] if listen else []},
         "connect": {
             "endpoints": [connect] if connect else [],
-            "timeout_ms": -1,
-            "exit_on_failure": False,
+            "timeout_ms": within_ms,
+            "exit_on_failure": within_ms >= 0,
             "retry": {"period_init_ms": REDIAL_MS, "period_max_ms": REDIAL_MS, "period_increase_factor": 1.0},
         },
         "transport": {
@@ -188,16 +201,14 @@ class _Dialling(threading.Thread):
         """Dial."""
         try:
             trip = self._reach()
-            if trip is None:
-                return
-            session = zenoh.open(_configuration("client", self._endpoint.text, None, open_timeout_ms(trip)))
+            session = None if trip is None else self._open(open_timeout_ms(trip))
         except zenoh.ZError as error:
             self.error = BusError(f"cannot connect to {self._endpoint.text}: {reason(error)}")
         except ServiceError as error:
             self.error = error
         else:
             self.session = session
-            if self._given_up.is_set():
+            if session is not None and self._given_up.is_set():
                 close_session(session)
 
     def _reach(self) -> float | None:
@@ -207,6 +218,28 @@ class _Dialling(threading.Thread):
                 return None
         self.silence = "something listens there, but does not answer as a router"
         return trip
+
+    def _open(self, open_ms: int) -> zenoh.Session | None:
+        """A session; each attempt is given twice the time, for a router on a busy machine answers late."""
+        least_ms = open_ms
+        while (session := self._attempt(open_ms)) is None:
+            if self._given_up.is_set():
+                return None
+            open_ms = min(2 * open_ms, OPEN_MOST_MS)
+        # It dials a cut link at the pace at which it was opened: the router may only have begun late.
+        sooner = self._attempt(least_ms) if open_ms > least_ms else None
+        if sooner is None:
+            return session
+        close_session(session)
+        return sooner
+
+    def _attempt(self, open_ms: int) -> zenoh.Session | None:
+        try:
+            return zenoh.open(_configuration("client", self._endpoint.text, None, open_ms, ATTEMPTS * open_ms))
+        except zenoh.ZError as error:
+            if "Timeout!" not in str(error):
+                raise
+            return None
 
 
 def close_session(session: zenoh.Session) -> None:
