@@ -228,8 +228,8 @@ class BoundElsewhere(StorageError):
 
 
 class NothingToUndo(StorageError):
-    """The store holds no active demonstration of a kind."""
+    """The store holds no active demonstration of one purpose."""
 
-    def __init__(self, path: Path, kind: str) -> None:
-        self.kind = kind
-        super().__init__(path, f"no active {kind} demonstration to take back", "add one first")
+    def __init__(self, path: Path, purpose: str) -> None:
+        self.purpose = purpose
+        super().__init__(path, f"no active {purpose} demonstration to take back", "add one first")

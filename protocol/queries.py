@@ -161,8 +161,8 @@ class Predicted(msgspec.Struct, frozen=True, tag_field="reply", tag="predicted")
     prediction: Prediction
 
 
-class Kind(Enum):
-    """What a demonstration is to the model: part of what it starts from, or an update."""
+class Purpose(Enum):
+    """What a demonstration is for the model: part of what it starts from, or an update."""
 
     INITIAL = "initial"
     UPDATE = "update"
@@ -172,7 +172,7 @@ class AddDemonstration(Change, frozen=True):
     """Learn from a motion that reached the object.
 
     Attributes:
-        kind: what it is to the model.
+        purpose: what it is for the model.
         motion: in the base frame.
         object_position: that the motion is relative to, base frame [m].
         scene: in which it was given.
@@ -182,7 +182,7 @@ class AddDemonstration(Change, frozen=True):
         part: of the motion that was right; the rest stays as predicted.
     """
 
-    kind: Kind
+    purpose: Purpose
     motion: Motion
     object_position: Vector3
     scene: Name
@@ -193,13 +193,13 @@ class AddDemonstration(Change, frozen=True):
 
 
 class Undo(Change, frozen=True):
-    """Take the newest demonstration of a kind back.
+    """Take the newest demonstration of one purpose back.
 
     Attributes:
-        kind: an update, unless one of those that the model starts from is meant.
+        purpose: an update, unless one of those that the model starts from is meant.
     """
 
-    kind: Kind = Kind.UPDATE
+    purpose: Purpose = Purpose.UPDATE
 
 
 class Describe(msgspec.Struct, frozen=True):

@@ -143,15 +143,15 @@ class DemonstrationStore:
         rows = self._connection.rows(
             f"SELECT kind, count(*) FROM demonstrations WHERE {_THEN} GROUP BY kind", [version] * 2
         )
-        found = {Purpose(kind): int(number) for kind, number in rows}
+        found = {Purpose(purpose): int(number) for purpose, number in rows}
         return Counts(found.get(Purpose.INITIAL, 0), found.get(Purpose.UPDATE, 0))
 
-    def add(self, demonstration: Demonstration, kind: Purpose, binding: Binding, request: int = 0) -> int:
+    def add(self, demonstration: Demonstration, purpose: Purpose, binding: Binding, request: int = 0) -> int:
         """Store a demonstration.
 
         Args:
             demonstration: The motion.
-            kind: What it is for the model.
+            purpose: What it is for the model.
             binding: What it is good for.
             request: By which the change is known again; 0 where it is not asked for twice.
 
@@ -177,7 +177,7 @@ class DemonstrationStore:
                 " (added, kind, scene, duration, robot, author, at_s, confidence, part_first, part_last)"
                 " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
                 (
-                    *(version, kind.value, binding.scene, trajectory.duration, binding.robot),
+                    *(version, purpose.value, binding.scene, trajectory.duration, binding.robot),
                     *(*astuple(provenance), *demonstration.part),
                 ),
             )
@@ -186,25 +186,25 @@ class DemonstrationStore:
                 self._connection.rows("INSERT INTO arrays VALUES (?, ?, ?, ?, ?)", row)
         return version
 
-    def undo(self, kind: Purpose, request: int = 0) -> int:
-        """Take back the newest active demonstration of a kind.
+    def undo(self, purpose: Purpose, request: int = 0) -> int:
+        """Take back the newest active demonstration of one purpose.
 
         Args:
-            kind: Initial or update.
+            purpose: Initial or update.
             request: See `add`.
 
         Returns:
             The model version that this makes.
 
         Raises:
-            NothingToUndo: None of the kind is active.
+            NothingToUndo: None of that purpose is active.
             StorageError: It could not be written; the file is as before.
         """
         newest = "SELECT max(added) FROM demonstrations WHERE undone IS NULL AND kind = ?"
         with self._connection.transaction():
-            added = self._connection.value(newest, (kind.value,))
+            added = self._connection.value(newest, (purpose.value,))
             if added is None:
-                raise NothingToUndo(self._path, kind.value)
+                raise NothingToUndo(self._path, purpose.value)
             version = self._next(request)
             self._connection.rows("UPDATE demonstrations SET undone = ? WHERE added = ?", (version, added))
         return version
@@ -222,11 +222,11 @@ class DemonstrationStore:
         return [
             StoredDemonstration(
                 added,
-                Purpose(kind),
+                Purpose(purpose),
                 Binding(scene, robot),
                 self._demonstration(added, duration, *provenance, part=(first, last)),
             )
-            for added, kind, scene, robot, first, last, duration, *provenance in rows
+            for added, purpose, scene, robot, first, last, duration, *provenance in rows
         ]
 
     def _next(self, request: int) -> int:

@@ -16,7 +16,7 @@ from lfd.motion.waypoints import through_waypoints
 from lfd.store.waypoint_file import Surroundings, read_waypoints
 from protocol import queries
 from protocol.messages import ModelState, Vector3
-from protocol.queries import AddDemonstration, Kind, Learnt, Query, Undo
+from protocol.queries import AddDemonstration, Learnt, Purpose, Query, Undo
 from services.bus.arrays import motion_to_wire, vector3
 from services.bus.bus import Bus, Failed
 from services.bus.identity import new_number
@@ -110,7 +110,7 @@ def teach(configuration: Configuration) -> None:
             motion = motion_to_wire(taught.positions, taught.orientations, taught.duration)
             condition = tuple(demonstration.condition.tolist())
             origin = vector3(demonstration.origin)
-            model.add(AddDemonstration(Kind.INITIAL, motion, origin, scene.name, condition, request=new_number()))
+            model.add(AddDemonstration(Purpose.INITIAL, motion, origin, scene.name, condition, request=new_number()))
     log.info("taught %d demonstrations of %s", len(demonstrations), scene.name)
 
 
@@ -139,9 +139,9 @@ def teach_waypoints(configuration: Configuration, file: Path, object_position: V
     motion = motion_to_wire(taught.positions, taught.orientations, taught.duration)
     with _model(configuration) as model:
         before = model.state(scene)
-        kind = Kind.UPDATE if before.demonstrations or before.updates else Kind.INITIAL
+        purpose = Purpose.UPDATE if before.demonstrations or before.updates else Purpose.INITIAL
         operator = configuration.operator
-        given = AddDemonstration(kind, motion, object_position, scene.name, operator=operator, request=new_number())
+        given = AddDemonstration(purpose, motion, object_position, scene.name, operator=operator, request=new_number())
         state = model.add(given)
     log.info("taught a motion through %d waypoints; %s", len(waypoints.positions), _holds(state))
 
@@ -156,9 +156,9 @@ def take_back(configuration: Configuration) -> None:
     scene = find_scene(configuration.robot.scene)
     with _model(configuration) as model:
         before = model.state(scene)
-        kind = Kind.UPDATE if before.updates else Kind.INITIAL
-        state = model.undo(Undo(kind=kind, request=new_number()))
-    taken = "update" if kind is Kind.UPDATE else "first demonstration"
+        purpose = Purpose.UPDATE if before.updates else Purpose.INITIAL
+        state = model.undo(Undo(purpose=purpose, request=new_number()))
+    taken = "update" if purpose is Purpose.UPDATE else "first demonstration"
     log.info("took back the newest %s; %s", taken, _holds(state))
 
 

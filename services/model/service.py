@@ -153,7 +153,7 @@ class ModelService:
             )
         demonstration = _demonstration(request, self._utc().timestamp())
         check_demonstration(self._scene, demonstration)
-        purpose = Purpose(request.kind.value)
+        purpose = Purpose(request.purpose.value)
         candidate = self._extended(demonstration, purpose)
         version = self._store.add(demonstration, purpose, self._binding, request.request)
         added = StoredDemonstration(version, purpose, self._binding, demonstration)
@@ -166,7 +166,7 @@ class ModelService:
         return learn_all(self._kind, [*self._stored, added])
 
     def _undone(self, request: Undo) -> Learnt | Refused:
-        purpose = Purpose(request.kind.value)
+        purpose = Purpose(request.purpose.value)
         newest = next((one for one in reversed(self._stored) if one.purpose is purpose), None)
         if newest is None:
             known = "update" if purpose is Purpose.UPDATE else "first demonstration"

@@ -11,7 +11,7 @@ from pathlib import Path
 from lfd.motion.demonstration import Demonstration
 from protocol import queries
 from protocol.messages import EpisodeResult, TeachingState
-from protocol.queries import AddDemonstration, Kind, Learnt
+from protocol.queries import AddDemonstration, Learnt, Purpose
 from protocol.topics import EPISODE_RESULT, TEACHING_STATE
 from services.bus.arrays import from_wire, motion_to_wire, vector3
 from services.bus.predictions import Predictions
@@ -145,7 +145,9 @@ class Rehearsal:
             shown = demonstration.trajectory
             motion = motion_to_wire(shown.positions, shown.orientations, shown.duration)
             condition = tuple(demonstration.condition.tolist())
-            request = AddDemonstration(Kind.INITIAL, motion, vector3(demonstration.origin), self._plan.scene, condition)
+            request = AddDemonstration(
+                Purpose.INITIAL, motion, vector3(demonstration.origin), self._plan.scene, condition
+            )
             self._add(request)
 
     def course(self, arrangement: Arrangement, refinements_allowed: int) -> Course:

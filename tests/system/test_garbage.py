@@ -214,7 +214,7 @@ def test_a_command_without_authority_is_refused(network, unmoved):
         (queries.UNDO, queries.Undo()),
         (
             queries.ADD_DEMONSTRATION,
-            queries.AddDemonstration(queries.Kind.UPDATE, hollow(predicted.motion), (0.7, 0.0, 0.5), "x"),
+            queries.AddDemonstration(queries.Purpose.UPDATE, hollow(predicted.motion), (0.7, 0.0, 0.5), "x"),
         ),
     ):
         outcome = network.witness.ask(query, request)

@@ -10,7 +10,7 @@ from lfd.motion.demonstration import Demonstration
 from lfd.motion.trajectory import Trajectory
 from lfd.store.database import Binding, DemonstrationStore, Purpose
 from protocol import queries
-from protocol.queries import Kind, Undo
+from protocol.queries import Undo
 from services.bus.arrays import motion_to_wire
 from tests.system.harness import Command, Witness, configured
 
@@ -19,17 +19,17 @@ pytestmark = [pytest.mark.system, pytest.mark.zenoh]
 OBJECT = (0.85, 0.05, 0.55)
 
 
-def demonstration(kind, request):
+def demonstration(purpose, request):
     positions = np.linspace((0.5, 0.0, 0.4), OBJECT, 40)
     motion = motion_to_wire(positions, np.tile((1.0, 0.0, 0.0, 0.0), (40, 1)), 10.0)
-    return queries.AddDemonstration(kind, motion, OBJECT, "dishwasher", request=request)
+    return queries.AddDemonstration(purpose, motion, OBJECT, "dishwasher", request=request)
 
 
 def test_a_request_that_is_repeated_after_kill_9_changes_nothing_and_is_answered_the_same(tmp_path, router):
     configuration = configured(tmp_path, router, model=f'database = "{tmp_path / "model.sqlite"}"')
     asked = (
-        (queries.ADD_DEMONSTRATION, demonstration(Kind.INITIAL, 1)),
-        (queries.ADD_DEMONSTRATION, demonstration(Kind.UPDATE, 2)),
+        (queries.ADD_DEMONSTRATION, demonstration(queries.Purpose.INITIAL, 1)),
+        (queries.ADD_DEMONSTRATION, demonstration(queries.Purpose.UPDATE, 2)),
         (queries.UNDO, Undo(request=3)),
     )
     answers = []
@@ -48,8 +48,8 @@ def test_a_request_that_is_repeated_after_kill_9_changes_nothing_and_is_answered
 def test_what_was_taught_is_taken_back_from_the_command_line(tmp_path, router):
     configuration = configured(tmp_path, router, model=f'database = "{tmp_path / "model.sqlite"}"')
     with Command("model", "--config", configuration, folder=tmp_path), Witness(router) as witness:
-        for kind in (Kind.INITIAL, Kind.UPDATE):
-            witness.asked(queries.ADD_DEMONSTRATION, demonstration(kind, 0))
+        for purpose in (queries.Purpose.INITIAL, Purpose.UPDATE):
+            witness.asked(queries.ADD_DEMONSTRATION, demonstration(purpose, 0))
         for left in ((1, 0), (0, 0)):
             with Command("teach", "--undo", "--config", configuration, folder=tmp_path) as teach:
                 assert teach.ended(20.0) == 0, teach.tail()

@@ -42,7 +42,7 @@ def learning(state: Workflow, view: View, settings: Settings) -> Step:
 
 def _request(taught: Taught, view: View, settings: Settings, intent: int) -> queries.AddDemonstration:
     return queries.AddDemonstration(
-        queries.Kind.UPDATE,
+        queries.Purpose.UPDATE,
         learnable(taught.motion, settings.autonomous_s),
         taught.object_position,
         view.scene.name if view.scene is not None else "",

@@ -25,8 +25,8 @@ def test_what_was_stored_is_read_back_bit_for_bit_and_in_order(path, reach):
     with DemonstrationStore(path) as store:
         assert store.version == 0
         versions = [
-            store.add(d, kind, DISHWASHER)
-            for d, kind in zip(given, [Purpose.INITIAL, Purpose.INITIAL, Purpose.UPDATE], strict=True)
+            store.add(d, purpose, DISHWASHER)
+            for d, purpose in zip(given, [Purpose.INITIAL, Purpose.INITIAL, Purpose.UPDATE], strict=True)
         ]
     assert versions == [1, 2, 3]
     with DemonstrationStore(path) as store:
@@ -65,10 +65,10 @@ def test_undo_takes_back_the_newest_and_makes_a_new_version(path, reach):
         assert store.version == 6
 
 
-def test_undo_takes_back_the_newest_of_its_kind_only(path, reach):
+def test_undo_takes_back_the_newest_of_its_purpose_only(path, reach):
     with DemonstrationStore(path) as store:
-        for kind in (Purpose.INITIAL, Purpose.UPDATE, Purpose.INITIAL):
-            store.add(reach([0.9, 0.1, 0.6]), kind, TABLE)
+        for purpose in (Purpose.INITIAL, Purpose.UPDATE, Purpose.INITIAL):
+            store.add(reach([0.9, 0.1, 0.6]), purpose, TABLE)
         store.undo(Purpose.UPDATE)
         assert [s.version for s in store.active()] == [1, 3]
         with pytest.raises(NothingToUndo, match="update"):
@@ -79,8 +79,8 @@ def test_undo_takes_back_the_newest_of_its_kind_only(path, reach):
 
 def test_the_counts_of_a_version_stay_what_they_were(path, reach):
     with DemonstrationStore(path) as store:
-        for kind in (Purpose.INITIAL, Purpose.UPDATE, Purpose.UPDATE):
-            store.add(reach([0.9, 0.1, 0.6]), kind, TABLE)
+        for purpose in (Purpose.INITIAL, Purpose.UPDATE, Purpose.UPDATE):
+            store.add(reach([0.9, 0.1, 0.6]), purpose, TABLE)
         store.undo(Purpose.UPDATE)
         counted = [store.counts(version) for version in range(5)]
     assert counted == [Counts(0, 0), Counts(1, 0), Counts(1, 1), Counts(1, 2), Counts(1, 1)]

@@ -10,14 +10,14 @@ from lfd.exceptions import StorageError
 from lfd.store import connection
 from lfd.store.database import DemonstrationStore
 from protocol import queries
-from protocol.queries import Kind, Predicted, Undo
+from protocol.queries import Predicted, Purpose, Undo
 from tests.services.model.rig import Rig, positions
 
 
 def test_a_correction_is_stored_whole_with_its_author_its_time_and_how_far_it_is_believed(rig, path):
     began = datetime.now(UTC).timestamp()
-    rig.teach(Kind.INITIAL)
-    rig.teach(Kind.UPDATE, bend=0.1, operator="anna", alpha=0.5)
+    rig.teach(Purpose.INITIAL)
+    rig.teach(Purpose.UPDATE, bend=0.1, operator="anna", alpha=0.5)
     with DemonstrationStore(path) as store:
         first, correction = (stored.demonstration for stored in store.active())
     assert (first.provenance.author, first.provenance.confidence) == ("", 1.0)
@@ -27,8 +27,8 @@ def test_a_correction_is_stored_whole_with_its_author_its_time_and_how_far_it_is
 
 
 def test_a_restarted_process_believes_what_it_learnt_as_far_as_before(rig, path):
-    rig.teach(Kind.INITIAL)
-    rig.teach(Kind.UPDATE, bend=0.1, alpha=0.5)
+    rig.teach(Purpose.INITIAL)
+    rig.teach(Purpose.UPDATE, bend=0.1, alpha=0.5)
     before = positions(rig.predict())
     rig.service.close()
     again = Rig(path)
@@ -39,9 +39,9 @@ def test_a_restarted_process_believes_what_it_learnt_as_far_as_before(rig, path)
 @pytest.mark.parametrize("kind", ["adaptive", "promp"])
 def test_a_new_process_predicts_as_the_one_that_was_killed(path, kind):
     first = Rig(path, kind)
-    first.teach(Kind.INITIAL)
-    first.teach(Kind.INITIAL, at=(0.8, -0.1, 0.55))
-    first.teach(Kind.UPDATE, bend=0.1)
+    first.teach(Purpose.INITIAL)
+    first.teach(Purpose.INITIAL, at=(0.8, -0.1, 0.55))
+    first.teach(Purpose.UPDATE, bend=0.1)
     expected = first.predict()
     second = Rig(path, kind)
     try:
@@ -57,25 +57,25 @@ def test_a_new_process_predicts_as_the_one_that_was_killed(path, kind):
 def test_what_is_asked_twice_is_done_once_and_answered_the_same(path, restarted):
     """The reply was lost, or the process killed before it could give one."""
     rig = Rig(path)
-    rig.teach(Kind.INITIAL)
-    added = rig.teach(Kind.UPDATE, bend=0.1, request=11)
+    rig.teach(Purpose.INITIAL)
+    added = rig.teach(Purpose.UPDATE, bend=0.1, request=11)
     undone = rig.ask(queries.UNDO, Undo(request=12))
-    later = rig.teach(Kind.UPDATE, bend=0.05)
+    later = rig.teach(Purpose.UPDATE, bend=0.05)
     again = Rig(path) if restarted else rig
-    assert again.teach(Kind.UPDATE, bend=0.1, request=11) == added
+    assert again.teach(Purpose.UPDATE, bend=0.1, request=11) == added
     assert again.ask(queries.UNDO, Undo(request=12)) == undone
     assert again.described() == later.state
     again.service.close()
 
 
 def test_requests_without_a_number_are_each_done(rig):
-    rig.teach(Kind.INITIAL)
-    assert [rig.teach(Kind.UPDATE).state.updates for _ in range(2)] == [1, 2]
+    rig.teach(Purpose.INITIAL)
+    assert [rig.teach(Purpose.UPDATE).state.updates for _ in range(2)] == [1, 2]
 
 
 def test_a_database_of_another_scene_is_refused_by_both_names_and_untouched(path):
     first = Rig(path)
-    first.teach(Kind.INITIAL)
+    first.teach(Purpose.INITIAL)
     first.service.close()
     for scene in ("table", "particle"):
         with pytest.raises(StorageError, match=rf"model\.sqlite.*dishwasher.*{scene}") as caught:
@@ -97,15 +97,15 @@ def test_a_database_that_somebody_writes_to_costs_the_change_only_and_the_next_o
     monkeypatch.setattr(connection, "BUSY_TIMEOUT", 0.01)
     rig.service.close()
     rig = Rig(path)
-    learnt = rig.teach(Kind.INITIAL)
+    learnt = rig.teach(Purpose.INITIAL)
     holder = sqlite3.connect(path, isolation_level=None)
     holder.execute("BEGIN IMMEDIATE")
-    assert "another process holds it" in rig.teach(Kind.UPDATE, bend=0.1, request=7).reason
+    assert "another process holds it" in rig.teach(Purpose.UPDATE, bend=0.1, request=7).reason
     for _ in range(3):
         rig.clock.advance(1.0)
         assert isinstance(rig.predict(), Predicted)
     assert rig.described() == learnt.state
     holder.execute("ROLLBACK")
     holder.close()
-    assert rig.teach(Kind.UPDATE, bend=0.1, request=8).state.updates == 1
+    assert rig.teach(Purpose.UPDATE, bend=0.1, request=8).state.updates == 1
     rig.service.close()

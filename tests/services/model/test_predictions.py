@@ -7,7 +7,7 @@ import numpy as np
 
 from lfd.models.model import Way
 from protocol import messages, topics
-from protocol.queries import Kind, Predicted
+from protocol.queries import Predicted, Purpose
 from tests.services.model.rig import OBJECT, START, positions
 
 
@@ -16,7 +16,7 @@ def test_without_a_demonstration_there_is_no_prediction(rig):
 
 
 def test_a_prediction_leads_from_the_start_to_the_object(rig):
-    rig.teach(Kind.INITIAL)
+    rig.teach(Purpose.INITIAL)
     predicted = rig.predict()
     assert isinstance(predicted, Predicted)
     np.testing.assert_allclose(positions(predicted)[[0, -1]], [START.position, OBJECT], atol=1e-3)
@@ -24,7 +24,7 @@ def test_a_prediction_leads_from_the_start_to_the_object(rig):
 
 def test_a_prediction_is_announced_with_the_version_that_made_it(rig):
     subscription = rig.network.bus().subscribe(topics.PREDICTION)
-    version = rig.teach(Kind.INITIAL).state.version
+    version = rig.teach(Purpose.INITIAL).state.version
     predicted = rig.predict().prediction
     announced = subscription.latest().message
     assert (announced.id, announced.motion) == (predicted.id, predicted.motion)
@@ -32,14 +32,14 @@ def test_a_prediction_is_announced_with_the_version_that_made_it(rig):
 
 
 def test_every_prediction_has_an_id_of_its_own(rig):
-    rig.teach(Kind.INITIAL)
+    rig.teach(Purpose.INITIAL)
     identities = {rig.predict().prediction.id for _ in range(5)}
     assert len(identities) == 5
     assert 0 not in identities
 
 
 def test_the_newest_prediction_is_repeated_for_whoever_did_not_hear_it(rig):
-    rig.teach(Kind.INITIAL)
+    rig.teach(Purpose.INITIAL)
     rig.predict()
     newest = rig.predict().prediction
     late = rig.network.bus().subscribe(topics.PREDICTION)
@@ -51,7 +51,7 @@ def test_the_newest_prediction_is_repeated_for_whoever_did_not_hear_it(rig):
 
 def test_a_prediction_says_how_much_of_it_is_known(rig):
     for y in (0.05, 0.1):
-        rig.teach(Kind.INITIAL, at=(0.85, y, 0.55))
+        rig.teach(Purpose.INITIAL, at=(0.85, y, 0.55))
     shares = [rig.predict((0.85, y, 0.55)).prediction.known for y in (0.05, 0.15, 0.3, 0.5)]
     assert shares[0] == 1.0
     assert shares == sorted(shares, reverse=True)
@@ -59,7 +59,7 @@ def test_a_prediction_says_how_much_of_it_is_known(rig):
 
 
 def test_a_prediction_says_which_of_several_ways_it_takes(rig, monkeypatch):
-    rig.teach(Kind.INITIAL)
+    rig.teach(Purpose.INITIAL)
     predict = type(rig.service._model).predict
     monkeypatch.setattr(
         type(rig.service._model), "predict", lambda *asked: replace(predict(*asked), known=0.6, way=Way(1, 2, 0.8))
@@ -70,7 +70,7 @@ def test_a_prediction_says_which_of_several_ways_it_takes(rig, monkeypatch):
 
 
 def test_nothing_is_predicted_for_a_robot_that_stands_in_another_scene(rig):
-    rig.teach(Kind.INITIAL)
+    rig.teach(Purpose.INITIAL)
     box = (0.0, 0.0, 0.0)
     stands = messages.SceneState(
         name="table",
@@ -90,12 +90,12 @@ def test_nothing_is_predicted_for_a_robot_that_stands_in_another_scene(rig):
 
 def test_a_prediction_that_no_robot_can_take_is_refused_and_the_process_goes_on(rig):
     """The logarithm of the duration is carried on in a straight line beyond the demonstrations."""
-    rig.teach(Kind.INITIAL, duration=0.1)
-    rig.teach(Kind.INITIAL, at=(0.85, 0.1, 0.55), duration=3600.0)
+    rig.teach(Purpose.INITIAL, duration=0.1)
+    rig.teach(Purpose.INITIAL, at=(0.85, 0.1, 0.55), duration=3600.0)
     assert "duration" in rig.predict(at=(0.85, 0.9, 0.55)).reason
     assert isinstance(rig.predict(), Predicted)
 
 
 def test_nothing_is_predicted_for_a_target_beyond_the_reach(rig):
-    rig.teach(Kind.INITIAL)
+    rig.teach(Purpose.INITIAL)
     assert "(850.000, 50.000, 550.000)" in rig.predict(at=(850.0, 50.0, 550.0)).reason

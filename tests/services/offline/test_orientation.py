@@ -87,7 +87,7 @@ class Site:
             rolled = multiply(way.orientations, exp_map(np.outer(share, ROLL)))
             motion = from_samples(np.linspace(0.0, AUTONOMOUS_S, len(rolled)), way.positions, rolled, 75)
             self.learn(
-                queries.Kind.INITIAL, motion_to_wire(motion.positions, motion.orientations, AUTONOMOUS_S), position
+                queries.Purpose.INITIAL, motion_to_wire(motion.positions, motion.orientations, AUTONOMOUS_S), position
             )
 
     def learn(self, kind, motion, position):
@@ -145,7 +145,7 @@ def test_an_orientation_that_was_taught_wrongly_is_corrected_once_and_learnt(sit
         np.testing.assert_allclose(np.linalg.norm(from_wire(executed.orientations), axis=1), 1.0, atol=1e-12)
 
     learnt = msgspec.structs.replace(refinement.commanded, duration=AUTONOMOUS_S)
-    site.learn(queries.Kind.UPDATE, learnt, site.place)
+    site.learn(queries.Purpose.UPDATE, learnt, site.place)
     right = site.predict()
     distances, angles = site.errors(right.motion)
     assert np.max(angles) < 0.1 * np.max(before)

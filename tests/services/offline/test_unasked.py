@@ -64,7 +64,7 @@ class Person(Stage):
             motion = motion_to_wire(way.positions, way.orientations, way.duration)
             condition = tuple(shown.condition.tolist())
             request = queries.AddDemonstration(
-                queries.Kind.INITIAL, motion, vector3(shown.origin), "particle", condition
+                queries.Purpose.INITIAL, motion, vector3(shown.origin), "particle", condition
             )
             pending = self.way_in.ask(queries.ADD_DEMONSTRATION, request)
             self.run(lambda pending=pending: pending.poll() is not None)

@@ -17,7 +17,7 @@ from protocol.messages import (
     SceneState,
     Verdict,
 )
-from protocol.queries import AddDemonstration, Kind
+from protocol.queries import AddDemonstration, Purpose
 from services.bus.arrays import motion_from_wire, motion_to_wire
 from services.bus.memory import MemoryNetwork
 from services.model.service import build
@@ -55,7 +55,9 @@ class Site:
         t = np.linspace(0.0, 1.0, 40)[:, None]
         path = np.array(START.position) + t * (np.array(place) - START.position)
         motion = motion_to_wire(path, np.tile(START.orientation, (40, 1)), 10.0)
-        pending = self.robot.ask(queries.ADD_DEMONSTRATION, AddDemonstration(Kind.INITIAL, motion, place, "dishwasher"))
+        pending = self.robot.ask(
+            queries.ADD_DEMONSTRATION, AddDemonstration(Purpose.INITIAL, motion, place, "dishwasher")
+        )
         self.model.step(self.clock.now_ns())
         assert isinstance(pending.poll(), queries.Learnt)
 

@@ -89,8 +89,8 @@ def test_a_refinement_is_learnt_as_its_operators_and_as_far_as_it_is_believed():
     (learnt,) = site.requests(queries.ADD_DEMONSTRATION)
     assert (learnt.operator, learnt.alpha) == (SCRIPTED.operator, 0.5)
     assert learnt.motion.duration == SCRIPTED.autonomous_s
-    assert (learnt.kind, learnt.scene, learnt.object_position) == (
-        queries.Kind.UPDATE,
+    assert (learnt.purpose, learnt.scene, learnt.object_position) == (
+        queries.Purpose.UPDATE,
         "dishwasher",
         (0.85, 0.05, 0.5),
     )
