@@ -34,10 +34,7 @@ def checked(name: str, values: ArrayLike, shape: tuple[int | None, ...]) -> Arra
         array = frozen(values)
     except (TypeError, ValueError):
         raise NotNumbers(name) from None
-    fits = array.ndim == len(shape) and all(
-        want is None or want == have for want, have in zip(shape, array.shape, strict=True)
-    )
-    if not fits:
+    if array.ndim != len(shape) or any(want not in (None, have) for want, have in zip(shape, array.shape, strict=True)):
         expected = ", ".join("n" if length is None else str(length) for length in shape)
         raise WrongShape(name, f"({expected})", array.shape)
     if not np.isfinite(array).all():
@@ -61,8 +58,9 @@ def checked_quaternions(name: str, values: ArrayLike, shape: tuple[int | None, .
         NotUnitQuaternion: A norm differs from one by more than rounding does.
     """
     array = checked(name, values, shape)
-    norms = np.sqrt(np.einsum("...i,...i->...", array, array))[..., None]
-    wrong = np.flatnonzero(np.abs(norms - 1.0) > UNIT_TOLERANCE)
-    if wrong.size:
-        raise NotUnitQuaternion(name, int(wrong[0]), float(norms.flat[wrong[0]]))
+    norms = np.sqrt(np.vecdot(array, array))[..., None]
+    wrong = np.abs(norms - 1.0) > UNIT_TOLERANCE
+    if wrong.any():
+        first = int(np.flatnonzero(wrong)[0])
+        raise NotUnitQuaternion(name, first, float(norms.flat[first]))
     return frozen(array / norms)

@@ -7,7 +7,5 @@ from lfd.arrays import Array
 
 def squared_distances(a: Array, b: Array) -> Array:
     """|a_i - b_j|^2 of points (m, c) and (n, c), shape (m, n)."""
-    squares: Array = np.zeros((len(a), len(b)))
-    for of_a, of_b in zip(a.T, b.T, strict=True):
-        squares += np.subtract.outer(of_a, of_b) ** 2
-    return squares
+    differences = a[:, None] - b
+    return np.asarray(np.vecdot(differences, differences), dtype=np.float64)

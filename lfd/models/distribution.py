@@ -15,7 +15,7 @@ from lfd.models.encoding import OUTPUTS, POSITION, Encoding
 from lfd.models.via_point import ViaPoint, gain_of, position_rows
 from lfd.motion.demonstration import Situation
 from lfd.motion.rotations import rotate, slerp
-from lfd.motion.trajectory import Trajectory
+from lfd.motion.trajectory import Trajectory, equal_phases
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +69,7 @@ class MotionDistribution:
             TooFewPoints: n is less than 2.
         """
         check_points("motion", n)
-        phases, duration = np.linspace(0.0, 1.0, n), float(np.exp(self.mean[-1]))
+        phases, duration = equal_phases(n), float(np.exp(self.mean[-1]))
         outputs = self.encoding.outputs(self.mean, self.situation, phases)
         rates = self.encoding.output_rates(self.mean, self.situation, phases) / duration
         turning = _angular_velocity(outputs[:, POSITION:], rates[:, POSITION:])
@@ -132,7 +132,7 @@ def position_covariances(encoding: Encoding, covariance: Array, n: int) -> Array
     """
     check_points("motion", n)
     N = encoding.basis.count
-    Phi = encoding.rows(np.linspace(0.0, 1.0, n))
+    Phi = encoding.rows(equal_phases(n))
     Sigma = covariance[:-1, :-1].reshape(N, OUTPUTS, N, OUTPUTS)[:, :POSITION, :, :POSITION]
     half = np.tensordot(Phi, Sigma, axes=1)  # (n, 3, N, 3)
     return np.asarray(np.einsum("tibj,tb->tij", half, Phi), dtype=np.float64)

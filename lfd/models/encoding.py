@@ -10,9 +10,9 @@ from lfd.arrays import Array, checked_quaternions, frozen
 from lfd.bounds import at_least, check_options, check_points
 from lfd.models.basis import GaussianBasis, least_squares
 from lfd.motion.demonstration import Demonstration, Situation
-from lfd.motion.resampling import resample
+from lfd.motion.resampling import poses_at
 from lfd.motion.rotations import conjugate, exp_map, left_matrix, log_map, mean_rotation, sign_continuous
-from lfd.motion.trajectory import Trajectory
+from lfd.motion.trajectory import Trajectory, equal_phases
 
 
 def reference_rotation(demonstrations: Sequence[Demonstration]) -> Array:
@@ -61,13 +61,15 @@ class Encoding:
 
         The weights are the least squares of equation (3), of positions less the origin [m] and rotation vectors [rad].
         """
-        trajectory = resample(demonstration.trajectory, self.samples)
-        relative = trajectory.positions - demonstration.origin  # equation (23)
-        outputs = np.hstack([relative, self._rotation_vectors(trajectory.orientations)])
+        phases = equal_phases(self.samples)
+        positions, orientations = poses_at(demonstration.trajectory, phases)
+        outputs = np.empty((self.samples, OUTPUTS))
+        outputs[:, :POSITION] = positions - demonstration.origin  # equation (23)
+        outputs[:, POSITION:] = self._rotation_vectors(orientations)
         if self.anchored:
-            outputs = outputs - np.outer(1.0 - trajectory.phases, outputs[0])
-        w = _solver(self.basis, trajectory.phases.tobytes(), self.anchored) @ outputs
-        return np.append(w.ravel(), np.log(trajectory.duration))
+            outputs -= np.multiply.outer(1.0 - phases, outputs[0])
+        w = _solver(self.basis, phases.tobytes(), self.anchored) @ outputs
+        return np.append(w, np.log(demonstration.trajectory.duration))
 
     def decode(self, x: Array, situation: Situation, n: int) -> Trajectory:
         """The trajectory of n points in the base frame that the vector x (6 N + 1,) stands for.
@@ -83,19 +85,19 @@ class Encoding:
             InvalidDuration: Or it is none.
         """
         check_points("decoded motion", n)
-        outputs = self.outputs(x, situation, np.linspace(0.0, 1.0, n))
+        outputs = self.outputs(x, situation, equal_phases(n))
         with np.errstate(over="ignore"):
             duration = float(np.exp(x[-1]))
         return Trajectory(
-            positions=outputs[:, :3] + situation.origin,
-            orientations=exp_map(outputs[:, 3:]) @ self._turned,
+            positions=outputs[:, :POSITION] + situation.origin,
+            orientations=exp_map(outputs[:, POSITION:]) @ self._turned,
             duration=duration,
         )
 
     def positions(self, changes: Array, n: int) -> Array:
         """What changes (J, D) of vectors do to the positions at n equal times, shape (J, n, 3) [m]."""
-        weights_of_positions = changes[:, :-1].reshape(len(changes), self.basis.count, OUTPUTS)[:, :, :3]
-        return np.asarray(self.rows(np.linspace(0.0, 1.0, n)) @ weights_of_positions, dtype=np.float64)
+        weights_of_positions = changes[:, :-1].reshape(len(changes), self.basis.count, OUTPUTS)[:, :, :POSITION]
+        return np.asarray(self.rows(equal_phases(n)) @ weights_of_positions, dtype=np.float64)
 
     def outputs(self, x: Array, situation: Situation, phases: Array) -> Array:
         """Positions relative to the origin [m], base axes, and rotation vectors [rad] at phases (T,), shape (T, 6).
@@ -107,7 +109,7 @@ class Encoding:
         """
         outputs = self.rows(phases) @ x[:-1].reshape(self.basis.count, OUTPUTS)
         if self.anchored:
-            outputs = outputs + np.outer(1.0 - phases, self._start(situation))
+            outputs += np.multiply.outer(1.0 - phases, self._start(situation))
         return outputs
 
     def output_rates(self, x: Array, situation: Situation, phases: Array) -> Array:
@@ -123,7 +125,7 @@ class Encoding:
         return _rows(self.basis, phases.tobytes(), self.anchored)
 
     def _start(self, situation: Situation) -> Array:
-        turned = self._rotation_vectors(situation.start_orientation[None])[0]
+        turned = log_map(situation.start_orientation @ self._turned_back)
         return np.concatenate([situation.start_position - situation.origin, turned])
 
     def _rotation_vectors(self, orientations: Array) -> Array:

@@ -10,7 +10,7 @@ from lfd.bounds import check_points, check_type
 from lfd.exceptions import TimesNotIncreasing, WrongShape
 from lfd.motion.rotations import sign_continuous, slerp
 from lfd.motion.spline import cubic_spline
-from lfd.motion.trajectory import Trajectory
+from lfd.motion.trajectory import Trajectory, equal_phases
 
 
 class Interpolation(Enum):
@@ -34,7 +34,7 @@ def resample(trajectory: Trajectory, n: int, interpolation: Interpolation = Inte
     """
     check_points("resampled trajectory", n)
     check_type("interpolation", interpolation, Interpolation)
-    return at_phases(trajectory, np.linspace(0.0, 1.0, n), interpolation)
+    return at_phases(trajectory, equal_phases(n), interpolation)
 
 
 def at_phases(trajectory: Trajectory, phases: Array, interpolation: Interpolation = Interpolation.LINEAR) -> Trajectory:
@@ -42,9 +42,15 @@ def at_phases(trajectory: Trajectory, phases: Array, interpolation: Interpolatio
 
     Positions by the interpolation, orientations by SLERP, both in the trajectory's frame.
     """
+    return Trajectory(*poses_at(trajectory, phases, interpolation), trajectory.duration)
+
+
+def poses_at(
+    trajectory: Trajectory, phases: Array, interpolation: Interpolation = Interpolation.LINEAR
+) -> tuple[Array, Array]:
+    """Positions (n, 3) [m] and unit quaternions (n, 4) of a trajectory at phases: see `at_phases`."""
     positions = _interpolate(trajectory.phases, trajectory.positions, phases, interpolation)
-    orientations = _slerp_at(trajectory.phases, trajectory.orientations, phases)
-    return Trajectory(positions, orientations, trajectory.duration)
+    return positions, _slerp_at(trajectory.phases, trajectory.orientations, phases)
 
 
 def from_samples(

@@ -11,7 +11,8 @@ from lfd.arrays import Array
 IDENTITY: Array = np.array([1.0, 0.0, 0.0, 0.0])
 IDENTITY.setflags(write=False)
 
-_SMALL = 1e-8  # [rad] below it the series replaces sin(x) / x
+_SMALL = 1e-8  # below it sin(x) is x
+_TINY = 1e-150
 
 
 def multiply(p: Array, q: Array) -> Array:
@@ -45,10 +46,8 @@ def conjugate(q: Array) -> Array:
 
 def exp_map(r: Array) -> Array:
     """Rotation vectors [rad], shape (..., 3), to unit quaternions, shape (..., 4)."""
-    half = 0.5 * np.sqrt(np.einsum("...i,...i->...", r, r))[..., None]
-    near_identity = half < _SMALL
-    scale = np.where(near_identity, 0.5, 0.5 * np.sin(half) / np.where(near_identity, 1.0, half))
-    return np.concatenate([np.cos(half), scale * r], axis=-1)
+    half = np.maximum(0.5 * _lengths(r), _TINY)
+    return np.concatenate([np.cos(half), 0.5 * np.sin(half) / half * r], axis=-1)
 
 
 def log_map(q: Array, *, shortest: bool = True) -> Array:
@@ -61,17 +60,17 @@ def log_map(q: Array, *, shortest: bool = True) -> Array:
     """
     if shortest:
         q = np.where(q[..., :1] < 0.0, -q, q)
-    sine = np.sqrt(np.einsum("...i,...i->...", q[..., 1:], q[..., 1:]))[..., None]
-    half = np.arctan2(sine, q[..., :1])
-    near_identity = np.where(q[..., :1] < 0.0, -2.0, 2.0)
-    scale = np.where(sine > _SMALL, 2.0 * half / np.maximum(sine, _SMALL), near_identity)
-    r: Array = scale * q[..., 1:]
+    w, v = q[..., :1], q[..., 1:]
+    sine = _lengths(v)
+    not_zero = np.maximum(sine, _SMALL)
+    scale = np.where(sine > _SMALL, 2.0 * np.arctan2(not_zero, w) / not_zero, np.copysign(2.0, w))
+    r: Array = scale * v
     return r
 
 
 def sign_continuous(q: Array) -> Array:
     """The same rotations, shape (n, 4), with signs such that neighbours lie in one hemisphere; the first is kept."""
-    flips = np.einsum("ni,ni->n", q[1:], q[:-1]) < 0.0
+    flips = np.vecdot(q[1:], q[:-1]) < 0.0
     if not flips.any():
         return q
     signs = np.concatenate([[1.0], np.cumprod(np.where(flips, -1.0, 1.0))])
@@ -80,15 +79,19 @@ def sign_continuous(q: Array) -> Array:
 
 
 def slerp(p: Array, q: Array, fraction: Array) -> Array:
-    """Spherical linear interpolation from p (fraction 0) to q (fraction 1) along the shorter way.
+    """Spherical linear interpolation from p (fraction 0) to q (fraction 1) along the shorter way (Shoemake 1985).
 
     Args:
         p: Unit quaternions, shape (..., 4).
         q: Unit quaternions, shape (..., 4).
         fraction: Numbers, shape (...,).
     """
-    step = log_map(multiply(conjugate(p), q))
-    return multiply(p, exp_map(np.asarray(fraction)[..., None] * step))
+    q = np.where(np.vecdot(p, q)[..., None] < 0.0, -q, q)
+    share = np.asarray(fraction)[..., None]
+    # Of two unit vectors whose difference and sum are the diagonals of a rhombus: exact for any angle.
+    angle = np.maximum(2.0 * np.arctan2(_lengths(q - p), _lengths(q + p)), _TINY)
+    between: Array = (np.sin((1.0 - share) * angle) * p + np.sin(share * angle) * q) / np.sin(angle)
+    return between
 
 
 def mean_rotation(q: Array) -> Array:
@@ -122,3 +125,8 @@ def matrix_from_quaternion(q: Array) -> Array:
     """Rotation matrices, shape (..., 3, 3), from quaternions, shape (..., 4)."""
     columns = [rotate(q, axis) for axis in np.eye(3)]
     return np.stack(columns, axis=-1)
+
+
+def _lengths(v: Array) -> Array:
+    """Of vectors (..., k), shape (..., 1)."""
+    return np.asarray(np.sqrt(np.vecdot(v, v)), dtype=np.float64)[..., None]

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -63,4 +64,10 @@ class Trajectory:
     @property
     def phases(self) -> Array:
         """Times of the points as a fraction of the duration, shape (n,), from 0 to 1."""
-        return np.linspace(0.0, 1.0, self.n_points)
+        return equal_phases(self.n_points)
+
+
+@lru_cache(maxsize=64)
+def equal_phases(n: int) -> Array:
+    """Phases from 0 to 1 at n equal times, shape (n,); kept, read-only."""
+    return frozen(np.linspace(0.0, 1.0, n))

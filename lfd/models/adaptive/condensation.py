@@ -24,11 +24,15 @@ def condensed(conditions: Array, vectors: Array, most: int, scale: ConditionScal
     if len(conditions) <= most:
         return conditions, vectors
     z = scale.standard(conditions)
-    nearest = squared_distances(z[most:], z[:most]).argmin(axis=1)
-    owners = np.concatenate([np.arange(most), nearest])
+    blocks = np.split(z[most:], range(_BLOCK, len(z) - most, _BLOCK))
+    nearest = [squared_distances(block, z[:most]).argmin(axis=1) for block in blocks]
+    owners = np.concatenate([np.arange(most), *nearest])
     counts = np.bincount(owners, minlength=most)[:, None]
     mean_conditions, mean_vectors = (
         np.column_stack([np.bincount(owners, weights=column, minlength=most) for column in values.T]) / counts
         for values in (conditions, vectors)
     )
     return mean_conditions, mean_vectors
+
+
+_BLOCK = 500  # samples whose distances are taken at once, for the sake of memory

@@ -144,14 +144,15 @@ class Corrections:
         """What the corrections change at a place."""
         if not self.held:
             return Effect(np.zeros(self.regression.vectors.shape[1]))
-        z = self._scale.standard(expected.s)
-        distances = np.sqrt(squared_distances(z[None], self._z)[0])
-        outside = expected.outside if self._scale is self.regression.scale else z
+        z, outside = expected.z, expected.outside
+        if self._scale is not self.regression.scale:
+            z = outside = self._scale.standard(expected.s)
+        distances = np.sqrt(squared_distances(z[None], self._z))
         beyond = float(np.sqrt(outside @ outside))
-        place = Nearness.of(distances[None], levy(outside[None], self._outside), self.options.covariance)
+        place = Nearness.of(distances, levy(outside[None], self._outside), self.options.covariance)
         if self._only_way:
             return self._of_way(0, place, beyond)
-        likely = probabilities(distances, self._ways, self.options.gate)
+        likely = probabilities(distances[0], self._ways, self.options.gate)
         chosen = int(likely.argmax())
         effect = self._of_way(chosen, place, beyond)
         others = [way for way in range(len(likely)) if way != chosen and likely[way] > _IMPROBABLE]
@@ -162,23 +163,22 @@ class Corrections:
     @property
     def noise(self) -> float:
         """Variance of a correction about the mean of its world [m^2]."""
-        return self._worlds[POSITION].noise
+        return float(self._worlds.noise[POSITION])
 
     @cached_property
     def changes(self) -> Array:
         """y_j = x_j - m(s_j), where m is the regression's mean, shape (J, D)."""
         vectors = np.array([correction.x for correction in self.held])
-        return np.asarray(vectors - self.regression.means(self._conditions), dtype=np.float64)
+        return np.asarray(vectors - self._expected[0], dtype=np.float64)
 
     @cached_property
     def mean_square(self) -> float:
         """Of the corrections' positions [m^2]."""
-        return float(np.trace(self._products[POSITION]) / len(self))
+        return float(self._products[POSITION].trace() / len(self))
 
     def _of_way(self, way: int, place: Nearness, beyond: float) -> Effect:
         weights, left, surprise = self._solved[way].at(place, beyond)
-        of_column = self.regression.kinds.of_column
-        change = (weights @ self.changes)[of_column, np.arange(of_column.size)]
+        change = self.regression.kinds.each_from_its_own(weights @ self.changes)
         counted = weights[POSITION]
         squares = float(counted @ counted)
         evidence = max(float(np.abs(counted).sum()) ** 2 / squares, 1.0) if squares > 0.0 else 1.0
@@ -187,16 +187,14 @@ class Corrections:
     @cached_property
     def _solved(self) -> tuple[Solved, ...]:
         """For each way."""
-        current = np.array([worlds.current for worlds in self._worlds])
-        repeated = np.array([worlds.noise * (worlds.shared > 1.0) for worlds in self._worlds])
-        squares = np.array([np.diag(products) for products in self._products])
-        doubt = (np.broadcast_to(self.options.noise + self._aged, squares.shape), repeated)
+        worlds = self._worlds
+        repeated = worlds.noise[:, None] * (worlds.shared > 1.0)
         return tuple(
             Solved.of(
                 self._nearness,
-                squares,
-                np.asarray(current & (self._ways == way), dtype=np.float64),
-                doubt=doubt,
+                self._products.diagonal(axis1=1, axis2=2),
+                np.asarray(worlds.current & (self._ways == way), dtype=np.float64),
+                doubt=(self.options.noise + self._aged, repeated),
                 units=self._units,
                 options=self.options.covariance,
             )
@@ -226,7 +224,12 @@ class Corrections:
     @cached_property
     def _outside(self) -> Array:
         """How far each lies beyond what the demonstrations show, shape (J, c)."""
-        return self.regression.outside(self._conditions) if self._scale is self.regression.scale else self._z
+        return self._expected[1] if self._scale is self.regression.scale else self._z
+
+    @cached_property
+    def _expected(self) -> tuple[Array, Array]:
+        """See `Regression.at_each`."""
+        return self.regression.at_each(self._conditions)
 
     @cached_property
     def _distances(self) -> Array:
@@ -238,22 +241,25 @@ class Corrections:
         return np.array([self.extent, 1.0, 1.0])
 
     @cached_property
-    def _products(self) -> tuple[Array, ...]:
-        """Inner products of the changes in each kind, each (J, J)."""
-        return tuple(values @ values.T for values in self.regression.kinds.measured(self.changes))
+    def _products(self) -> Array:
+        """Inner products of the changes in each kind, shape (3, J, J)."""
+        return self.regression.kinds.products(self.changes)
 
     @cached_property
-    def _worlds(self) -> tuple[Worlds, ...]:
-        groups = group_by_condition(self._z, self.options.same)
-        return tuple(
-            find_worlds(products, groups, unit, self.options.world)
-            for products, unit in zip(self._products, self._units.tolist(), strict=True)
-        )
+    def _near(self) -> NDArray[np.bool_]:
+        """Which are of one condition, shape (J, J)."""
+        return np.asarray(self._distances <= self.options.same, dtype=np.bool_)
+
+    @cached_property
+    def _worlds(self) -> Worlds:
+        # Mostly there is one at each condition, and nothing to be grouped.
+        groups = group_by_condition(self._z, self.options.same) if self._near.sum() > len(self) else []
+        return find_worlds(self._products, groups, self._units, self.options.world)
 
     @cached_property
     def _ways(self) -> NDArray[np.intp]:
         """Of each correction; those that no longer hold belong to none."""
-        current = np.flatnonzero(self._worlds[POSITION].current)
+        current = np.flatnonzero(self._worlds.current[POSITION])
         if len(current) == 1:
             return np.zeros(len(self), dtype=np.intp)
         chosen = np.ix_(current, current)
@@ -268,8 +274,10 @@ class Corrections:
     @cached_property
     def _aged(self) -> Array:
         """What each is believed less for its age, as a variance relative to what it could have changed, shape (J,)."""
+        if self.options.half_life_s is None:
+            return np.zeros(len(self))
         times = np.array([np.nan if c.at_s is None else c.at_s for c in self.held], dtype=np.float64)
-        if self.options.half_life_s is None or np.isnan(times).all():
+        if np.isnan(times).all():
             return np.zeros(len(self))
         ages = np.nan_to_num(np.nanmax(times) - times, nan=0.0)
         return np.asarray(np.exp2(np.minimum(ages / self.options.half_life_s, _OLDEST)) - 1.0, dtype=np.float64)
@@ -277,8 +285,7 @@ class Corrections:
     @cached_property
     def _outdated(self) -> Array:
         """How many newer ones there are at the condition of each, shape (J,)."""
-        near = self._distances <= self.options.same
-        return np.asarray(np.triu(near, k=1).sum(axis=1) + ~self._worlds[POSITION].current * len(self))
+        return np.asarray(np.triu(self._near, k=1).sum(axis=1) + ~self._worlds.current[POSITION] * len(self))
 
 
 _IMPROBABLE = 0.01

@@ -1,6 +1,7 @@
 """The covariance C of what may have changed: in three parts, see `lfd.models.adaptive.correction`."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Self
 
 import numpy as np
@@ -41,6 +42,11 @@ class CovarianceOptions:
         for reach in self.reach:
             check_number("CovarianceOptions.reach", reach, POSITIVE)
 
+    @cached_property
+    def rates(self) -> Array:
+        """By which a surprising correction fades in each kind, shape (3,)."""
+        return _ROOT_3 / np.array(self.reach)
+
 
 @dataclass(frozen=True, eq=False)
 class Nearness:
@@ -66,7 +72,7 @@ class Nearness:
             levy: See `levy`, shape (m, J).
             options: Of the covariance.
         """
-        r = distances * (_ROOT_3 / np.array(options.reach))[:, None, None]
+        r = options.rates[:, None, None] * distances
         wide = (1.0 + r) * np.exp(-r)
         near = options.near_std**2 * np.exp(distances * (-1.0 / options.near))
         fixed = _SLOPE_AT * options.open_slope**2 * levy * wide + near
@@ -116,22 +122,23 @@ class Solved:
             nearness: Of the corrections to each other.
             squares: Of their changes in each kind, shape (3, J).
             acting: See the class.
-            doubt: R, relative to C and as it is, each of shape (3, J).
+            doubt: R, relative to C, shape (J,), and as it is, shape (3, J).
             units: Of the kinds, shape (3,).
             options: Of the covariance.
         """
         variances = units**2
         fixed = variances[:, None, None] * nearness.fixed
-        own = np.einsum("kjj->kj", fixed)
+        own = fixed.diagonal(axis1=1, axis2=2)
         surprises = acting * np.sqrt(np.maximum(squares - own, 0.0))
         std = acting * nearness.surprise(surprises, acting)
         C = fixed + std[:, :, None] * std[:, None] * nearness.wide
         relative, absolute = doubt
-        R = np.einsum("kjj->kj", C) * relative + absolute
-        C *= acting[:, :, None] * acting[:, None]
+        R = C.diagonal(axis1=1, axis2=2) * relative + absolute
+        both_act = acting[:, :, None] * acting[:, None]
+        C *= both_act
         # What does not act stands alone, with a variance of one, and is asked nothing.
         np.einsum("kjj->kj", C)[...] += np.where(acting > 0.0, R, 1.0)
-        inverse = np.linalg.inv(C) * (acting[:, :, None] * acting[:, None])
+        inverse = np.linalg.inv(C) * both_act
         return cls(options, variances, acting, surprises, std, inverse)
 
     def at(self, place: Nearness, beyond: float) -> tuple[Array, Array, Array]:
@@ -145,20 +152,22 @@ class Solved:
             In each kind how much of each change applies (3, J), of all together at most as much as is near; the share
             of the variance left (3,); and the mean square of what might be a surprise there (3,).
         """
+        fixed, wide = place.fixed[:, 0], place.wide[:, 0]
         std = place.surprise(self.surprises, self.acting)
-        rows = self.variances[:, None] * place.fixed[:, 0] + std * self.std * place.wide[:, 0]
-        weights = np.einsum("kj,kji->ki", rows, self.inverse)
-        own = self.variances * open_variance(beyond, self.options) + std[:, 0] ** 2
-        left = np.clip(1.0 - np.einsum("kj,kj->k", weights, rows) / own, 0.0, 1.0)
+        surprise = std[:, 0] ** 2
+        rows = self.variances[:, None] * fixed + std * self.std * wide
+        weights = (rows[:, None] @ self.inverse)[:, 0]
+        own = self.variances * open_variance(beyond, self.options) + surprise
+        left = (1.0 - np.vecdot(weights, rows) / own).clip(0.0, 1.0)
         # Together no more than the nearest of them could do alone: corrections against each other do not run away.
-        most = np.maximum((self.acting * place.wide[:, 0]).max(axis=1, keepdims=True), _TINY)
+        most = np.maximum((self.acting * wide).max(axis=1, keepdims=True), _TINY)
         total = np.abs(weights).sum(axis=1, keepdims=True)
-        return weights / np.maximum(total / most, 1.0), left, std[:, 0] ** 2
+        return weights / np.maximum(total / most, 1.0), left, surprise
 
 
 def levy(a: Array, b: Array) -> Array:
     """Covariance of Levy's Brownian motion between places (m, c) and (n, c), shape (m, n): zero about the origin."""
-    of_a, of_b = (np.sqrt(np.einsum("mc,mc->m", x, x)) for x in (a, b))
+    of_a, of_b = (np.sqrt(np.vecdot(x, x)) for x in (a, b))
     return np.asarray(0.5 * (of_a[:, None] + of_b - np.sqrt(squared_distances(a, b))), dtype=np.float64)
 
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from lfd.arrays import Array, frozen
 from lfd.models.encoding import OUTPUTS, Encoding
 from lfd.models.encoding import POSITION as POSITIONS
+from lfd.motion.trajectory import equal_phases
 
 POSITION, ORIENTATION, DURATION = range(3)
 KINDS = 3
@@ -34,7 +35,7 @@ class Kinds:
     @classmethod
     def of(cls, encoding: Encoding) -> Self:
         """Those of an encoding's vectors."""
-        return cls(frozen(encoding.rows(np.linspace(0.0, 1.0, _PHASES)) / np.sqrt(_PHASES)))
+        return cls(frozen(encoding.rows(equal_phases(_PHASES)) / np.sqrt(_PHASES)))
 
     def measured(self, X: Array) -> tuple[Array, Array, Array]:
         """What is compared of vectors (m, D), kind by kind: shapes (m, 3 P), (m, 3 P) and (m, 1)."""
@@ -45,13 +46,25 @@ class Kinds:
 
     def sizes(self, X: Array) -> Array:
         """Squared sizes of vectors (m, D) in each kind, shape (3, m)."""
-        return np.array([np.einsum("mp,mp->m", values, values) for values in self.measured(X)])
+        return np.array([np.vecdot(values, values) for values in self.measured(X)])
+
+    def products(self, X: Array) -> Array:
+        """Inner products of vectors (m, D) with each other in each kind, shape (3, m, m)."""
+        return np.array([values @ values.T for values in self.measured(X)])
+
+    def each_from_its_own(self, X: Array) -> Array:
+        """The vector (D,) whose entries of each kind come from that kind's row of X, shape (3, D)."""
+        return np.asarray(X[self.of_column, self._every_column], dtype=np.float64)
 
     @cached_property
     def of_column(self) -> NDArray[np.intp]:
         """The kind that each entry of a vector belongs to, shape (D,)."""
         a_function = np.repeat([POSITION, ORIENTATION], [POSITIONS, OUTPUTS - POSITIONS])
         return np.append(np.tile(a_function, self.rows.shape[1]), DURATION)
+
+    @cached_property
+    def _every_column(self) -> NDArray[np.intp]:
+        return np.arange(len(self.of_column))
 
     @cached_property
     def columns(self) -> tuple[NDArray[np.intp], ...]:

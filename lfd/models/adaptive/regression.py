@@ -105,21 +105,15 @@ class Regression:
     def at(self, s: Array) -> Expectation:
         """What the demonstrations say about a condition, shape (c,)."""
         z = self.scale.standard(s)
-        away, followed = self._followed(z[None])
-        nearness = self.kernel(z[None], self.z)
-        mean = self._mean_at(away, followed, nearness)[0]
-        unexplained = max(1.0 - float(nearness[0] @ self._inverse @ nearness[0]), 0.0)
-        return Expectation(s, z, away[0] - followed[0], mean, unexplained)
+        nearness = self.kernel(z[None], self.z)[0]
+        mean, outside = self._mean_and_outside(z, nearness)
+        unexplained = max(1.0 - float(nearness @ self._inverse @ nearness), 0.0)
+        return Expectation(s, z, outside, mean, unexplained)
 
-    def means(self, conditions: Array) -> Array:
-        """The vectors expected at conditions (m, c), shape (m, D)."""
+    def at_each(self, conditions: Array) -> tuple[Array, Array]:
+        """`Expectation.mean` and `Expectation.outside` at conditions (m, c), shapes (m, D) and (m, c)."""
         z = self.scale.standard(conditions)
-        return self._mean_at(*self._followed(z), self.kernel(z, self.z))
-
-    def outside(self, conditions: Array) -> Array:
-        """`Expectation.outside` at conditions (m, c), shape (m, c)."""
-        away, followed = self._followed(self.scale.standard(conditions))
-        return away - followed
+        return self._mean_and_outside(z, self.kernel(z, self.z))
 
     def kernel(self, a: Array, b: Array) -> Array:
         """exp(-d^2 / 2 l^2) of conditions (m, c) and (n, c) in units of the scale, shape (m, n)."""
@@ -197,19 +191,16 @@ class Regression:
 
     @cached_property
     def _radius(self) -> Array:
-        """How far the conditions reach from their mean, shape (1,)."""
+        """How far the conditions reach from their mean, shape ()."""
         away = self.z - self._centre
-        return np.asarray(np.sqrt(np.max(np.einsum("mc,mc->m", away, away), keepdims=True)), dtype=np.float64)
+        return np.asarray(np.sqrt(np.vecdot(away, away).max()), dtype=np.float64)
 
-    def _followed(self, z: Array) -> tuple[Array, Array]:
-        """How far conditions (m, c) lie from the mean one, and as far as a trend is followed there, each (m, c)."""
+    def _mean_and_outside(self, z: Array, nearness: Array) -> tuple[Array, Array]:
+        """Of conditions (..., c) in units of the scale, and of the kernel to the demonstrations (..., M)."""
         away = z - self._centre
-        return away, limited(away, self._radius, self.options.trend)
-
-    def _mean_at(self, away: Array, followed: Array, nearness: Array) -> Array:
-        """The vectors expected there (m, D), from `_followed` and the kernel to the demonstrations (m, M)."""
+        followed = limited(away, self._radius, self.options.trend)
         trends = followed @ self._limited + away @ self._unlimited
-        return np.asarray(self._mean + trends + nearness @ self._gain, dtype=np.float64)
+        return self._mean + trends + nearness @ self._gain, away - followed
 
     def _squares(self, X: Array) -> Array:
         """Sums of squares of vectors (K, m, D) in each kind, shape (K, 3)."""

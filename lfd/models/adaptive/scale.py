@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Self
 
 import numpy as np
@@ -54,20 +55,30 @@ class ConditionScale:
 
     def standard(self, conditions: Array) -> Array:
         """Conditions (..., c) as numbers about their centre, shape (..., c)."""
-        return np.asarray((conditions - self.centre) * (self.relevance / self.unit), dtype=np.float64)
+        return np.asarray((conditions - self.centre) * self._factor, dtype=np.float64)
 
     def unseen(self, s: Array) -> bool:
         """Whether a condition (c,) differs in a dimension in which nothing that was taught did."""
+        if not self._lacks_units:
+            return False
         away = np.abs(s - self.centre) > _ROUNDING * np.maximum(np.abs(self.centre), np.abs(s))
         return bool(np.any(away & np.isinf(self.unit)))
 
     def completed(self, conditions: Array) -> Self:
         """With units, where there are none, from how far conditions (J, c), at least one, lie from the centre."""
-        away = (
-            np.sqrt(np.mean((conditions - self.centre) ** 2, axis=0)) if len(conditions) else np.zeros(len(self.unit))
-        )
+        if not self._lacks_units or not len(conditions):
+            return self
+        away = np.sqrt(np.mean((conditions - self.centre) ** 2, axis=0))
         varies = np.isinf(self.unit) & (away > _ROUNDING * np.abs(self.centre))
         return replace(self, unit=frozen(np.where(varies, SPREADS * away, self.unit))) if varies.any() else self
+
+    @cached_property
+    def _factor(self) -> Array:
+        return np.asarray(self.relevance / self.unit, dtype=np.float64)
+
+    @cached_property
+    def _lacks_units(self) -> bool:
+        return bool(np.isinf(self.unit).any())
 
 
 def _per_metre(conditions: Array, ways: Array) -> Array:

@@ -63,15 +63,15 @@ def reach_variance(moments: Moments, options: TrendOptions) -> Array:
 
 
 def limited(away: Array, radius: Array, options: TrendOptions) -> Array:
-    """Distances (m, c) from the mean condition, as far as a trend is followed: softly ended beyond a radius (m,).
+    """Distances (..., c) from the mean condition, as far as a trend is followed: softly ended beyond a radius (...,).
 
     Nobody has shown that the trend leads on there; within the radius nothing changes.
     """
-    distances = np.sqrt(np.einsum("mc,mc->m", away, away))
+    distances = np.sqrt(np.vecdot(away, away))
     soft = np.maximum(options.softness * radius, _TINY)
     beyond = np.maximum(distances - radius, 0.0)
-    followed = np.where(beyond > 0.0, radius - soft * np.expm1(-beyond / soft), distances)
-    return np.asarray(away * (followed / np.maximum(distances, _TINY))[:, None], dtype=np.float64)
+    followed = np.minimum(distances, radius) - soft * np.expm1(-beyond / soft)
+    return np.asarray(away * (followed / np.maximum(distances, _TINY))[..., None], dtype=np.float64)
 
 
 def _ridge(scatters: Array, count: Array, options: TrendOptions) -> Array:

@@ -45,40 +45,39 @@ class Worlds:
     """What was found.
 
     Attributes:
-        current: Which corrections hold, shape (J,).
-        shared: How many hold at the condition of each, shape (J,).
-        noise: sigma^2, in the unit of the corrections, squared.
+        current: Which corrections hold in each kind, shape (K, J).
+        shared: How many hold at the condition of each, shape (K, J).
+        noise: sigma^2 in each kind, in its unit, squared, shape (K,).
     """
 
     current: NDArray[np.bool_]
     shared: Array
-    noise: float
+    noise: Array
 
 
-def find_worlds(products: Array, groups: Sequence[Sequence[int]], unit: float, options: WorldOptions) -> Worlds:
-    """Tell noise from change.
+def find_worlds(products: Array, groups: Sequence[Sequence[int]], units: Array, options: WorldOptions) -> Worlds:
+    """Tell noise from change, in each kind by itself.
 
     Args:
-        products: Inner products of the corrections, shape (J, J).
+        products: Inner products of the corrections in each kind, shape (K, J, J).
         groups: Indices of the corrections of each condition, oldest first.
-        unit: Of the corrections.
+        units: Of the corrections in each kind, shape (K,).
         options: What is assumed.
     """
-    J = len(products)
-    current, shared = np.ones(J, dtype=np.bool_), np.ones(J)
+    shape = products.shape[:2]
+    current, shared, noise = np.ones(shape, dtype=np.bool_), np.ones(shape), (options.noise * units) ** 2
     several = [group for group in groups if len(group) > 1]
-    assumed = (options.noise * unit) ** 2
-    if not several:
-        return Worlds(current, shared, assumed)
-    candidates = assumed * _VARIANCES
-    fits = [_stretches(_scatters(products[np.ix_(g, g)]), candidates, unit, options) for g in several]
-    prior = options.evidence * (assumed / candidates + np.log(candidates))
-    best = int(np.argmin(prior + np.sum([costs for costs, _ in fits], axis=0)))
-    lengths = [int(lasts[best]) for _, lasts in fits]
-    for group, length in zip(several, lengths, strict=True):
-        current[group[:-length]] = False
-        shared[group] = length
-    return Worlds(current, shared, float(candidates[best]))
+    for kind, unit in enumerate(units.tolist() if several else []):
+        candidates = noise[kind] * _VARIANCES
+        fits = [_stretches(_scatters(products[kind][np.ix_(g, g)]), candidates, unit, options) for g in several]
+        prior = options.evidence * (noise[kind] / candidates + np.log(candidates))
+        best = int(np.argmin(prior + np.sum([costs for costs, _ in fits], axis=0)))
+        noise[kind] = candidates[best]
+        for group, (_, lasts) in zip(several, fits, strict=True):
+            length = int(lasts[best])
+            current[kind, group[:-length]] = False
+            shared[kind, group] = length
+    return Worlds(current, shared, noise)
 
 
 def _scatters(products: Array) -> Array:

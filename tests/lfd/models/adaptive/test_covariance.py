@@ -76,9 +76,9 @@ def test_corrections_are_the_gaussian_process_of_what_was_open_and_of_what_surpr
     held = corrections(fitted, EXTENT, covariance=OPTIONS, same=0.0)
     for s, y in zip(places, changes, strict=True):
         held = correct(held, s, y)
-    reference = Reference(kind, places, fitted.outside(places), changes)
+    reference = Reference(kind, places, fitted.at_each(places)[1], changes)
     for s in (*places, *rng.uniform(-1.5, 1.5, size=(6, 2))):
-        change, left, surprise = reference.effect(s, fitted.outside(s[None])[0])
+        change, left, surprise = reference.effect(s, fitted.at(s).outside)
         got = effect(held, s)
         np.testing.assert_allclose(got.change, change, rtol=1e-7, atol=1e-9 * size)
         if kind == POSITION:

@@ -29,7 +29,7 @@ def test_more_demonstrations_are_never_worse(M, rng):
     slope, conditions = rng.normal(size=(1, D)), np.linspace(-0.5, 0.5, M)[:, None]
     fitted = regression(conditions, conditions @ slope)
     along = np.linspace(-0.5, 0.5, 41)[:, None]
-    np.testing.assert_allclose(fitted.means(along), along @ slope, atol=1e-6)
+    np.testing.assert_allclose(fitted.at_each(along)[0], along @ slope, atol=1e-6)
 
 
 def test_what_does_not_depend_on_the_condition_counts_the_trend_of_no_slope_most(rng):
@@ -112,7 +112,7 @@ def test_shares_go_with_a_power_of_the_errors_at_left_out_conditions(curved):
         for group in curved.groups:
             fitted = anew(curved, np.setdiff1d(np.arange(8), group))
             fitted.__dict__["shares"] = alone
-            missed = curved.vectors[group] - fitted.means(curved.conditions[group])
+            missed = curved.vectors[group] - fitted.at_each(curved.conditions[group])[0]
             squares[k] += KINDS.sizes(missed).sum(axis=1)
     weights = squares**-OPTIONS.sharpness
     weights[-1] = 0.0  # followed everywhere only if it predicts exactly
@@ -153,14 +153,14 @@ def test_departures_from_the_trend_are_a_gaussian_process(curved):
 
 def test_many_conditions_at_once_are_as_one_by_one(curved, rng):
     conditions = 5.0 * rng.normal(size=(6, 2))
-    for s, mean, outside in zip(conditions, curved.means(conditions), curved.outside(conditions), strict=True):
+    for s, mean, outside in zip(conditions, *curved.at_each(conditions), strict=True):
         expected = curved.at(s)
         np.testing.assert_allclose(mean, expected.mean, atol=1e-12)
         np.testing.assert_allclose(outside, expected.outside, atol=1e-12)
 
 
 def test_among_the_conditions_shown_nothing_is_outside_and_beyond_them_more_and_more(curved):
-    np.testing.assert_allclose(curved.outside(curved.conditions), 0.0, atol=1e-12)
+    np.testing.assert_allclose(curved.at_each(curved.conditions)[1], 0.0, atol=1e-12)
     direction = np.array([0.6, 0.8])
     beyond = [np.linalg.norm(curved.at(direction * far).outside) for far in (3.0, 5.0, 50.0)]
     assert (np.diff(beyond) > 0.0).all()

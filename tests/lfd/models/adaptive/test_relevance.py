@@ -28,7 +28,7 @@ def fitted(S, X, lengths=False):
 
 
 def error(model, S, X):
-    return np.sqrt(np.mean((model.means(S) - X) ** 2))
+    return np.sqrt(np.mean((model.at_each(S)[0] - X) ** 2))
 
 
 def ratio(c, seed):

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lfd.models.adaptive.worlds import WorldOptions, find_worlds
+from lfd.models.adaptive.worlds import WorldOptions, Worlds, find_worlds
 
 OPTIONS = WorldOptions()
 VARIANCES = 2.0 ** np.arange(0.0, 5.5, 0.5)
@@ -15,7 +15,8 @@ VARIANCES = 2.0 ** np.arange(0.0, 5.5, 0.5)
 
 def found(changes, groups=None, unit=1.0, options=OPTIONS):
     changes = np.asarray(changes, float).reshape(len(changes), -1)
-    return find_worlds(changes @ changes.T, groups or [range(len(changes))], unit, options)
+    worlds = find_worlds((changes @ changes.T)[None], groups or [range(len(changes))], np.array([unit]), options)
+    return Worlds(worlds.current[0], worlds.shared[0], worlds.noise[0])
 
 
 def cost(x, begins, variance, unit=1.0, options=OPTIONS):
