@@ -34,6 +34,7 @@ class PrompOptions:
         observation_std: sigma of equation (13) [m].
         selection: Of the demonstrations of a condition. The thesis' is `Selection.SIMILAR_PAIR`.
         kept: What an older motion still counts after an update; 1 is Welford's method, as in the thesis.
+        anchored: Begin predictions at the start pose, see `Encoding`. The thesis does not.
 
     Raises:
         OutOfRange: There are fewer than 2 samples, the conditioning noise is not positive, the observation's deviation
@@ -46,6 +47,7 @@ class PrompOptions:
     observation_std: float = 0.01
     selection: Selection = Selection.ALL
     kept: float = 1.0
+    anchored: bool = False
 
     def __post_init__(self) -> None:
         check_options(
@@ -56,6 +58,7 @@ class PrompOptions:
             observation_std=NOT_NEGATIVE,
             selection=Selection,
             kept=SHARE,
+            anchored=bool,
         )
 
 
@@ -92,7 +95,7 @@ class ConditionedProMP:
         """
         check_demonstrations(demonstrations)
         options = options or PrompOptions()
-        encoding = Encoding(options.basis, options.samples, reference_rotation(demonstrations), anchored=False)
+        encoding = Encoding(options.basis, options.samples, reference_rotation(demonstrations), options.anchored)
         aligned = align(demonstrations, selection=options.selection)
         samples = np.array([_sample(encoding, d) for d in aligned])
         return cls(encoding, JointGaussian.fit(samples), options)
@@ -114,10 +117,10 @@ class ConditionedProMP:
         return replace(self, joint=welford(self.joint, sample, self.options.kept))
 
     def predict(self, situation: Situation, n: int = PREDICTION_POINTS) -> Prediction:
-        """Equations (12) and (13), see `MovementModel.predict`; the situation's start pose is not used.
+        """Equations (12) and (13), see `MovementModel.predict`.
 
         Args:
-            situation: Condition and origin.
+            situation: Condition and origin; the start pose, too, if anchored.
             n: Number of points, at least 2.
 
         Raises:

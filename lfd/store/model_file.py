@@ -27,7 +27,7 @@ from lfd.models.gaussian import JointGaussian
 from lfd.models.promp import ConditionedProMP, PrompOptions
 from lfd.motion.alignment import Selection
 
-FORMAT = "retouch-model/2"
+FORMAT = "retouch-model/3"
 
 _HEADER = "header"
 
@@ -137,7 +137,7 @@ def _adaptive(header: dict[str, Any], arrays: dict[str, Array]) -> AdaptiveProMP
 def _promp(header: dict[str, Any], arrays: dict[str, Array]) -> ConditionedProMP:
     values = header["options"]
     options = _options(PrompOptions, values | {"selection": Selection(values["selection"])})
-    encoding = Encoding(options.basis, options.samples, arrays["rotation"], anchored=False)
+    encoding = Encoding(options.basis, options.samples, arrays["rotation"], options.anchored)
     return ConditionedProMP(encoding, JointGaussian(arrays["mean"], arrays["scatter"], header["count"]), options)
 
 

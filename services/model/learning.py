@@ -2,26 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from lfd.models.adaptive.adaptation import AdaptiveProMP
 from lfd.models.model import MovementModel
 from lfd.models.promp import ConditionedProMP
+from lfd.motion.demonstration import Demonstration
 from lfd.store.database import Purpose, StoredDemonstration
 
-MODELS: dict[str, type[AdaptiveProMP] | type[ConditionedProMP]] = {
-    "adaptive": AdaptiveProMP,
-    "promp": ConditionedProMP,
+Fit = Callable[[Sequence[Demonstration]], MovementModel]
+"""Makes a model of its first demonstrations."""
+
+MODELS: Mapping[str, Fit] = {
+    "adaptive": AdaptiveProMP.fit,
+    "promp": ConditionedProMP.fit,
 }
 """By the name that a configuration calls them by."""
 
 
-def learn_all(kind: str, stored: Sequence[StoredDemonstration]) -> MovementModel | None:
+def learn_all(
+    kind: str, stored: Sequence[StoredDemonstration], models: Mapping[str, Fit] = MODELS
+) -> MovementModel | None:
     """The model that stored demonstrations make.
 
     Args:
-        kind: of the model, a key of `MODELS`.
+        kind: of the model, a key of `models`.
         stored: in the order in which they came.
+        models: to choose from.
 
     Returns:
         The model; None before the first demonstration.
@@ -32,7 +39,7 @@ def learn_all(kind: str, stored: Sequence[StoredDemonstration]) -> MovementModel
         initial, updates = updates[:1], updates[1:]
     if not initial:
         return None
-    model: MovementModel = MODELS[kind].fit(initial)
+    model = models[kind](initial)
     for update in updates:
         model = model.updated(update)
     return model

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from datetime import UTC, datetime
 from typing import TypeVar
@@ -22,7 +22,7 @@ from services.bus.arrays import motion_from_wire, motion_to_wire, to_wire
 from services.bus.bus import Bus, Rep, Req
 from services.bus.identity import new_number
 from services.bus.server import Server
-from services.model.learning import learn_all
+from services.model.learning import MODELS, Fit, learn_all
 from services.model.skill import binding_of, check_demonstration, check_duration, check_situation, open_store
 from services.process.clock import Clock
 from services.process.config import Configuration
@@ -37,8 +37,14 @@ log = logging.getLogger(__name__)
 Learns = TypeVar("Learns", AddDemonstration, Undo)
 
 
-def build(bus: Bus, clock: Clock, configuration: Configuration) -> ModelService:
+def build(bus: Bus, clock: Clock, configuration: Configuration, models: Mapping[str, Fit] = MODELS) -> ModelService:
     """The service, its store opened and its model rebuilt.
+
+    Args:
+        bus: to answer on.
+        clock: not needed.
+        configuration: of all services.
+        models: to choose from.
 
     Raises:
         StorageError: the database cannot be used, or holds what was learnt for another scene or robot.
@@ -49,7 +55,7 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> ModelService:
     scene = find_scene(configuration.robot.scene)
     store = open_store(configuration.model, configuration.name, binding_of(scene))
     try:
-        return ModelService(bus, store, configuration.model.kind, scene, lambda: datetime.now(UTC))
+        return ModelService(bus, store, configuration.model.kind, scene, lambda: datetime.now(UTC), models=models)
     except BaseException:
         store.close()
         raise
@@ -61,24 +67,33 @@ class ModelService:
     Args:
         bus: to answer on.
         store: every demonstration and update; the model is what it holds.
-        kind: of the model, a key of `MODELS`.
+        kind: of the model, a key of `models`.
         scene: that it learns for.
         utc: the time of day, which what is learnt is stored with.
+        models: to choose from.
     """
 
     rate_hz = 100.0
 
     def __init__(
-        self, bus: Bus, store: DemonstrationStore, kind: str, scene: AnyScene, utc: Callable[[], datetime]
+        self,
+        bus: Bus,
+        store: DemonstrationStore,
+        kind: str,
+        scene: AnyScene,
+        utc: Callable[[], datetime],
+        *,
+        models: Mapping[str, Fit] = MODELS,
     ) -> None:
         self._bus = bus
         self._utc = utc
         self._store = store
         self._kind = kind
+        self._models = models
         self._scene = scene
         self._binding = binding_of(scene)
         self._stored = store.active()
-        self._model = learn_all(kind, self._stored)
+        self._model = learn_all(kind, self._stored, models)
         self._predict = bus.serve(queries.PREDICT)
         self._add = bus.serve(queries.ADD_DEMONSTRATION)
         self._undo = bus.serve(queries.UNDO)
@@ -163,7 +178,7 @@ class ModelService:
         if purpose is Purpose.UPDATE and self._model is not None:
             return self._model.updated(demonstration)
         added = StoredDemonstration(self._state.version + 1, purpose, self._binding, demonstration)
-        return learn_all(self._kind, [*self._stored, added])
+        return learn_all(self._kind, [*self._stored, added], self._models)
 
     def _undone(self, request: Undo) -> Learnt | Refused:
         purpose = Purpose(request.purpose.value)
@@ -172,7 +187,7 @@ class ModelService:
             known = "update" if purpose is Purpose.UPDATE else "first demonstration"
             return Refused(f"there is no {known} to take back")
         left = [one for one in self._stored if one is not newest]
-        model = learn_all(self._kind, left)
+        model = learn_all(self._kind, left, self._models)
         return self._changed(model, left, self._store.undo(purpose, request.request))
 
     def _changed(self, model: MovementModel | None, stored: list[StoredDemonstration], version: int) -> Learnt:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 import tempfile
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from lfd.motion.demonstration import Demonstration
@@ -15,6 +15,7 @@ from protocol.queries import AddDemonstration, Learnt, Purpose
 from protocol.topics import EPISODE_RESULT, TEACHING_STATE
 from services.bus.arrays import from_wire, motion_to_wire, vector3
 from services.bus.predictions import Predictions
+from services.model.learning import MODELS, Fit
 from services.offline.pool import Progress, each, overall
 from services.offline.result import Arrangement, Attempt, Course
 from services.offline.stage import Stage
@@ -30,7 +31,7 @@ class Plan:
 
     Attributes:
         scene: by name.
-        kind: of the model, "adaptive" or "promp".
+        kind: of the model, a key of `models`.
         demonstrations: that the model starts from, in the base frame.
         taught: conditions, in the order in which Algorithm 1 goes through them.
         executed: conditions of the second round, without teaching.
@@ -39,6 +40,7 @@ class Plan:
         scatter: of the operator, see `Scripted` [m].
         refinements_allowed: attempts at one update.
         updates_allowed: under one condition.
+        models: to choose from.
     """
 
     scene: str
@@ -51,6 +53,7 @@ class Plan:
     scatter: float = Scripted().scatter
     refinements_allowed: int = 10
     updates_allowed: int = 8
+    models: Mapping[str, Fit] = field(default_factory=lambda: MODELS)
 
     def configuration(self, database: Path) -> Configuration:
         """Of the services."""
@@ -129,7 +132,7 @@ class Rehearsal:
     def __init__(self, plan: Plan, database: Path) -> None:
         self._plan = plan
         self._scene = find_scene(plan.scene)
-        self._stage = Stage(plan.configuration(database))
+        self._stage = Stage(plan.configuration(database), plan.models)
         self._bus = self._stage.bus()
         self._predictions = Predictions(self._bus)
         self._results = self._bus.subscribe(EPISODE_RESULT)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -11,6 +11,7 @@ import numpy as np
 from protocol.queries import Reset
 from services.bus.memory import MemoryBus, MemoryNetwork
 from services.master.service import build as build_master
+from services.model.learning import MODELS, Fit
 from services.model.service import build as build_model
 from services.offline.eyes import Eyes
 from services.process.clock import ManualClock
@@ -47,14 +48,15 @@ class Stage:
 
     Args:
         configuration: of all services; master and station are to be scripted ones.
+        models: for the model service to choose from.
     """
 
-    def __init__(self, configuration: Configuration) -> None:
+    def __init__(self, configuration: Configuration, models: Mapping[str, Fit] = MODELS) -> None:
         self._clock = ManualClock()
         self._network = MemoryNetwork(self._clock)
         self._configuration = configuration
         robot = build_robot(self.bus(), self._clock, configuration, Volatile())
-        self._model = build_model(self.bus(), self._clock, configuration)
+        self._model = build_model(self.bus(), self._clock, configuration, models)
         self._master = build_master(self.bus(), self._clock, configuration)
         eyes = Eyes(self.bus(), np.random.default_rng(configuration.seed))
         self._turns = [self._turn(service) for service in (robot, eyes, self._model, self._master)]

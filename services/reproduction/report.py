@@ -5,44 +5,84 @@ from __future__ import annotations
 import base64
 import platform
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Literal
 
 import jinja2
 import matplotlib as mpl
 import numpy as np
 
 from services.process.files import write_whole
-from services.reproduction.analysis import Analysis, Holds, Value
+from services.reproduction.analysis import Analysis, Source
 from services.reproduction.exceptions import CannotKeep
-from services.reproduction.store import Done, Failed, Outcome, is_svg
-from services.reproduction.style import ADAPTIVE, CONDITIONED
+from services.reproduction.models import CONTENDERS
+from services.reproduction.numerals import bounded, interval, shown
+from services.reproduction.store import Done, Failed, Record, Run, is_svg
+from services.reproduction.summary import Holds, Judgement, Summary, summarised
+from services.reproduction.work import pieces_of
 
 REPORT = "report.html"
 
-State = Literal["yes", "no", "differs", "failed", "missing"]
 
-_WORDS: dict[State, str] = {
-    "yes": "confirmed",
-    "differs": "differs",
-    "no": "not confirmed",
-    "failed": "failed",
-    "missing": "not run",
-}
-_SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-_DIGITS = 3
-_NOTHING = 1e-9  # of any unit that a length, an angle or a time is given in here: rounding, not a measurement
+@dataclass(frozen=True)
+class Entry:
+    """What there is of an analysis.
+
+    Attributes:
+        analysis: that it is about.
+        wanted: runs in all.
+        summary: of those that are done; None where there is none.
+        failures: reasons of those that failed, each once.
+        failed: how many did.
+    """
+
+    analysis: Analysis
+    wanted: int
+    summary: Summary | None
+    failures: tuple[str, ...]
+    failed: int
+
+    @classmethod
+    def of(cls, analysis: Analysis, records: Mapping[Run, Record], seeds: Sequence[int]) -> Entry:
+        """From the records of any runs.
+
+        Args:
+            analysis: whose entry it is.
+            records: of its runs, and of others.
+            seeds: of the people.
+        """
+        runs = [piece.run for piece in pieces_of(analysis, seeds)]
+        there = [records[run] for run in runs if run in records]
+        done = [record for record in there if isinstance(record, Done)]
+        reasons = [record.reason for record in there if isinstance(record, Failed)]
+        findings = [record.finding for record in done]
+        summary = summarised(analysis, findings, sum(record.seconds for record in done)) if done else None
+        return cls(analysis, len(runs), summary, tuple(dict.fromkeys(reasons)), len(reasons))
+
+    @property
+    def judgements(self) -> tuple[Judgement, ...]:
+        """Of its claims; none before a run is done."""
+        return self.summary.judgements if self.summary else ()
+
+    @property
+    def complete(self) -> bool:
+        """All its runs are done."""
+        return self.summary is not None and (self.summary.people or 1) == self.wanted
 
 
-def write_report(folder: Path, analyses: Sequence[Analysis], outcomes: Mapping[str, Outcome], seed: int) -> Path:
+def counts(entries: Sequence[Entry], holds: Holds, source: Source | None = None) -> int:
+    """Claims of all analyses of which that was found, of anybody or of one source."""
+    return sum(entry.summary.count(holds, source) for entry in entries if entry.summary)
+
+
+def write_report(folder: Path, entries: Sequence[Entry], seeds: Sequence[int]) -> Path:
     """Write what has come out so far.
 
     Args:
         folder: of the report.
-        analyses: all there are, in the order of the report.
-        outcomes: by name of the analysis, of those that have one.
-        seed: that they ran with.
+        entries: of all analyses there are, in the order of the report.
+        seeds: of the people.
 
     Returns:
         The file.
@@ -52,16 +92,14 @@ def write_report(folder: Path, analyses: Sequence[Analysis], outcomes: Mapping[s
     """
     path = folder / REPORT
     try:
-        write_whole(path, html(analyses, outcomes, seed).encode())
+        write_whole(path, html(entries, seeds).encode())
     except OSError as error:
         raise CannotKeep(folder, error.strerror or str(error)) from None
     return path
 
 
-def html(analyses: Sequence[Analysis], outcomes: Mapping[str, Outcome], seed: int) -> str:
+def html(entries: Sequence[Entry], seeds: Sequence[int]) -> str:
     """The report as text, see `write_report`."""
-    entries = [(analysis, outcomes.get(analysis.name)) for analysis in analyses]
-    states = [state(outcome) for _, outcome in entries]
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(Path(__file__).parent),
         autoescape=True,
@@ -69,54 +107,22 @@ def html(analyses: Sequence[Analysis], outcomes: Mapping[str, Outcome], seed: in
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters |= {"shown": shown, "state": state, "address": address}
+    environment.filters |= {"shown": shown, "interval": interval, "bounded": bounded, "address": address}
     return environment.get_template("report.html.jinja").render(
         entries=entries,
-        counts=[(key, word, states.count(key)) for key, word in _WORDS.items() if key in states],
-        words=_WORDS,
-        colours={"conditioned": CONDITIONED, "adaptive": ADAPTIVE},
+        verdicts=[
+            (holds, [(source, counts(entries, holds, source)) for source in Source], counts(entries, holds))
+            for holds in Holds
+        ],
+        contrary=[(entry, one) for entry in entries for one in entry.judgements if one.holds is Holds.NO],
+        failed=sum(entry.failed for entry in entries),
+        missing=sum(entry.summary is None for entry in entries),
+        contenders=CONTENDERS,
+        people=len(seeds),
+        first_seed=seeds[0],
         made=f"{datetime.now(UTC):%d %B %Y, %H:%M} UTC",
-        seed=seed,
         versions=f"Python {platform.python_version()}, NumPy {np.__version__}, Matplotlib {mpl.__version__}",
     )
-
-
-def state(outcome: Outcome | None) -> State:
-    """What is said of an outcome in a word."""
-    match outcome:
-        case None:
-            return "missing"
-        case Failed():
-            return "failed"
-        case Done(finding):
-            match finding.holds:
-                case Holds.YES:
-                    return "yes"
-                case Holds.NO:
-                    return "no"
-                case Holds.DIFFERS:
-                    return "differs"
-
-
-def shown(value: Value, unit: str = "") -> str:
-    """A value for the table: three digits, powers of ten where they read better, with the unit; a text as it is."""
-    if value is None:
-        return "–"
-    if isinstance(value, str):
-        return value
-    rounding = unit and abs(value) < _NOTHING
-    return f"{_number(0.0 if rounding else value)} {unit}".rstrip().replace("-", "−")
-
-
-def _number(value: float) -> str:
-    if value == 0.0 or not np.isfinite(value):
-        return f"{value:g}"
-    if float(value).is_integer() and abs(value) < 1e6:
-        return f"{value:.0f}"
-    exponent = int(np.floor(np.log10(abs(value))))
-    if not -4 <= exponent < 6:
-        return f"{value / 10.0**exponent:.1f} · 10{str(exponent).translate(_SUPERSCRIPT)}"
-    return f"{value:.{max(_DIGITS - 1 - exponent, 0)}f}"
 
 
 def address(image: bytes) -> str:

@@ -1,12 +1,13 @@
-"""What has been found already, kept in a folder: a JSON file and its pictures for each analysis.
+"""What has been found already, kept in a folder: a JSON file for each run of an analysis, and the pictures of one.
 
-A result is good for as long as nothing that it came from has changed: the code and the seed are its key.
+A result is good for as long as nothing that it came from has changed: the code is its key.
 """
 
 from __future__ import annotations
 
 import hashlib
 from pathlib import Path
+from typing import NamedTuple
 
 import msgspec
 import numpy as np
@@ -22,7 +23,7 @@ _SVG_BEGINS = b"<?xml"
 
 
 class Done(msgspec.Struct, frozen=True, tag="done"):
-    """The analysis ran to its end.
+    """The run came to its end.
 
     Attributes:
         finding: what it found.
@@ -43,17 +44,33 @@ class Failed(msgspec.Struct, frozen=True, tag="failed"):
     reason: str
 
 
-Outcome = Done | Failed
+Record = Done | Failed
+"""Of one run of an analysis."""
+
+
+class Run(NamedTuple):
+    """Which run of which analysis; a person's, where one takes part.
+
+    Attributes:
+        name: of the analysis.
+        seed: of the run.
+        illustrated: with figures.
+    """
+
+    name: str
+    seed: int
+    illustrated: bool
 
 
 class _Kept(msgspec.Struct, frozen=True):
     key: str
-    outcome: Outcome
+    illustrated: bool
+    record: Record
 
 
-def code_key(seed: int) -> str:
-    """Of all code that a result can depend on, and the seed."""
-    digest = hashlib.sha256(str(seed).encode())
+def code_key() -> str:
+    """Of all code that a result can depend on."""
+    digest = hashlib.sha256()
     for package in (lfd, sim, services):
         for path in sorted(Path(package.__path__[0]).rglob("*.py")):
             digest.update(path.read_bytes())
@@ -79,51 +96,51 @@ class Store:
         except OSError as error:
             raise CannotKeep(folder, error.strerror or str(error)) from None
 
-    def read(self, name: str) -> Outcome | None:
-        """The outcome of an analysis, where there is one that is still good."""
+    def read(self, run: Run) -> Record | None:
+        """The record of a run, where there is one that is still good; with the figures, where it has to have them."""
         try:
-            kept = msgspec.json.decode(self._record(name).read_bytes(), type=_Kept)
-            if kept.key != self.key:
+            kept = msgspec.json.decode(self._file(run).read_bytes(), type=_Kept)
+            if kept.key != self.key or (run.illustrated and not kept.illustrated):
                 return None
-            if isinstance(kept.outcome, Failed):
-                return kept.outcome
-            figures = tuple(self._with_image(name, figure) for figure in kept.outcome.finding.figures)
+            if isinstance(kept.record, Failed):
+                return kept.record
+            figures = tuple(self._with_image(run, figure) for figure in kept.record.finding.figures)
         except (OSError, msgspec.MsgspecError):
             return None
-        finding = msgspec.structs.replace(kept.outcome.finding, figures=figures)
-        return msgspec.structs.replace(kept.outcome, finding=finding)
+        finding = msgspec.structs.replace(kept.record.finding, figures=figures)
+        return msgspec.structs.replace(kept.record, finding=finding)
 
-    def write(self, name: str, outcome: Outcome) -> None:
-        """Keep an outcome, in place of an earlier one.
+    def write(self, run: Run, record: Record) -> None:
+        """Keep a record, in place of an earlier one.
 
         Raises:
             CannotKeep: the folder cannot be written.
         """
         try:
-            if isinstance(outcome, Done):
-                outcome = msgspec.structs.replace(outcome, finding=self._without_images(name, outcome.finding))
-            encoded = msgspec.json.encode(_Kept(self.key, outcome), enc_hook=_plain)
-            write_whole(self._record(name), msgspec.json.format(encoded) + b"\n")
+            if isinstance(record, Done):
+                record = msgspec.structs.replace(record, finding=self._without_images(run, record.finding))
+            encoded = msgspec.json.encode(_Kept(self.key, run.illustrated, record), enc_hook=_plain)
+            write_whole(self._file(run), msgspec.json.format(encoded) + b"\n")
         except OSError as error:
             raise CannotKeep(self.folder, error.strerror or str(error)) from None
 
-    def _record(self, name: str) -> Path:
-        return self.folder / f"{name}.json"
+    def _file(self, run: Run) -> Path:
+        return self.folder / f"{run.name}-{run.seed}.json"
 
-    def _image(self, name: str, figure: Figure, suffix: str) -> Path:
-        return self.folder / f"{name}-{figure.name}.{suffix}"
+    def _image(self, run: Run, figure: Figure, suffix: str) -> Path:
+        return self.folder / f"{run.name}-{run.seed}-{figure.name}.{suffix}"
 
-    def _without_images(self, name: str, finding: Finding) -> Finding:
+    def _without_images(self, run: Run, finding: Finding) -> Finding:
         for figure in finding.figures:
             suffix, other = ("svg", "png") if is_svg(figure.image) else ("png", "svg")
-            write_whole(self._image(name, figure, suffix), figure.image)
-            self._image(name, figure, other).unlink(missing_ok=True)
+            write_whole(self._image(run, figure, suffix), figure.image)
+            self._image(run, figure, other).unlink(missing_ok=True)
         bare = tuple(msgspec.structs.replace(figure, image=b"") for figure in finding.figures)
         return msgspec.structs.replace(finding, figures=bare)
 
-    def _with_image(self, name: str, figure: Figure) -> Figure:
-        svg = self._image(name, figure, "svg")
-        path = svg if svg.exists() else self._image(name, figure, "png")
+    def _with_image(self, run: Run, figure: Figure) -> Figure:
+        svg = self._image(run, figure, "svg")
+        path = svg if svg.exists() else self._image(run, figure, "png")
         return msgspec.structs.replace(figure, image=path.read_bytes())
 
 

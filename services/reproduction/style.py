@@ -18,8 +18,9 @@ from matplotlib.figure import Figure as Canvas
 
 from services.reproduction.analysis import Figure
 
-CONDITIONED = "#d55e00"  # the thesis' method
+CONDITIONED = "#d55e00"  # the thesis' model
 ADAPTIVE = "#0072b2"  # the default model
+LED = "#6b4c9a"  # a DMP
 DEMONSTRATION = "#9aa4b1"
 TRUTH = "#1f2630"
 REFINEMENT = "#009e73"
@@ -81,6 +82,9 @@ class Line:
         return {**asdict(self), "label": label}
 
 
+ANCHORED_LINE = Line("#e69f00", 2.4)
+FINE_LINE = Line("#cc79a7", 2.0)
+COARSE_LINE = Line("#56b4e9", 1.8)
 TRUE_LINE = Line(TRUTH, 1.2, (0, (2, 2)))
 DEMONSTRATION_LINE = Line(DEMONSTRATION, 1.0)
 

@@ -1,10 +1,10 @@
-"""Both models through the same conditions: taught by Algorithm 1, then executed once more without teaching."""
+"""All models through the same conditions: taught by Algorithm 1, then executed once more without teaching."""
 
 from __future__ import annotations
 
-import os
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,19 +13,17 @@ from lfd.motion.demonstration import Demonstration
 from protocol import messages
 from services.bus.arrays import quaternion, vector3
 from services.offline.demonstrations import demonstrate
-from services.offline.rehearsal import Plan, Rehearsed, rehearse_all
+from services.offline.pool import overall
+from services.offline.rehearsal import Plan, Rehearsed, rehearse
 from services.offline.result import Arrangement, Course
-from services.reproduction.analysis import Context, Holds, Row
-from services.reproduction.models import BY_NAME, CONTENDERS
+from services.reproduction.analysis import Claim, Context, Relation, Row, Source, Value
+from services.reproduction.models import CONTENDERS, DEFAULT, FINE, FITS, SHOWN, THESIS, Contender
 from services.robot.assembly import simulated_arm
 from sim.pose import Pose
 from sim.robots.description import prepare
 from sim.tasks import AnyScene
 
 Array = NDArray[np.float64]
-
-MODELS = tuple(BY_NAME)
-"""The model process' names of `CONTENDERS`, in their order."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,19 +47,33 @@ class Question:
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """What came out, for both models in the order of `CONTENDERS`.
+    """What came out.
 
     Attributes:
         question: that was asked.
-        demonstrations: that both models started from.
-        of_kinds: both rounds of each model.
-        beyond: of each model, the conditions to which it was to generalise.
+        demonstrations: that all models started from.
+        rounds: by name of the model; the second round has the conditions beyond at its end.
     """
 
     question: Question
     demonstrations: tuple[Demonstration, ...]
-    of_kinds: tuple[Rehearsed, ...]
-    beyond: tuple[tuple[Course, ...], ...]
+    rounds: Mapping[str, Rehearsed]
+
+    def first(self, contender: Contender) -> tuple[Course, ...]:
+        """Algorithm 1 under each condition."""
+        return self.rounds[contender.name].first
+
+    def second(self, contender: Contender) -> tuple[Course, ...]:
+        """The second round."""
+        return self.rounds[contender.name].second[: len(self.question.executed)]
+
+    def beyond(self, contender: Contender) -> tuple[Course, ...]:
+        """The conditions that the model was to generalise to."""
+        return self.rounds[contender.name].second[len(self.question.executed) :]
+
+    def values(self, of: Callable[[Contender], Value]) -> dict[str, Value]:
+        """A value of each model, by its name."""
+        return {contender.name: of(contender) for contender in CONTENDERS}
 
 
 def arrangement(
@@ -86,21 +98,23 @@ def taught(scene: AnyScene, arrangements: Sequence[Arrangement], rng: np.random.
 
 
 def answered(question: Question, context: Context) -> Answer:
-    """Teach both models, each in a process of its own where there are several cores."""
+    """Let one person teach every model."""
     demonstrations = taught(question.scene, question.demonstrated, context.rng())
     executed = (*question.executed, *question.beyond)
-    plans = [
-        Plan(question.scene.name, model, demonstrations, question.refined, executed, seed=context.seed)
-        for model in MODELS
-    ]
-    rehearsed = rehearse_all(plans, os.cpu_count() or 1, context.advance)
-    n = len(question.executed)
-    return Answer(
-        question,
-        demonstrations,
-        tuple(replace(one, second=one.second[:n]) for one in rehearsed),
-        tuple(one.second[n:] for one in rehearsed),
-    )
+    tell = overall(len(CONTENDERS), context.advance)
+    rounds = {}
+    for number, contender in enumerate(CONTENDERS):
+        plan = Plan(
+            question.scene.name,
+            contender.name,
+            demonstrations,
+            question.refined,
+            executed,
+            seed=context.seed,
+            models=FITS,
+        )
+        rounds[contender.name] = rehearse(plan, partial(tell, number))
+    return Answer(question, demonstrations, rounds)
 
 
 def successes(courses: Sequence[Course]) -> int:
@@ -108,77 +122,108 @@ def successes(courses: Sequence[Course]) -> int:
     return sum(course.success for course in courses)
 
 
-def needed(rehearsed: Rehearsed) -> int:
+def needed(courses: Sequence[Course]) -> int:
     """Under how many conditions the first prediction failed."""
-    return sum(course.needed_refinement for course in rehearsed.first)
+    return sum(course.needed_refinement for course in courses)
 
 
-def holds(answer: Answer, needed_by_thesis: int) -> Holds:
-    """Of the claim that few refinements are needed and that every condition is reached in the second round.
+def claims(answer: Answer, thesis: Sequence[Claim]) -> tuple[Claim, ...]:
+    """The thesis' claims, and those of Retouch about the same conditions.
 
-    Where one half of it holds and the other does not, it differs.
+    Args:
+        answer: what came out.
+        thesis: its claims.
     """
-    conditioned = answer.of_kinds[0]
-    few = needed(conditioned) <= needed_by_thesis
-    again = successes(conditioned.second) == len(conditioned.second)
-    if few and again:
-        return Holds.YES
-    return Holds.DIFFERS if few or again else Holds.NO
-
-
-def sentence(answer: Answer, needed_by_thesis: int) -> str:
-    """What came out, in words."""
-    conditioned, adaptive = answer.of_kinds
-    total = len(answer.question.refined)
-    first = (
-        f"Without exaggeration the thesis' method needed refinements under {needed(conditioned)} of {total} conditions"
-        f" (in the thesis {needed_by_thesis}), the default model under {needed(adaptive)}."
-    )
-    missed = [len(one.second) - successes(one.second) for one in answer.of_kinds]
-    if not any(missed):
-        return f"{first} In the second round both reached every condition."
+    total, ours = len(answer.question.executed), needed(answer.first(DEFAULT))
     return (
-        f"{first} In the second round the thesis' method failed under {missed[0]} of {len(conditioned.second)}, the"
-        f" default model under {missed[1]}."
+        *thesis,
+        Claim(
+            Source.RETOUCH,
+            "For the default model one refinement is enough for all conditions.",
+            "conditions refined",
+            ours,
+            Relation.AT_MOST,
+            1,
+        ),
+        Claim(
+            Source.RETOUCH,
+            "The default model needs fewer refinements than the thesis' model does with the same start anchor and the"
+            " same resolution.",
+            "conditions refined",
+            ours,
+            Relation.BELOW,
+            needed(answer.first(FINE)),
+            against=FINE.label,
+        ),
+        Claim(
+            Source.RETOUCH,
+            "In the second round the default model succeeds under every condition.",
+            "conditions reached",
+            successes(answer.second(DEFAULT)),
+            Relation.AT_LEAST,
+            total,
+        ),
     )
+
+
+def few_needed(answer: Answer, sentence: str, most: int) -> Claim:
+    """The thesis' claim that few conditions had to be refined."""
+    value = needed(answer.first(THESIS))
+    return Claim(Source.THESIS, sentence, "conditions refined", value, Relation.AT_MOST, most)
+
+
+def reached_again(answer: Answer, sentence: str) -> Claim:
+    """The thesis' claim that the second round succeeds under every condition."""
+    second = answer.second(THESIS)
+    return Claim(Source.THESIS, sentence, "conditions reached", successes(second), Relation.AT_LEAST, len(second))
 
 
 def rows(answer: Answer, needed_by_thesis: int) -> tuple[Row, ...]:
     """What the report's table says."""
-    question = answer.question
-
-    def row(quantity: str, thesis: float | None, values: Sequence[float]) -> Row:
-        return Row(quantity, "", thesis, *values)
-
-    kinds = answer.of_kinds
+    refined, executed = len(answer.question.refined), len(answer.question.executed)
     return (
-        row(
-            f"conditions that needed a refinement, of {len(question.refined)}",
-            needed_by_thesis,
-            [needed(one) for one in kinds],
+        Row(
+            "conditions that needed a refinement",
+            answer.values(lambda one: needed(answer.first(one))),
+            thesis=needed_by_thesis,
+            total=refined,
+            headline=True,
         ),
-        row("updates of the model in all", None, [sum(course.updates for course in one.first) for one in kinds]),
-        row("attempts at refining in all", None, [sum(course.refinements for course in one.first) for one in kinds]),
-        row(
-            f"conditions reached in the second round, of {len(question.executed)}",
-            len(question.executed),
-            [successes(one.second) for one in kinds],
+        Row(
+            "updates of the model in all",
+            answer.values(lambda one: sum(course.updates for course in answer.first(one))),
+        ),
+        Row(
+            "attempts at refining in all",
+            answer.values(lambda one: sum(course.refinements for course in answer.first(one))),
+        ),
+        Row(
+            "conditions reached in the second round",
+            answer.values(lambda one: successes(answer.second(one))),
+            thesis=executed,
+            total=executed,
+            headline=True,
+        ),
+        Row(
+            "every condition reached in the second round",
+            answer.values(lambda one: successes(answer.second(one)) == executed),
+            thesis=True,
         ),
     )
 
 
 def notes(answer: Answer) -> tuple[str, ...]:
-    """Which predictions failed and by what, for each model; and the operator's own failures."""
+    """Which predictions failed and by what, for the thesis' model and the default; and the operator's own failures."""
     said = []
-    for kind, rehearsed in zip(CONTENDERS, answer.of_kinds, strict=True):
-        first = [f"{number}: {_history(course)}" for number, course in enumerate(rehearsed.first, 1)]
+    for kind in SHOWN:
+        first = [f"{number}: {_history(course)}" for number, course in enumerate(answer.first(kind), 1)]
         second = [
             f"{number}: {course.attempts[0].failure}"
-            for number, course in enumerate(rehearsed.second, 1)
+            for number, course in enumerate(answer.second(kind), 1)
             if course.attempts and not course.success
         ]
         failed = f" In the second round failed {'; '.join(second)}." if second else ""
-        said.append(f"{kind.label[0].upper()}{kind.label[1:]}, condition by condition: {'; '.join(first)}.{failed}")
+        said.append(f"The first person with the {kind.label}, condition by condition: {'; '.join(first)}.{failed}")
     return tuple(said)
 
 
@@ -190,10 +235,10 @@ def _history(course: Course) -> str:
         for a in course.attempts
         if a.failure
     ]
-    outcome = (
+    ending = (
         f"reached after {course.updates} update{'s' if course.updates != 1 else ''}" if course.success else "given up"
     )
-    return f"{', then '.join(steps)}; {outcome}"
+    return f"{', then '.join(steps)}; {ending}"
 
 
 def _pose(pose: messages.Pose) -> Pose:

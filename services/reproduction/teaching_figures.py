@@ -7,14 +7,12 @@ from collections.abc import Sequence
 from matplotlib.axes import Axes
 
 from protocol.messages import Mode
-from services.offline.rehearsal import Rehearsed
 from services.offline.result import Course
 from services.reproduction.analysis import Figure
-from services.reproduction.models import CONTENDERS, Contender
+from services.reproduction.models import CONTENDERS, SHOWN, Contender
 from services.reproduction.scenery import draw_way, furnish, place_object
 from services.reproduction.style import DEMONSTRATION_LINE, REFINEMENT, Line, drawn, panels
-from services.reproduction.teaching import MODELS, Answer
-from sim.tasks import AnyScene
+from services.reproduction.teaching import Answer
 from sim.tasks.scene import Vector
 
 Part = tuple[Vector, Vector]
@@ -25,7 +23,7 @@ _COLUMNS = 4
 
 
 def first_rounds(answer: Answer, part: Part, titles: Sequence[str], caption: str) -> list[Figure]:
-    """Predictions and refinements condition by condition, a figure for each model.
+    """Predictions and refinements condition by condition, a figure for each of `SHOWN`.
 
     Args:
         answer: what came out.
@@ -34,19 +32,15 @@ def first_rounds(answer: Answer, part: Part, titles: Sequence[str], caption: str
         caption: without the model's name.
     """
     figures = []
-    for kind, model, rehearsed in zip(CONTENDERS, MODELS, answer.of_kinds, strict=True):
+    for kind in SHOWN:
         height = 2.9 if len(titles) <= _COLUMNS else 3.3
         canvas, panes = panels(titles, height=height, rows=-(-len(titles) // _COLUMNS), solid=True)
-        _draw_round(panes, answer.question.scene, part, rehearsed, kind)
-        figures.append(drawn(canvas, f"first-{model}", f"{caption}: {kind.label}.", raster=True))
+        for axes, course in zip(panes, answer.first(kind), strict=True):
+            furnish(axes, answer.question.scene.boxes(course.arrangement.variant), *part)
+            place_object(axes, course.arrangement.place.tolist())
+            _draw_course(axes, course, kind)
+        figures.append(drawn(canvas, f"first-{kind.name}", f"{caption}: {kind.label}.", raster=True))
     return figures
-
-
-def _draw_round(panes: Sequence[Axes], scene: AnyScene, part: Part, rehearsed: Rehearsed, kind: Contender) -> None:
-    for axes, course in zip(panes, rehearsed.first, strict=True):
-        furnish(axes, scene.boxes(course.arrangement.variant), *part)
-        place_object(axes, course.arrangement.place.tolist())
-        _draw_course(axes, course, kind)
 
 
 def second_round(answer: Answer, part: Part, caption: str) -> Figure:
@@ -58,12 +52,12 @@ def second_round(answer: Answer, part: Part, caption: str) -> Figure:
         caption: of the figure.
     """
     question = answer.question
-    canvas, panes = panels([kind.label for kind in CONTENDERS], height=3.6, solid=True)
-    for axes, kind, rehearsed in zip(panes, CONTENDERS, answer.of_kinds, strict=True):
+    canvas, panes = panels([kind.label for kind in CONTENDERS], height=3.1, rows=2, solid=True)
+    for axes, kind in zip(panes, CONTENDERS, strict=True):
         furnish(axes, question.scene.boxes(question.executed[-1].variant), *part)
         for demonstration in answer.demonstrations:
             draw_way(axes, demonstration.trajectory.positions, DEMONSTRATION_LINE, "demonstration")
-        for course in rehearsed.second:
+        for course in answer.second(kind):
             place_object(axes, course.arrangement.place.tolist())
             _draw_course(axes, course, kind)
     return drawn(canvas, "second", caption, raster=True)

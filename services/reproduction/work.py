@@ -1,4 +1,4 @@
-"""Carries analyses out, here or in processes of their own, and keeps each outcome as soon as there is one."""
+"""Carries runs of analyses out, here or in processes of their own, and keeps each record as soon as there is one."""
 
 from __future__ import annotations
 
@@ -12,78 +12,82 @@ from threadpoolctl import threadpool_limits
 from services.offline.pool import ProcessDied, Progress, each
 from services.process.clock import SystemClock
 from services.reproduction.analysis import Analysis, Context
-from services.reproduction.store import Done, Failed, Outcome, Store
+from services.reproduction.store import Done, Failed, Record, Run, Store
 
 log = logging.getLogger(__name__)
 
 _LEAST_ADVANCE = 0.002  # share of the work below which a process does not report
 
 
+class Piece(NamedTuple):
+    """Of the work: one run of an analysis."""
+
+    analysis: Analysis
+    run: Run
+
+
 class Watcher(Protocol):
     """Who is told how the work goes on."""
 
-    def started(self, analysis: Analysis) -> None:
-        """Work on an analysis begins."""
-        ...
-
-    def advanced(self, analysis: Analysis, share: float) -> None:
-        """A share of its work is done, from 0 to 1."""
+    def advanced(self, piece: Piece, share: float) -> None:
+        """A share of a piece is done, from 0 to 1."""
         ...
 
 
-class _Piece(NamedTuple):
-    analysis: Analysis
-    seed: int
+def pieces_of(analysis: Analysis, seeds: Sequence[int]) -> list[Piece]:
+    """The runs of an analysis: one for each person, of which the first is illustrated.
+
+    Args:
+        analysis: any.
+        seeds: of the people, at least one.
+    """
+    taken = seeds if analysis.person else seeds[:1]
+    return [Piece(analysis, Run(analysis.name, seed, illustrated=seed == taken[0])) for seed in taken]
 
 
-def carry_out(
-    todo: Sequence[Analysis], store: Store, seed: int, jobs: int, watcher: Watcher
-) -> Iterator[tuple[Analysis, Outcome]]:
-    """Carry out analyses; the outcomes come as they are ready, and are kept by then.
+def carry_out(todo: Sequence[Piece], store: Store, jobs: int, watcher: Watcher) -> Iterator[tuple[Piece, Record]]:
+    """Carry out runs; the records come as they are ready, and are kept by then.
 
     Closing the iterator, or an exception in whoever consumes it, stops what is still running. A process that dies takes
     with it what was running at the time; the rest is begun anew.
 
     Args:
         todo: what is to be done.
-        store: where outcomes are kept.
-        seed: of the analyses.
+        store: where records are kept.
         jobs: how many at once; more than one get a process each.
         watcher: is told of the progress.
 
     Raises:
-        CannotKeep: an outcome cannot be kept.
+        CannotKeep: a record cannot be kept.
     """
     waiting = list(todo)
     while waiting:
-        pieces = [_Piece(analysis, seed) for analysis in waiting]
+        pieces = list(waiting)
         running = set[int]()
 
-        def advance(number: int, share: float, pieces: list[_Piece] = pieces, running: set[int] = running) -> None:
+        def advance(number: int, share: float, pieces: list[Piece] = pieces, running: set[int] = running) -> None:
             if share == 0.0:
                 running.add(number)
-                watcher.started(pieces[number].analysis)
-            else:
-                watcher.advanced(pieces[number].analysis, share)
+            watcher.advanced(pieces[number], share)
 
         try:
-            with closing(each(_outcome, pieces, jobs, advance)) as outcomes:
-                for number, outcome in outcomes:
+            with closing(each(_record, pieces, jobs, advance)) as records:
+                for number, record in records:
                     running.discard(number)
-                    waiting.remove(pieces[number].analysis)
-                    yield _kept(pieces[number].analysis, outcome, store)
+                    waiting.remove(pieces[number])
+                    yield _kept(pieces[number], record, store)
         except ProcessDied as error:
             for number in sorted(running):
-                waiting.remove(pieces[number].analysis)
-                yield _kept(pieces[number].analysis, Failed(str(error)), store)
+                waiting.remove(pieces[number])
+                yield _kept(pieces[number], Failed(str(error)), store)
 
 
-def _kept(analysis: Analysis, outcome: Outcome, store: Store) -> tuple[Analysis, Outcome]:
-    store.write(analysis.name, outcome)
-    return analysis, outcome
+def _kept(piece: Piece, record: Record, store: Store) -> tuple[Piece, Record]:
+    store.write(piece.run, record)
+    return piece, record
 
 
-def _outcome(piece: _Piece, progress: Progress) -> Outcome:
+def _record(piece: Piece, progress: Progress) -> Record:
     clock = SystemClock()
     began_ns = clock.now_ns()
     last = 0.0
@@ -97,7 +101,7 @@ def _outcome(piece: _Piece, progress: Progress) -> Outcome:
     try:
         # The matrices are small and the cores few: threads of the linear algebra would only wait for each other.
         with threadpool_limits(1):
-            finding = piece.analysis.run(Context(piece.seed, advance))
+            finding = piece.analysis.run(Context(piece.run.seed, advance, piece.run.illustrated))
     except Exception as error:
         # One that fails is a line in the report, whatever it fails by: the others go on.
         log.debug("traceback", exc_info=True)

@@ -9,15 +9,15 @@ from lfd.models.gaussian import JointGaussian, condition
 from lfd.models.model import MovementModel
 from lfd.models.promp import CONDITION_SCALE, ConditionedProMP, PrompOptions
 from lfd.motion.demonstration import Demonstration
-from services.reproduction.analysis import Analysis, Context, Figure, Finding, Holds, Row
-from services.reproduction.models import DEFAULT
+from services.reproduction.analysis import Analysis, Claim, Context, Figure, Finding, Relation, Row, Source
+from services.reproduction.models import DEFAULT, THESIS
 from services.reproduction.scripted import demonstrate
 from services.reproduction.style import ADAPTIVE, CONDITIONED, DEMONSTRATION_LINE, Line, drawn, panels
 from sim.tasks.table import TABLE
 
 Array = NDArray[np.float64]
 
-_EXACT = 1e-9
+_AS_FAR = 0.95  # of the demonstrations' spread: the predictions are correct
 _NOISE = PrompOptions().conditioning_noise
 _WITHOUT = PrompOptions(conditioning_noise=_NOISE * CONDITION_SCALE**2)
 """The thesis' noise on a condition that is not multiplied."""
@@ -51,33 +51,50 @@ def _factor_ten(context: Context) -> Finding:
     models: dict[str, MovementModel] = {
         "times 10": model,
         "as it is": ConditionedProMP.fit(motions, _WITHOUT),
-        "default": DEFAULT.fit(motions),
+        DEFAULT.label: DEFAULT.fit(motions),
     }
     spreads = {name: spread(one, motions) for name, one in models.items()}
-    confirmed = spreads["as it is"] < 0.9 * spreads["times 10"]
+    scaled, plain = spreads["times 10"], spreads["as it is"]
     return Finding(
-        (Holds.YES if error < _EXACT else Holds.DIFFERS) if confirmed else Holds.NO,
-        "With the factor the predictions are as far apart as the demonstrations, without it they are drawn together."
-        " It is no property of the condition, though: the same predictions come from a noise of 0.0003 and no factor."
-        if confirmed
-        else "The factor makes no visible difference here.",
-        rows=(
+        (
+            Claim(
+                Source.THESIS,
+                "When the input is multiplied by 10, the predictions are correct: as far apart as the demonstrations.",
+                "spread over the demonstrations'",
+                scaled,
+                Relation.AT_LEAST,
+                _AS_FAR,
+            ),
+            Claim(
+                Source.THESIS,
+                "When it is not, they should be further apart.",
+                "spread over the demonstrations'",
+                plain,
+                Relation.BELOW,
+                _AS_FAR,
+            ),
+        ),
+        (
             Row(
                 "spread of predicted starts over that of demonstrated starts, with the factor",
-                "",
-                "“correct”",
-                spreads["times 10"],
+                {THESIS.name: scaled},
+                thesis="“correct”",
+                headline=True,
             ),
             Row(
-                "the same without the factor", "", "“should be further apart”", spreads["as it is"], spreads["default"]
+                "the same without the factor",
+                {THESIS.name: plain},
+                thesis="“should be further apart”",
+                headline=True,
             ),
-            Row("largest relative difference between factor 10 and noise / 100", "", None, error),
+            Row("largest relative difference between factor 10 and noise / 100", {THESIS.name: error}),
         ),
-        figures=(_figure(motions, models),),
-        notes=(
+        context.drawn(lambda: (_figure(motions, models),)),
+        (
             "Four motions over the table, with an object at each corner of its region, are predicted again at their"
             " own conditions, as in Fig. D.10. Motions are relative to the object, so what they have to get from the"
-            " condition is where they begin. The default model has no factor, and is told the start.",
+            " condition is where they begin. The factor is no property of the condition: the same predictions come from"
+            " a noise of 0.0003 and no factor. The default model has none, and is told the start.",
         ),
     )
 
@@ -90,14 +107,14 @@ def spread(model: MovementModel, motions: list[Demonstration]) -> float:
 
 
 def _figure(motions: list[Demonstration], models: dict[str, MovementModel]) -> Figure:
-    canvas, panes = panels(["condition times 10, as the thesis", "condition as it is", "default model"], height=2.3)
+    canvas, panes = panels(["condition times 10, as the thesis", "condition as it is", DEFAULT.label], height=2.3)
     for axes, (name, model) in zip(panes, models.items(), strict=True):
-        line = Line(ADAPTIVE if name == "default" else CONDITIONED, 1.6)
+        line = Line(ADAPTIVE if name == DEFAULT.label else CONDITIONED, 1.6)
         for motion in motions:
             shown = motion.trajectory.positions - motion.origin
             axes.plot(shown[:, 1], shown[:, 0], **DEMONSTRATION_LINE("demonstrations"))
             p = model.predict(motion.situation).trajectory.positions - motion.origin
-            axes.plot(p[:, 1], p[:, 0], **line("default model" if name == "default" else "thesis' method"))
+            axes.plot(p[:, 1], p[:, 0], **line(DEFAULT.label if name == DEFAULT.label else THESIS.label))
         axes.set(xlabel="y from the object [m]", aspect="equal")
     panes[0].set_ylabel("x from the object [m]")
     return drawn(canvas, "predictions", "Demonstrations and their predictions from above, relative to the object.")
@@ -110,4 +127,5 @@ FACTOR_TEN = Analysis(
     claim="Multiplying the input by 10 was experienced to have better prediction results. When it is not done, the"
     " predictions are not correct, as they should be further apart; when it is, they are.",
     run=_factor_ten,
+    seconds=2.0,
 )

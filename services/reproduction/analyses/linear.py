@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
 from lfd.models.promp import CONDITION_SCALE, ConditionedProMP, PrompOptions
-from services.reproduction.analysis import Analysis, Context, Figure, Finding, Holds, Row
+from services.reproduction.analysis import Analysis, Claim, Context, Figure, Finding, Relation, Row, Source, Value
 from services.reproduction.functions import TAUGHT, Family, X
-from services.reproduction.models import CONTENDERS, DEFAULT, THESIS
+from services.reproduction.models import DEFAULT, LEARNT, THESIS, Contender
 from services.reproduction.style import DEMONSTRATION_LINE, TRUE_LINE, Line, drawn, panels
 
 Array = NDArray[np.float64]
@@ -47,43 +49,40 @@ def measured_shrinkage(noise: float, b: float) -> float:
 
 def _linear(context: Context) -> Finding:
     noise = PrompOptions().conditioning_noise
-    at_one = _LINE.predicted(THESIS.fit(_LINE.motions()), 1.0)[:, 0]
-    default_at_one = _LINE.predicted(DEFAULT.fit(_LINE.motions()), 1.0)[:, 0]
-    holds, sentence = _verdict(_LINE)
     return Finding(
-        holds,
-        sentence,
-        rows=(
-            Row("y(0) and y(1) at s = 1", "", "1 and 2", _ends(at_one), _ends(default_at_one)),
+        _claims(_LINE, "y = x + 1 is predicted at s = 1: a linear function from 1 to 2."),
+        (
+            Row("y(0) and y(1) at s = 1", _of_learnt(lambda kind: _ends(_taught(_LINE, kind))), thesis="1 and 2"),
             *_error_rows(_LINE),
-            Row("deviation at s = 1 due to 0.03 I alone", "", None, measured_shrinkage(noise, 1.0), None),
+            Row("deviation at s = 1 due to 0.03 I alone", {THESIS.name: measured_shrinkage(noise, 1.0)}),
         ),
-        figures=(_predictions_figure(_LINE), _errors_figure(_LINE, context), _shrinkage_figure(noise)),
-        notes=(
+        context.drawn(lambda: (_predictions_figure(_LINE), _errors_figure(_LINE, context), _shrinkage_figure(noise))),
+        (
             "RMSE is over 100 points of x from 0 to 1, without unit. A joint Gaussian holds every function that is"
             " affine in s; what is left is the ten basis functions, which cannot draw a straight line, and the"
             f" conditioning noise, which at s = 1 gives |b − 3| · 0.03 / (250 + 0.03) = {shrinkage(noise, 1.0):.2g}.",
-            "The default model is told where a motion begins, as a robot always is. How far it draws predictions"
-            " towards the mean it takes from how well left-out demonstrations are predicted: here, not at all.",
+            "Whoever is anchored is told where a motion begins, as a robot always is: here that is b itself.",
         ),
     )
 
 
 def _linear_3d_context(context: Context) -> Finding:
     odd = np.array([1.0, 3.0, 5.0])
-    taken = []
-    for kind in CONTENDERS:
+
+    def taken_for(kind: Contender) -> Value:
         situation = _LINE_OF_THREE.motion(3.0).situation
         asked = type(situation)(odd, situation.origin, situation.start_position, situation.start_orientation)
         y = kind.fit(_LINE_OF_THREE.motions()).predict(asked, len(X)).trajectory.positions[:, 0]
-        taken.append(float(np.mean(y - X)))
-    holds, sentence = _verdict(_LINE_OF_THREE)
+        return float(np.mean(y - X))
+
     return Finding(
-        holds,
-        sentence,
-        rows=(*_error_rows(_LINE_OF_THREE), Row("b that s = [1, 3, 5], never taught, is taken for", "", None, *taken)),
-        figures=(_predictions_figure(_LINE_OF_THREE), _errors_figure(_LINE_OF_THREE, context)),
-        notes=(
+        _claims(_LINE_OF_THREE, "The correct trajectory is generated towards s = [1, 1, 1]."),
+        (
+            *_error_rows(_LINE_OF_THREE),
+            Row("b that s = [1, 3, 5], never taught, is taken for", _of_learnt(taken_for)),
+        ),
+        context.drawn(lambda: (_predictions_figure(_LINE_OF_THREE), _errors_figure(_LINE_OF_THREE, context))),
+        (
             "With s = [b, b, b] the covariance of the condition has rank one, and without the noise of equation (10)"
             " it could not be inverted. A condition off the line is taken for its mean.",
         ),
@@ -91,42 +90,62 @@ def _linear_3d_context(context: Context) -> Finding:
 
 
 def _linear_3d_output(context: Context) -> Finding:
-    holds, sentence = _verdict(_THREE_LINES)
-    at_one = [
-        np.abs(_THREE_LINES.predicted(kind.fit(_THREE_LINES.motions()), 1.0) - _THREE_LINES.outputs(1.0))
-        for kind in CONTENDERS
-    ]
-    worst = [float(error.max()) for error in at_one]
+    def worst(kind: Contender) -> Value:
+        model = kind.fit(_THREE_LINES.motions())
+        return float(np.abs(_THREE_LINES.predicted(model, 1.0) - _THREE_LINES.outputs(1.0)).max())
+
     return Finding(
-        holds,
-        sentence,
-        rows=(
-            *_error_rows(_THREE_LINES),
-            Row("largest deviation of any output at s = 1", "", None, *worst),
-        ),
-        figures=(_predictions_figure(_THREE_LINES), _errors_figure(_THREE_LINES, context)),
-        notes=(
+        _claims(_THREE_LINES, "Each of the outputs is correctly generalised at s = 1."),
+        (*_error_rows(_THREE_LINES), Row("largest deviation of any output at s = 1", _of_learnt(worst))),
+        context.drawn(lambda: (_predictions_figure(_THREE_LINES), _errors_figure(_THREE_LINES, context))),
+        (
             "The thesis does not say which three functions it used; here they are x + b, 2x + b and −x + b. It fits a"
             " model to each output; here one Gaussian is joint over all, with the same mean.",
         ),
     )
 
 
-def _verdict(family: Family) -> tuple[Holds, str]:
-    model = THESIS.fit(family.motions())
-    if family.error(model, 1.0) < _RIGHT:
-        return Holds.YES, "The right function is predicted at the demonstrated condition, and at others as well."
-    return Holds.NO, "The prediction at the demonstrated condition is visibly off."
+def _claims(family: Family, sentence: str) -> tuple[Claim, ...]:
+    thesis, default = (kind.fit(family.motions()) for kind in (THESIS, DEFAULT))
+    return (
+        Claim(Source.THESIS, sentence, "RMSE at s = 1", family.error(thesis, 1.0), Relation.BELOW, _RIGHT),
+        Claim(
+            Source.RETOUCH,
+            "The default model follows a linear trend to s = 7, beyond what was demonstrated.",
+            "RMSE at s = 7",
+            family.error(default, _BEYOND),
+            Relation.BELOW,
+            _RIGHT,
+        ),
+    )
+
+
+def _of_learnt(of: Callable[[Contender], Value]) -> dict[str, Value]:
+    return {kind.name: of(kind) for kind in LEARNT}
+
+
+def _taught(family: Family, kind: Contender) -> Array:
+    """What a model predicts at s = 1, shape (n,)."""
+    return family.predicted(kind.fit(family.motions()), 1.0)[:, 0]
 
 
 def _error_rows(family: Family) -> list[Row]:
-    taught = [kind.fit(family.motions()) for kind in CONTENDERS]
     kept = family.motions([b for b in TAUGHT if b != _LEFT_OUT])
-    partly = [kind.fit(kept) for kind in CONTENDERS]
+    taught = {kind: kind.fit(family.motions()) for kind in LEARNT}
+    partly = {kind: kind.fit(kept) for kind in LEARNT}
     return [
-        Row("RMSE at s = 1, demonstrated", "", "“correct”", *(family.error(model, 1.0) for model in taught)),
-        Row("RMSE at s = 3, not demonstrated", "", None, *(family.error(model, _LEFT_OUT) for model in partly)),
-        Row("RMSE at s = 7, extrapolated", "", None, *(family.error(model, _BEYOND) for model in taught)),
+        Row(
+            "RMSE at s = 1, demonstrated",
+            _of_learnt(lambda kind: family.error(taught[kind], 1.0)),
+            thesis="“correct”",
+            headline=True,
+        ),
+        Row("RMSE at s = 3, not demonstrated", _of_learnt(lambda kind: family.error(partly[kind], _LEFT_OUT))),
+        Row(
+            "RMSE at s = 7, extrapolated",
+            _of_learnt(lambda kind: family.error(taught[kind], _BEYOND)),
+            headline=True,
+        ),
     ]
 
 
@@ -136,7 +155,7 @@ def _ends(y: Array) -> str:
 
 def _predictions_figure(family: Family) -> Figure:
     motions = family.motions()
-    models = [(kind, kind.fit(motions)) for kind in CONTENDERS]
+    models = [(kind, kind.fit(motions)) for kind in LEARNT]
     values = (1.0, 2.5, _BEYOND)
     titles = ["s = 1, demonstrated", "s = 2.5, between", "s = 7, beyond"]
     canvas, panes = panels(titles)
@@ -156,7 +175,7 @@ def _predictions_figure(family: Family) -> Figure:
 def _errors_figure(family: Family, context: Context) -> Figure:
     canvas, (axes,) = panels([""], height=2.5)
     motions = family.motions()
-    for kind in context.track(CONTENDERS):
+    for kind in context.track(LEARNT):
         model = kind.fit(motions)
         axes.semilogy(_ASKED, [family.error(model, float(b)) for b in _ASKED], **kind.line(kind.label))
     axes.axvspan(min(TAUGHT), max(TAUGHT), color="#f1f4f7", zorder=0, label="demonstrated range")
@@ -172,7 +191,7 @@ def _shrinkage_figure(noise: float) -> Figure:
         axes.plot(_ASKED, measured, **Line(THESIS.line.color, 2.4, style)(f"0.03 I on the {label}"))
         axes.plot(_ASKED, [shrinkage(shown, float(b)) for b in _ASKED], **TRUE_LINE("closed form"))
     axes.set(xlabel="b of the prediction", ylabel="deviation towards the mean")
-    caption = "What the conditioning noise of equation (10) alone does to the predictions of the thesis' method."
+    caption = "What the conditioning noise of equation (10) alone does to the predictions of the thesis' model."
     return drawn(canvas, "shrinkage", caption)
 
 
@@ -183,6 +202,8 @@ LINEAR = Analysis(
     claim="When we generalize towards s = 1, it is expected that the output will be of the form y = x + 1, being a"
     " linear function starting at 1 and ending at 2. It can be seen that this is indeed the case.",
     run=_linear,
+    seconds=6.0,
+    person=False,
 )
 LINEAR_3D_CONTEXT = Analysis(
     name="linear-3d-context",
@@ -190,6 +211,8 @@ LINEAR_3D_CONTEXT = Analysis(
     about="Are linear functions predicted from a condition of three equal numbers?",
     claim="When generalizing towards s = [1.0, 1.0, 1.0] it can be seen that the correct trajectory is generated.",
     run=_linear_3d_context,
+    seconds=6.0,
+    person=False,
 )
 LINEAR_3D_OUTPUT = Analysis(
     name="linear-3d-output",
@@ -197,4 +220,6 @@ LINEAR_3D_OUTPUT = Analysis(
     about="Are three outputs predicted from one condition?",
     claim="Each of the demonstrated outputs is correctly generalized at s = 1.0.",
     run=_linear_3d_output,
+    seconds=6.0,
+    person=False,
 )

@@ -10,7 +10,7 @@ from services.offline.result import Arrangement, Attempt, Course
 from services.reproduction import teaching
 from services.reproduction.analyses import dishwasher, initial_poses, table
 from services.reproduction.analyses.particle import mean_squared_error
-from services.reproduction.analysis import Holds
+from services.reproduction.models import BY_NAME, THESIS
 from services.reproduction.teaching import Answer, Question
 from sim.tasks import DISHWASHER
 from sim.tasks.particle import PARTICLE, Y_UNIT
@@ -35,47 +35,64 @@ WELL, FAILED = course(0.0), course(0.02)
 CORRECTED = course(0.02, 0.0, 0.0, updates=1)
 
 
-def answer(conditioned, adaptive, second=(WELL, WELL)):
-    kinds = tuple(Rehearsed(first, second) for first in (conditioned, adaptive))
-    return Answer(Question(DISHWASHER, (), (HERE,) * 2, (HERE,) * 2), (), kinds, ((), ()))
+def answer(first=(WELL, WELL), second=(WELL, WELL), **others):
+    """Every model alike, but for the first rounds of those that are named."""
+    rounds = {name: Rehearsed(others.get(name, first), second) for name in BY_NAME}
+    return Answer(Question(DISHWASHER, (), (HERE,) * 2, (HERE,) * 2), (), rounds)
+
+
+@pytest.mark.parametrize(("first", "holds"), [((CORRECTED, WELL), True), ((CORRECTED, CORRECTED), False)])
+def test_the_claim_that_few_are_refined_holds_up_to_as_many_as_in_the_thesis(first, holds):
+    assert teaching.few_needed(answer(promp=first, adaptive=(WELL, WELL)), "Few.", 1).holds is holds
+
+
+@pytest.mark.parametrize(("second", "holds"), [((WELL, WELL), True), ((WELL, FAILED), False)])
+def test_the_claim_that_all_succeed_again_fails_with_one_of_them(second, holds):
+    assert teaching.reached_again(answer(second=second), "All.").holds is holds
 
 
 @pytest.mark.parametrize(
-    ("first", "second", "holds"),
+    ("default", "fine", "second", "holds"),
     [
-        ((CORRECTED, WELL), (WELL, WELL), Holds.YES),
-        ((CORRECTED, CORRECTED), (WELL, WELL), Holds.DIFFERS),
-        ((WELL, WELL), (WELL, FAILED), Holds.DIFFERS),
-        ((CORRECTED, CORRECTED), (WELL, FAILED), Holds.NO),
+        ((CORRECTED, WELL), (CORRECTED, CORRECTED), (WELL, WELL), [True, True, True]),
+        ((CORRECTED, WELL), (WELL, CORRECTED), (WELL, WELL), [True, False, True]),
+        ((CORRECTED, CORRECTED), (CORRECTED, CORRECTED), (WELL, FAILED), [False, False, False]),
     ],
 )
-def test_the_claim_holds_where_few_are_refined_and_all_succeed_again(first, second, holds):
-    assert teaching.holds(answer(first, (WELL, WELL), second), needed_by_thesis=1) is holds
+def test_what_retouch_claims_of_its_default_model_can_fail(default, fine, second, holds):
+    claims = teaching.claims(answer(second=second, **{"adaptive": default, "promp-fine": fine}), ())
+    assert [claim.holds for claim in claims] == holds
 
 
 def test_the_table_counts_what_each_model_needed():
-    rows = teaching.rows(answer((CORRECTED, CORRECTED), (CORRECTED, WELL), (WELL, FAILED)), needed_by_thesis=2)
-    assert [(row.thesis, row.conditioned, row.adaptive) for row in rows] == [
+    rows = teaching.rows(answer((CORRECTED, CORRECTED), (WELL, FAILED), adaptive=(CORRECTED, WELL)), needed_by_thesis=2)
+    assert [(row.thesis, row.values["promp"], row.values["adaptive"]) for row in rows] == [
         (2, 2, 1),
         (None, 2, 1),
         (None, 2, 1),
         (2, 1, 1),
+        (True, False, False),
     ]
+    assert all(row.values.keys() == BY_NAME.keys() for row in rows)
 
 
 def test_the_notes_name_the_conditions_that_failed_and_by_how_much():
-    thesis, default = teaching.notes(answer((CORRECTED, WELL), (WELL, WELL), (WELL, FAILED)))
+    thesis, default = teaching.notes(answer((CORRECTED, WELL), (WELL, FAILED), adaptive=(WELL, WELL)))
     assert thesis == (
-        "Thesis' method, condition by condition: 1: prediction missed by 20 mm; reached after 1 update; 2: reached. In"
-        " the second round failed 2: missed by 20 mm."
+        "The first person with the thesis' model, condition by condition: 1: prediction missed by 20 mm; reached after"
+        " 1 update; 2: reached. In the second round failed 2: missed by 20 mm."
     )
-    assert default.startswith("Default model, condition by condition: 1: reached; 2: reached.")
+    assert default.startswith(
+        "The first person with the default model, condition by condition: 1: reached; 2: reached."
+    )
 
 
-def test_the_sentence_says_where_the_second_round_failed():
-    said = teaching.sentence(answer((CORRECTED, WELL), (WELL, WELL), (WELL, FAILED)), needed_by_thesis=2)
-    assert "refinements under 1 of 2 conditions (in the thesis 2), the default model under 0" in said
-    assert "the thesis' method failed under 1 of 2, the default model under 1" in said
+def test_the_second_round_ends_where_the_conditions_beyond_begin():
+    found = Answer(
+        Question(DISHWASHER, (), (HERE,), (HERE,), (HERE,) * 2), (), {"promp": Rehearsed((WELL,), (WELL, FAILED, WELL))}
+    )
+    assert found.second(THESIS) == (WELL,)
+    assert found.beyond(THESIS) == (FAILED, WELL)
 
 
 def test_the_baskets_outer_places_are_demonstrated_and_all_four_refined():
