@@ -145,7 +145,9 @@ def reproduce(request: Request, analyses: Sequence[Analysis] = ANALYSES) -> int:
     except KeyboardInterrupt:
         report = write_report(request.out, reported(), seeds)
         left = sum(piece.run not in records for piece in todo)
-        console.print(f"interrupted with {left} runs to go; the same command goes on; so far: {report}", soft_wrap=True)
+        console.print(
+            f"interrupted with {_runs(left)} to go; the same command goes on; so far: {report}", soft_wrap=True
+        )
         raise
     report = write_report(request.out, reported(), seeds)
     found = [Entry.of(analysis, records, seeds) for analysis in chosen]
@@ -193,16 +195,20 @@ def _announce(console: Console, asked: Sequence[Piece], todo: Sequence[Piece], j
     minutes = max(1, math.ceil(estimated(todo, jobs) / 60.0))
     time = f"{minutes} min" if minutes < 90 else f"{minutes / 60.0:.1f} h"
     kept = len(asked) - len(todo)
-    said = f"{len(todo)} runs to make" + (f", {kept} kept from before" if kept else "")
+    said = f"{_runs(len(todo))} to make" + (f", {kept} kept from before" if kept else "")
     console.print(f"{said}; about {time} on {jobs} idle core{'s' * (jobs > 1)}" if todo else said, soft_wrap=True)
+
+
+def _runs(count: int) -> str:
+    return f"{count} run{'s' * (count != 1)}"
 
 
 def _summary(found: Sequence[Entry], kept: int, failed: int) -> str:
     """What came out, in a line."""
     holds, not_, undecided = (counts(found, one) for one in (Holds.YES, Holds.NO, Holds.UNDECIDED))
-    said = f"{holds + not_ + undecided} claims of {len(found)} analyses: {holds} hold, {not_} do not hold"
-    said += f", {undecided} undecided: more --people would tell" if undecided else ""
-    runs = [f"{kept} runs kept from before"] * (kept > 0) + [f"{failed} runs failed"] * (failed > 0)
+    said = f"claims that hold: {holds}, that do not: {not_}"
+    said += f", undecided: {undecided}, which more --people may decide" if undecided else ""
+    runs = [f"{_runs(kept)} kept from before"] * (kept > 0) + [f"{_runs(failed)} failed"] * (failed > 0)
     return f"{said} ({', '.join(runs)})" if runs else said
 
 

@@ -7,6 +7,7 @@ import platform
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from functools import cache
 from pathlib import Path
 
 import jinja2
@@ -100,15 +101,7 @@ def write_report(folder: Path, entries: Sequence[Entry], seeds: Sequence[int]) -
 
 def html(entries: Sequence[Entry], seeds: Sequence[int]) -> str:
     """The report as text, see `write_report`."""
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(__file__).parent),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters |= {"shown": shown, "interval": interval, "bounded": bounded, "address": address}
-    return environment.get_template("report.html.jinja").render(
+    return _template().render(
         entries=entries,
         verdicts=[
             (holds, [(source, counts(entries, holds, source)) for source in Source], counts(entries, holds))
@@ -123,6 +116,19 @@ def html(entries: Sequence[Entry], seeds: Sequence[int]) -> str:
         made=f"{datetime.now(UTC):%d %B %Y, %H:%M} UTC",
         versions=f"Python {platform.python_version()}, NumPy {np.__version__}, Matplotlib {mpl.__version__}",
     )
+
+
+@cache
+def _template() -> jinja2.Template:
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(Path(__file__).parent),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters |= {"shown": shown, "interval": interval, "bounded": bounded, "address": address}
+    return environment.get_template("report.html.jinja")
 
 
 def address(image: bytes) -> str:

@@ -44,7 +44,7 @@ def test_other_projects_modules_are_not_run(tmp_path, foreign):
 
 
 def test_other_projects_modules_are_not_run_in_the_processes_of_a_pool(tmp_path, foreign):
-    arguments = ("reproduce", "factor-ten", "welford", "--jobs", "2", "--out", tmp_path / "out")
+    arguments = ("reproduce", "factor-ten", "welford", "--people", "1", "--jobs", "2", "--out", tmp_path / "out")
     with Command(*arguments, folder=tmp_path, environment=foreign) as reproduce:
         assert reproduce.ended(START_S) == Exit.DONE, reproduce.tail()
     assert "foreign ran" not in reproduce.out + reproduce.err

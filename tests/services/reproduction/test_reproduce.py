@@ -91,14 +91,16 @@ def test_one_that_fails_is_named_in_the_report_the_others_go_on_and_it_is_tried_
 def test_a_claim_that_does_not_hold_is_a_result_that_is_counted(ask, report, capsys):
     one, two = Counted("one", value=3.0, person=False), Counted("two", person=False)
     assert reproduce(ask(), [one.analysis, two.analysis]) == 0
-    assert "2 claims of 2 analyses: 1 hold, 1 do not hold" in " ".join(capsys.readouterr().err.split())
+    assert "claims that hold: 1, that do not: 1" in " ".join(capsys.readouterr().err.split())
     assert "What does not hold" in report()
     assert "Found: length 3 m, not &lt; 2 m." in report()
 
 
 def test_too_few_people_leave_a_claim_undecided(ask, capsys):
     assert reproduce(ask(people=3), [Counted("one").analysis]) == 0
-    assert "0 hold, 0 do not hold, 1 undecided: more --people would tell" in " ".join(capsys.readouterr().err.split())
+    assert "claims that hold: 0, that do not: 0, undecided: 1, which more --people may decide" in " ".join(
+        capsys.readouterr().err.split()
+    )
 
 
 def test_an_interrupted_run_leaves_a_report_and_goes_on_where_it_was(ask, report):
