@@ -1,5 +1,6 @@
 """What holds for all tests."""
 
+import gc
 import shutil
 
 import pytest
@@ -8,6 +9,18 @@ from hypothesis import settings
 # Few examples, always the same ones: the unmarked tests are to take seconds, and a failure is to come again.
 settings.register_profile("quick", max_examples=12, deadline=None, derandomize=True)
 settings.load_profile("quick")
+
+
+def pytest_sessionstart():
+    """What is collected is kept: nothing of it is garbage."""
+    gc.disable()
+
+
+def pytest_collection_finish():
+    """Thousands of tests are not to be looked through for garbage again and again."""
+    gc.freeze()
+    gc.enable()
+
 
 CHROMIUM_FLAGS = (
     "--no-sandbox",

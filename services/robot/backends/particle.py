@@ -20,6 +20,7 @@ _REACH = 0.5  # [m] of each slide, to both sides
 _SPEED = 1.0  # [m/s] of each slide
 _FLAT = 1e-6  # [m, or of a quaternion] that a start may lie beside the plane
 _STEPS = 5  # of a control period, at which it is looked whether the particle touches something
+_SHARES = np.linspace(0.0, 1.0, _STEPS + 1)[1:, None]  # of a period's way, after each of them
 _APART = 1e3  # [m] what has one part only is as far from itself as can be said
 
 
@@ -111,8 +112,7 @@ class ParticleBackend:
         """One control period, of which the particle spends an equal part on each part of its way."""
         before = self._q
         self._q, self._qd = self._command
-        shares = np.linspace(0.0, 1.0, _STEPS + 1)[1:, None]
-        self._touch = self._touched(self._solid, before + shares * (self._q - before))
+        self._touch = self._touched(self._solid, before + _SHARES * (self._q - before))
         self._time += CONTROL_PERIOD
 
     def observe(self) -> Observation:

@@ -14,7 +14,7 @@ from services.process.config import Configuration
 from tests import extremes
 
 
-@settings(max_examples=50, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
+@settings(suppress_health_check=list(HealthCheck))
 @given(pictures=st.lists(extremes.images, min_size=1, max_size=6))
 def test_any_sound_picture_is_used_or_counted(caplog, pictures):
     clock = ManualClock()

@@ -21,8 +21,8 @@ def test_of_a_long_name_begin_and_end_are_kept_and_what_stands_around_it():
     assert len(line) < LONGEST_WORD + 40
 
 
-@given(text=st.text(max_size=4000))
-def test_nothing_is_longer_than_a_line(text):
-    line = one_line(text)
+@given(parts=st.lists(st.text(max_size=12), max_size=4), times=st.integers(0, 400))
+def test_nothing_is_longer_than_a_line(parts, times):
+    line = one_line("".join(part * times for part in parts))
     assert len(line) <= LONGEST_LINE
     assert len(line.splitlines()) <= 1

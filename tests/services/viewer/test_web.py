@@ -9,7 +9,6 @@ import pytest
 
 from services.process.config import ViewerSection
 from services.process.exceptions import PortInUse
-from services.viewer.live import page_origins
 from services.viewer.web import WebServer
 
 
@@ -98,4 +97,6 @@ def test_a_port_in_use_is_named_with_its_setting(configuration, files):
 
 
 def test_a_page_under_an_address_of_version_6_may_read_the_stream():
+    from services.viewer.live import page_origins
+
     assert "http://[2001:db8::7]:82" in page_origins(ViewerSection(host="2001:db8::7", web_port=82))
