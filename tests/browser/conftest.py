@@ -15,6 +15,7 @@ WITHIN_S = 20.0
 HEARD_WITHIN_S = 1.5
 POLL_S = 0.02
 SEAT = "the-seat-of-all-tests"
+SIZE = {"width": 1600, "height": 900}
 
 
 @pytest.fixture(scope="session")
@@ -53,16 +54,16 @@ class Tab:
     """A browser tab with the page open, and what it complained about or asked for.
 
     Args:
-        browser: to open it in.
+        page: to open it in.
         url: of the page.
         seat: by which the station knows the tab again; its own where there is none.
         script: run in the page before any other.
     """
 
-    def __init__(self, browser, url, seat=None, script=""):
+    def __init__(self, page, url, seat=None, script=""):
         self.faults = []
         self.requests = []
-        self.page = browser.new_page(viewport={"width": 1600, "height": 900})
+        self.page = page
         self.page.on("console", lambda message: self.faults.append(message.text) if message.type == "error" else None)
         self.page.on("pageerror", lambda error: self.faults.append(str(error)))
         self.page.on("request", lambda request: self.requests.append(request.url))
@@ -90,23 +91,40 @@ class Tab:
                 self.page.wait_for_timeout(POLL_S * 1e3)
             assert time.monotonic() < deadline, f"{action} does not count"
 
+    def close(self):
+        """Close it, and leave nothing behind that the page would remember."""
+        from playwright.sync_api import Error as Gone
+
+        with contextlib.suppress(Gone):  # the page may never have come
+            self.page.evaluate("localStorage.clear()")
+        self.page.close()
+
     def shows(self, selector):
         """Whether an element is seen now."""
         return self.page.locator(selector).locator("visible=true").count() > 0
 
 
+@pytest.fixture(scope="session")
+def window(browser):
+    """Where the first tab of every test opens: a profile of its own takes as long to make as the page to load."""
+    context = browser.new_context(viewport=SIZE)
+    yield context
+    context.close()
+
+
 @pytest.fixture
-def open_tab(browser, station):
-    """A function that opens another tab."""
+def open_tab(browser, window, station):
+    """A function that opens another tab, in a window of its own: of one window only one tab is seen at a time."""
     tabs = []
 
     def open_one(url=None, **options):
-        tabs.append(Tab(browser, url or station[0].url, **options))
+        page = browser.new_page(viewport=SIZE) if tabs else window.new_page()
+        tabs.append(Tab(page, url or station[0].url, **options))
         return tabs[-1]
 
     yield open_one
     for tab in tabs:
-        tab.page.close()
+        tab.close()
 
 
 @pytest.fixture
