@@ -8,6 +8,7 @@ import numpy as np
 
 from lfd.arrays import Array, checked_quaternions, frozen
 from lfd.bounds import at_least, check_options, check_points
+from lfd.models.anchor import Anchor
 from lfd.models.basis import GaussianBasis, least_squares
 from lfd.motion.demonstration import Demonstration, Situation
 from lfd.motion.resampling import poses_at
@@ -38,8 +39,8 @@ class Encoding:
         basis: Of all six outputs.
         samples: Number of points at which a trajectory is encoded.
         rotation: The reference rotation, unit quaternion (w, x, y, z).
-        anchored: Encode what remains after a straight blend-out of the start pose, and put the known start pose back
-            at decoding: a prediction then begins exactly where the robot is.
+        anchor: Encode what remains after the start pose is blended out, and put the known start pose back at decoding:
+            a prediction then begins exactly where the robot is. None: the weights say where it begins.
 
     Raises:
         OutOfRange: There are fewer than 2 samples.
@@ -50,7 +51,7 @@ class Encoding:
     basis: GaussianBasis
     samples: int
     rotation: Array
-    anchored: bool
+    anchor: Anchor | None
 
     def __post_init__(self) -> None:
         check_options(self, basis=GaussianBasis, samples=at_least(2))
@@ -66,8 +67,8 @@ class Encoding:
         outputs = np.empty((self.samples, OUTPUTS))
         outputs[:, :POSITION] = positions - demonstration.origin  # equation (23)
         outputs[:, POSITION:] = self._rotation_vectors(orientations)
-        if self.anchored:
-            outputs -= np.multiply.outer(1.0 - phases, outputs[0])
+        if self.anchor:
+            outputs -= self.anchor.at(outputs[0], phases)
         w = _solver(self.basis, phases.tobytes(), self.anchored) @ outputs
         return np.append(w, np.log(demonstration.trajectory.duration))
 
@@ -108,25 +109,31 @@ class Encoding:
             phases: From 0 to 1.
         """
         outputs = self.rows(phases) @ x[:-1].reshape(self.basis.count, OUTPUTS)
-        if self.anchored:
-            outputs += np.multiply.outer(1.0 - phases, self._start(situation))
+        if self.anchor:
+            outputs += self.anchor.at(self.start(situation), phases)
         return outputs
 
     def output_rates(self, x: Array, situation: Situation, phases: Array) -> Array:
         """Derivatives of `outputs` by the phase, shape (T, 6); see there for the arguments x, situation and phases."""
         rates = self.basis.derivative(phases) @ x[:-1].reshape(self.basis.count, OUTPUTS)
-        if self.anchored:
+        if self.anchor:
             first = self.basis.matrix(np.zeros(1))[0] @ x[:-1].reshape(self.basis.count, OUTPUTS)
-            rates = rates + first - self._start(situation)
+            rates = rates + first + self.anchor.rates(self.start(situation), phases)
         return rates
+
+    def start(self, situation: Situation) -> Array:
+        """Of a motion: position relative to the origin [m] and rotation vector [rad], shape (6,)."""
+        turned = log_map(situation.start_orientation @ self._turned_back)
+        return np.concatenate([situation.start_position - situation.origin, turned])
+
+    @property
+    def anchored(self) -> bool:
+        """A motion begins at the start pose whatever its weights."""
+        return self.anchor is not None
 
     def rows(self, phases: Array) -> Array:
         """The basis at phases (T,), shape (T, N); if anchored, with the value at phase 0 blended out to zero."""
         return _rows(self.basis, phases.tobytes(), self.anchored)
-
-    def _start(self, situation: Situation) -> Array:
-        turned = log_map(situation.start_orientation @ self._turned_back)
-        return np.concatenate([situation.start_position - situation.origin, turned])
 
     def _rotation_vectors(self, orientations: Array) -> Array:
         relative = orientations @ self._turned_back

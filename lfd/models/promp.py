@@ -8,6 +8,7 @@ import numpy as np
 
 from lfd.arrays import Array
 from lfd.bounds import NOT_NEGATIVE, POSITIVE, SHARE, at_least, check_options
+from lfd.models.anchor import Anchor
 from lfd.models.basis import GaussianBasis
 from lfd.models.distribution import MotionDistribution
 from lfd.models.encoding import OUTPUTS, Encoding, reference_rotation
@@ -95,7 +96,8 @@ class ConditionedProMP:
         """
         check_demonstrations(demonstrations)
         options = options or PrompOptions()
-        encoding = Encoding(options.basis, options.samples, reference_rotation(demonstrations), options.anchored)
+        anchor = Anchor.straight() if options.anchored else None
+        encoding = Encoding(options.basis, options.samples, reference_rotation(demonstrations), anchor)
         aligned = align(demonstrations, selection=options.selection)
         samples = np.array([_sample(encoding, d) for d in aligned])
         return cls(encoding, JointGaussian.fit(samples), options)

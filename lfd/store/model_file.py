@@ -22,6 +22,7 @@ from lfd.models.adaptive.adaptation import AdaptiveOptions, AdaptiveProMP
 from lfd.models.adaptive.correction import Correction
 from lfd.models.adaptive.regression import Regression
 from lfd.models.adaptive.scale import ConditionScale
+from lfd.models.anchor import Anchor
 from lfd.models.encoding import Encoding
 from lfd.models.gaussian import JointGaussian
 from lfd.models.promp import ConditionedProMP, PrompOptions
@@ -94,8 +95,11 @@ def load(path: Path) -> AdaptiveProMP | ConditionedProMP:
 
 def _taught(model: AdaptiveProMP) -> dict[str, Array]:
     regression, corrections = model.corrections.regression, model.corrections
+    anchor = model.encoding.anchor or Anchor.straight()
     scale, aside = regression.scale, [correction for _, correction in corrections.aside]
     return {
+        "home": anchor.home,
+        "strays": anchor.strays,
         "centre": scale.centre,
         "unit": scale.unit,
         "lengths": scale.lengths.astype(np.float64),
@@ -123,7 +127,8 @@ def _corrections(name: str, arrays: dict[str, Array]) -> list[Correction]:
 
 def _adaptive(header: dict[str, Any], arrays: dict[str, Array]) -> AdaptiveProMP:
     options = _options(AdaptiveOptions, header["options"])
-    encoding = Encoding(options.basis, options.samples, arrays["rotation"], anchored=True)
+    anchor = Anchor(arrays["home"], arrays["strays"])
+    encoding = Encoding(options.basis, options.samples, arrays["rotation"], anchor)
     lengths = arrays["lengths"] > 0.0
     scale = ConditionScale(arrays["centre"], arrays["unit"], lengths, np.ones(len(lengths)))
     model = AdaptiveProMP.of_vectors(
@@ -137,7 +142,8 @@ def _adaptive(header: dict[str, Any], arrays: dict[str, Array]) -> AdaptiveProMP
 def _promp(header: dict[str, Any], arrays: dict[str, Array]) -> ConditionedProMP:
     values = header["options"]
     options = _options(PrompOptions, values | {"selection": Selection(values["selection"])})
-    encoding = Encoding(options.basis, options.samples, arrays["rotation"], options.anchored)
+    anchor = Anchor.straight() if options.anchored else None
+    encoding = Encoding(options.basis, options.samples, arrays["rotation"], anchor)
     return ConditionedProMP(encoding, JointGaussian(arrays["mean"], arrays["scatter"], header["count"]), options)
 
 

@@ -9,6 +9,7 @@ from typing import Self
 import numpy as np
 
 from lfd.models.adaptive.adaptation import AdaptiveOptions
+from lfd.models.anchor import Anchor
 from lfd.models.distribution import MotionDistribution
 from lfd.models.dmp import DMP
 from lfd.models.encoding import Encoding
@@ -52,7 +53,7 @@ class NearestPrimitive:
         """See `MovementModel.distribution`: one motion, drawn by the default model's basis functions."""
         options = AdaptiveOptions()
         trajectory = self._led(situation, options.samples)
-        encoding = Encoding(options.basis, options.samples, trajectory.orientations[-1], anchored=True)
+        encoding = Encoding(options.basis, options.samples, trajectory.orientations[-1], Anchor.straight())
         mean = encoding.encode(Demonstration(trajectory, situation.origin, situation.condition))
         return MotionDistribution(encoding, situation, mean, np.zeros((len(mean), len(mean))))
 

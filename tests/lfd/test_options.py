@@ -15,6 +15,7 @@ from lfd.models.adaptive.relevance import RelevanceOptions
 from lfd.models.adaptive.spread import SpreadPrior
 from lfd.models.adaptive.trend import TrendOptions
 from lfd.models.adaptive.worlds import WorldOptions
+from lfd.models.anchor import Anchor
 from lfd.models.basis import GaussianBasis
 from lfd.models.dmp import DMP, DmpOptions
 from lfd.models.encoding import Encoding
@@ -35,6 +36,7 @@ BEYOND = {
         "observation_std": [-1e-9],
         "selection": ["similar pair"],
         "kept": [0.0, 1.1, -1.0],
+        "anchored": ["yes"],
     },
     DmpOptions: {
         "count": [1, 9.5],
@@ -183,7 +185,7 @@ def test_fewer_than_two_points_are_no_motion_whoever_is_asked(reach, n):
         ("interpolation", lambda one: resample(one.trajectory, 5, "cubic")),
         ("number of points", lambda one: resample(one.trajectory, 5.0)),
         ("alpha", lambda one: refine(one.trajectory, one.trajectory, math.nan)),
-        ("samples", lambda one: Encoding(GaussianBasis(), 1, np.array([1.0, 0.0, 0.0, 0.0]), anchored=True)),
+        ("samples", lambda one: Encoding(GaussianBasis(), 1, np.array([1.0, 0.0, 0.0, 0.0]), anchor=Anchor.straight())),
         ("kept", lambda one: welford(JointGaussian(np.zeros(2), np.eye(2), 2), np.ones(2), kept=0.0)),
         ("noise", lambda one: condition(JointGaussian(np.zeros(2), np.eye(2), 2), np.ones(1), noise=-1.0)),
         (

@@ -21,6 +21,7 @@ from lfd.models.adaptive.regression import Expectation, Regression, RegressionOp
 from lfd.models.adaptive.relevance import RelevanceOptions, relevant
 from lfd.models.adaptive.scale import ConditionScale
 from lfd.models.adaptive.spread import Spread, SpreadPrior, spread_of
+from lfd.models.anchor import Anchor
 from lfd.models.basis import GaussianBasis
 from lfd.models.distribution import MotionDistribution
 from lfd.models.encoding import Encoding, reference_rotation
@@ -101,8 +102,10 @@ class AdaptiveProMP:
         """
         check_demonstrations(demonstrations)
         options = options or AdaptiveOptions()
-        encoding = Encoding(options.basis, options.samples, reference_rotation(demonstrations), anchored=True)
         extent = _extent(demonstrations)
+        plain = Encoding(options.basis, options.samples, reference_rotation(demonstrations), anchor=None)
+        starts = np.array([plain.start(d.situation) for d in demonstrations])
+        encoding = replace(plain, anchor=Anchor.of(starts, extent))
         scale = ConditionScale.of(demonstrations, extent)
         conditions = frozen([d.condition for d in demonstrations])
         vectors = frozen([encoding.encode(d) for d in demonstrations])

@@ -11,6 +11,7 @@ import numpy as np
 
 from lfd.arrays import Array
 from lfd.distances import squared_distances
+from lfd.models.anchor import Anchor
 from lfd.models.basis import GaussianBasis
 from lfd.models.encoding import Encoding, reference_rotation
 from lfd.models.model import Prediction
@@ -29,7 +30,7 @@ class Examples:
 
     @classmethod
     def of(cls, demonstrations) -> Self:
-        encoding = Encoding(BASIS, SAMPLES, reference_rotation(demonstrations), anchored=True)
+        encoding = Encoding(BASIS, SAMPLES, reference_rotation(demonstrations), anchor=Anchor.straight())
         conditions = np.array([d.condition for d in demonstrations])
         return cls(encoding, conditions, np.array([encoding.encode(d) for d in demonstrations]))
 

@@ -254,3 +254,13 @@ def test_at_corrections_that_agree_the_variance_is_by_hand(count):
 def test_nothing_to_learn_from_is_refused():
     with pytest.raises(TooFewDemonstrations):
         AdaptiveProMP.fit([])
+
+
+@pytest.mark.parametrize("aside", [[0.0, 0.0, -0.05], [0.05, 0.0, 0.0]])
+def test_a_start_that_was_never_shown_comes_back_to_the_corrected_way_soon(model, reach, aside):
+    correction = reach(MIDDLE, bend=0.2)
+    corrected, n = model.updated(correction), 101
+    situation = replace(correction.situation, start_position=correction.situation.start_position + aside)
+    away = corrected.predict(situation, n).trajectory.positions - predict(corrected, correction, n).trajectory.positions
+    np.testing.assert_allclose(away[0], aside, atol=1e-12)
+    assert np.linalg.norm(away[38:], axis=1).max() < 0.1 * np.linalg.norm(aside)

@@ -6,10 +6,11 @@ from lfd.models.adaptive.correction import Correction, CorrectionOptions, Correc
 from lfd.models.adaptive.kinds import Kinds
 from lfd.models.adaptive.regression import Regression, RegressionOptions
 from lfd.models.adaptive.scale import ConditionScale
+from lfd.models.anchor import Anchor
 from lfd.models.basis import GaussianBasis
 from lfd.models.encoding import Encoding
 
-ENCODING = Encoding(GaussianBasis(count=3, width=0.3), 10, np.array([1.0, 0.0, 0.0, 0.0]), anchored=True)
+ENCODING = Encoding(GaussianBasis(count=3, width=0.3), 10, np.array([1.0, 0.0, 0.0, 0.0]), anchor=Anchor.straight())
 KINDS = Kinds.of(ENCODING)
 D = 3 * 6 + 1
 
