@@ -1,5 +1,7 @@
 """How a demonstration becomes a vector of weights, and weights become a trajectory again."""
 
+import math
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -23,6 +25,8 @@ def reference_rotation(demonstrations: Sequence[Demonstration]) -> Array:
 
 OUTPUTS = 6  # x, y, z and the rotation vector
 POSITION = 3  # the first outputs
+
+_LONGEST = math.log(sys.float_info.max)  # logarithm of a duration that is a number
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +74,7 @@ class Encoding:
         if self.anchor:
             outputs -= self.anchor.at(outputs[0], phases)
         w = _solver(self.basis, phases.tobytes(), self.anchored) @ outputs
-        return np.append(w, np.log(demonstration.trajectory.duration))
+        return np.append(w, math.log(demonstration.trajectory.duration))
 
     def decode(self, x: Array, situation: Situation, n: int) -> Trajectory:
         """The trajectory of n points in the base frame that the vector x (6 N + 1,) stands for.
@@ -87,12 +91,10 @@ class Encoding:
         """
         check_points("decoded motion", n)
         outputs = self.outputs(x, situation, equal_phases(n))
-        with np.errstate(over="ignore"):
-            duration = float(np.exp(x[-1]))
         return Trajectory(
             positions=outputs[:, :POSITION] + situation.origin,
             orientations=exp_map(outputs[:, POSITION:]) @ self._turned,
-            duration=duration,
+            duration=math.exp(x[-1]) if x[-1] < _LONGEST else math.inf,
         )
 
     def positions(self, changes: Array, n: int) -> Array:

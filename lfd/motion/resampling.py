@@ -49,8 +49,7 @@ def poses_at(
     trajectory: Trajectory, phases: Array, interpolation: Interpolation = Interpolation.LINEAR
 ) -> tuple[Array, Array]:
     """Positions (n, 3) [m] and unit quaternions (n, 4) of a trajectory at phases: see `at_phases`."""
-    positions = _interpolate(trajectory.phases, trajectory.positions, phases, interpolation)
-    return positions, _slerp_at(trajectory.phases, trajectory.orientations, phases)
+    return _poses_at(trajectory.phases, trajectory.positions, trajectory.orientations, phases, interpolation)
 
 
 def from_samples(
@@ -88,20 +87,21 @@ def from_samples(
         i = int(backwards[0])
         raise TimesNotIncreasing(i + 1, float(t[i]), float(t[i + 1]), f"times{of}")
     wanted = np.linspace(t[0], t[-1], n)
-    return Trajectory(
-        positions=_interpolate(t, p, wanted, Interpolation.LINEAR),
-        orientations=_slerp_at(t, sign_continuous(q), wanted),
-        duration=float(t[-1] - t[0]),
-    )
+    return Trajectory(*_poses_at(t, p, sign_continuous(q), wanted), duration=float(t[-1] - t[0]))
 
 
-def _interpolate(x: Array, y: Array, wanted: Array, interpolation: Interpolation) -> Array:
+def _poses_at(
+    times: Array, p: Array, q: Array, wanted: Array, interpolation: Interpolation = Interpolation.LINEAR
+) -> tuple[Array, Array]:
+    """Of positions p and orientations q at increasing times, at least two: those at wanted times, or at the nearer end.
+
+    The numbers of points from the first one on say which two a time lies between, and how far from the first of them.
+    """
+    points = np.interp(wanted, times, np.arange(len(times)))
+    before = np.minimum(points.astype(np.intp), len(times) - 2)
+    after, share = before + 1, points - before
+    orientations = slerp(q.take(before, axis=0), q.take(after, axis=0), share)
     if interpolation is Interpolation.CUBIC:
-        return cubic_spline(x, y, wanted)
-    return np.column_stack([np.interp(wanted, x, column) for column in y.T])
-
-
-def _slerp_at(x: Array, q: Array, wanted: Array) -> Array:
-    left = np.clip(np.searchsorted(x, wanted, side="right") - 1, 0, len(x) - 2)
-    fraction = np.clip((wanted - x[left]) / (x[left + 1] - x[left]), 0.0, 1.0)
-    return slerp(q[left], q[left + 1], fraction)
+        return cubic_spline(times, p, wanted), orientations
+    share = share[:, None]
+    return (1.0 - share) * p.take(before, axis=0) + share * p.take(after, axis=0), orientations

@@ -46,8 +46,9 @@ def conjugate(q: Array) -> Array:
 
 def exp_map(r: Array) -> Array:
     """Rotation vectors [rad], shape (..., 3), to unit quaternions, shape (..., 4)."""
-    half = np.maximum(0.5 * _lengths(r), _TINY)
-    return np.concatenate([np.cos(half), 0.5 * np.sin(half) / half * r], axis=-1)
+    angle = np.maximum(_lengths(r), _TINY)
+    half = 0.5 * angle
+    return np.concatenate([np.cos(half), np.sin(half) / angle * r], axis=-1)
 
 
 def log_map(q: Array, *, shortest: bool = True) -> Array:
@@ -58,13 +59,14 @@ def log_map(q: Array, *, shortest: bool = True) -> Array:
         shortest: Take the sign of q that gives an angle of at most pi. Without it a sign-continuous sequence stays
             continuous when it passes pi.
     """
-    if shortest:
-        q = np.where(q[..., :1] < 0.0, -q, q)
     w, v = q[..., :1], q[..., 1:]
-    sine = _lengths(v)
-    not_zero = np.maximum(sine, _SMALL)
-    scale = np.where(sine > _SMALL, 2.0 * np.arctan2(not_zero, w) / not_zero, np.copysign(2.0, w))
-    r: Array = scale * v
+    length = _lengths(v)
+    sine = np.maximum(length, _SMALL)
+    if shortest:
+        half = np.arctan2(np.copysign(sine, w), np.abs(w))
+    else:
+        half = np.where(length > _SMALL, np.arctan2(sine, w), np.copysign(sine, w))
+    r: Array = 2.0 * half / sine * v
     return r
 
 

@@ -5,6 +5,7 @@ A prediction is what the demonstrations say (`lfd.models.adaptive.regression`) p
 Averaging, as in equations (19) and (20), leaves most of the error after one correction.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Self
@@ -186,7 +187,7 @@ class AdaptiveProMP:
         return Prediction(
             trajectory,
             covariances,
-            trajectory.duration * float(np.sqrt(duration_variance)),
+            trajectory.duration * math.sqrt(duration_variance),
             self._known(expected, effect),
             effect.way,
         )
@@ -237,8 +238,8 @@ class AdaptiveProMP:
         """
         if self._regression.scale.unseen(expected.s) and effect.open_share == 1.0:
             return 0.0
-        beyond = float(np.sqrt(expected.outside @ expected.outside))
-        shown = float(np.exp(-beyond / self.options.correction.covariance.near))
+        beyond = math.sqrt(expected.outside @ expected.outside)
+        shown = math.exp(-beyond / self.options.correction.covariance.near)
         decided = max(2.0 * effect.way.probability - 1.0, 0.0) if effect.way.count > 1 else 1.0
         return max(shown, 1.0 - effect.open_share) * decided
 

@@ -26,7 +26,7 @@ from lfd.models.adaptive.covariance import CovarianceOptions, Nearness, Solved, 
 from lfd.models.adaptive.kinds import POSITION
 from lfd.models.adaptive.regression import Expectation, Regression
 from lfd.models.adaptive.scale import ConditionScale
-from lfd.models.adaptive.ways import probabilities, sort_into_ways
+from lfd.models.adaptive.ways import contradictions, probabilities, sort_into_ways
 from lfd.models.adaptive.worlds import WorldOptions, Worlds, find_worlds
 from lfd.models.model import ONLY_WAY, Way
 from lfd.motion.alignment import group_by_condition
@@ -258,18 +258,10 @@ class Corrections:
 
     @cached_property
     def _ways(self) -> NDArray[np.intp]:
-        """Of each correction; those that no longer hold belong to none."""
-        current = np.flatnonzero(self._worlds.current[POSITION])
-        if len(current) == 1:
-            return np.zeros(len(self), dtype=np.intp)
-        chosen = np.ix_(current, current)
-        slope = self.options.covariance.open_slope * self.extent
-        ways = np.full(len(self), -1, dtype=np.intp)
-        ways[current] = sort_into_ways(self._products[POSITION][chosen], self._distances[chosen], slope, self.noise)
-        # One that only its orientation or duration still holds of belongs to the way of the nearest.
-        for j in np.flatnonzero(ways < 0):
-            ways[j] = ways[current[self._distances[j, current].argmin()]]
-        return ways
+        """Of each correction."""
+        current, slope = self._worlds.current[POSITION], self.options.covariance.open_slope * self.extent
+        against = contradictions(self._products[POSITION], self._distances, slope, self.noise)
+        return sort_into_ways(against, self._distances, current)
 
     @cached_property
     def _aged(self) -> Array:

@@ -133,11 +133,12 @@ class Solved:
         std = acting * nearness.surprise(surprises, acting)
         C = fixed + std[:, :, None] * std[:, None] * nearness.wide
         relative, absolute = doubt
-        R = C.diagonal(axis1=1, axis2=2) * relative + absolute
+        diagonal = np.einsum("kjj->kj", C)  # a view
+        diagonal *= 1.0 + relative
+        diagonal += absolute
         both_act = acting[:, :, None] * acting[:, None]
         C *= both_act
-        # What does not act stands alone, with a variance of one, and is asked nothing.
-        np.einsum("kjj->kj", C)[...] += np.where(acting > 0.0, R, 1.0)
+        diagonal += 1.0 - acting  # what does not act stands alone, with a variance of one, and is asked nothing
         inverse = np.linalg.inv(C) * both_act
         return cls(options, variances, acting, surprises, std, inverse)
 

@@ -68,6 +68,8 @@ def limited(away: Array, radius: Array, options: TrendOptions) -> Array:
     Nobody has shown that the trend leads on there; within the radius nothing changes.
     """
     distances = np.sqrt(np.vecdot(away, away))
+    if (distances <= radius).all():
+        return away
     soft = np.maximum(options.softness * radius, _TINY)
     beyond = np.maximum(distances - radius, 0.0)
     followed = np.minimum(distances, radius) - soft * np.expm1(-beyond / soft)

@@ -1,14 +1,16 @@
 import numpy as np
 import pytest
 
-from lfd.models.adaptive.ways import probabilities, sort_into_ways
+from lfd.models.adaptive.ways import contradictions, probabilities, sort_into_ways
 
 SLOPE, NOISE = 0.5, 0.01**2
 
 
-def sort(changes, places, slope=SLOPE, noise=NOISE):
+def sort(changes, places, slope=SLOPE, noise=NOISE, current=None):
     changes, places = np.atleast_2d(np.asarray(changes, float).T).T, np.asarray(places, float)
-    return sort_into_ways(changes @ changes.T, np.abs(places[:, None] - places), slope, noise).tolist()
+    distances = np.abs(places[:, None] - places)
+    against = contradictions(changes @ changes.T, distances, slope, noise)
+    return sort_into_ways(against, distances, np.ones(len(places), bool) if current is None else current).tolist()
 
 
 def test_left_and_right_side_by_side_are_two_ways():
@@ -55,6 +57,14 @@ def test_a_difference_that_the_way_between_explains_is_no_contradiction():
 def test_a_difference_within_noise_is_no_contradiction():
     assert sort([0.2, -0.2], [0.0, 0.0], noise=0.099**2) == [0, 1]
     assert sort([0.2, -0.2], [0.0, 0.0], noise=0.101**2) == [0, 0]
+
+
+def test_one_that_no_longer_holds_has_no_say_and_belongs_to_the_way_of_the_nearest_that_does():
+    changes, places = [0.2, -0.2, -0.15, 0.15], [0.0, 0.1, 0.02, 0.09]
+    assert sort(changes, places) == [0, 1, 1, 0]
+    assert sort(changes, places, current=np.array([True, True, False, False])) == [0, 1, 0, 1]
+    assert sort(changes, places, current=np.array([True, False, False, True])) == [0, 0, 0, 0]
+    assert sort(changes, places, current=np.array([False, True, False, True])) == [1, 0, 1, 1]
 
 
 def test_a_way_is_probable_by_its_nearest_correction():
