@@ -80,15 +80,16 @@ def group_by_condition(conditions: Array, tolerance: float = SAME_CONDITION) -> 
     groups: list[list[int]] = []
     order = np.lexsort(conditions.T[::-1])
     # Of each group, the least and the greatest coordinates: what lies beyond them is not compared with its members.
-    least, most = (np.zeros((0, conditions.shape[1])) for _ in range(2))
+    least, most = np.empty_like(conditions), np.empty_like(conditions)
     for i in order.tolist():
-        s = conditions[i]
-        near = np.flatnonzero(((s >= most - tolerance) & (s <= least + tolerance)).all(axis=1))
-        fits = (g for g in near.tolist() if squared_distances(s[None], conditions[groups[g]]).max() <= tolerance**2)
-        g = next(fits, len(groups))
-        if g == len(groups):
+        s, count = conditions[i], len(groups)
+        within = (s >= most[:count] - tolerance) & (s <= least[:count] + tolerance)
+        near = np.flatnonzero(within.all(axis=1)).tolist()
+        fits = (g for g in near if squared_distances(s[None], conditions[groups[g]]).max() <= tolerance**2)
+        g = next(fits, count)
+        if g == count:
             groups.append([i])
-            least, most = np.vstack([least, s]), np.vstack([most, s])
+            least[g], most[g] = s, s
         else:
             groups[g].append(i)
             least[g], most[g] = np.minimum(least[g], s), np.maximum(most[g], s)

@@ -150,7 +150,7 @@ class Corrections:
         distances = np.sqrt(squared_distances(z[None], self._z))
         beyond = float(np.sqrt(outside @ outside))
         place = Nearness.of(distances, levy(outside[None], self._outside), self.options.covariance)
-        if self._only_way:
+        if len(self._solved) == 1:
             return self._of_way(0, place, beyond)
         likely = probabilities(distances[0], self._ways, self.options.gate)
         chosen = int(likely.argmax())
@@ -187,27 +187,20 @@ class Corrections:
     @cached_property
     def _solved(self) -> tuple[Solved, ...]:
         """For each way."""
-        worlds = self._worlds
+        worlds, covariance = self._worlds, self.options.covariance
+        nearness = Nearness.of(self._distances, levy(self._outside, self._outside), covariance)
         repeated = worlds.noise[:, None] * (worlds.shared > 1.0)
         return tuple(
             Solved.of(
-                self._nearness,
+                nearness,
                 self._products.diagonal(axis1=1, axis2=2),
                 np.asarray(worlds.current & (self._ways == way), dtype=np.float64),
                 doubt=(self.options.noise + self._aged, repeated),
                 units=self._units,
-                options=self.options.covariance,
+                options=covariance,
             )
             for way in range(int(self._ways.max()) + 1)
         )
-
-    @cached_property
-    def _nearness(self) -> Nearness:
-        return Nearness.of(self._distances, levy(self._outside, self._outside), self.options.covariance)
-
-    @cached_property
-    def _only_way(self) -> bool:
-        return not self._ways.any()
 
     @cached_property
     def _conditions(self) -> Array:
@@ -263,7 +256,7 @@ class Corrections:
         against = contradictions(self._products[POSITION], self._distances, slope, self.noise)
         return sort_into_ways(against, self._distances, current)
 
-    @cached_property
+    @property
     def _aged(self) -> Array:
         """What each is believed less for its age, as a variance relative to what it could have changed, shape (J,)."""
         if self.options.half_life_s is None:
@@ -274,7 +267,7 @@ class Corrections:
         ages = np.nan_to_num(np.nanmax(times) - times, nan=0.0)
         return np.asarray(np.exp2(np.minimum(ages / self.options.half_life_s, _OLDEST)) - 1.0, dtype=np.float64)
 
-    @cached_property
+    @property
     def _outdated(self) -> Array:
         """How many newer ones there are at the condition of each, shape (J,)."""
         return np.asarray(np.triu(self._near, k=1).sum(axis=1) + ~self._worlds.current[POSITION] * len(self))

@@ -59,13 +59,18 @@ def leave_out(
     cut = away - limited(away, radius[owner], options)
     errors = np.zeros((len(options.shrinkages) + 1, M, Y.shape[1]))
     unexplained = np.zeros(M)
-    for g, group in enumerate(groups):
-        block = np.linalg.inv(inverse[np.ix_(group, group)])
-        solved = block @ (X[group] - np.outer(ones[group], rest.mean[g]))
-        regressed = block @ (S[group] - np.outer(ones[group], rest.s_mean[g]))
-        errors[:-1, group] = solved + (cut[group] - regressed) @ B[g]
-        errors[-1, group] = solved - regressed @ B[g, 0]
-        unexplained[group] = np.clip(np.diag(block) - noise, 0.0, 1.0)
+    sizes = np.array([len(group) for group in groups])
+    for size in np.unique(sizes).tolist():  # those of one size at once
+        these = np.flatnonzero(sizes == size)
+        members = np.array([groups[g] for g in these.tolist()])
+        block = np.linalg.inv(inverse[members[:, :, None], members[:, None]])
+        weights = ones[members][:, :, None]
+        solved = block @ (X[members] - weights * rest.mean[these, None])
+        regressed = block @ (S[members] - weights * rest.s_mean[these, None])
+        trends = (cut[members] - regressed)[:, None] @ B[these]
+        errors[:-1, members] = solved + np.swapaxes(trends, 0, 1)
+        errors[-1, members] = solved - regressed @ B[these, 0]
+        unexplained[members] = (np.diagonal(block, axis1=1, axis2=2) - noise).clip(0.0, 1.0)
     leverage = 1.0 / rest.count[owner] + np.einsum("mc,mcd,md->m", away, variance[owner], away)
     rank = np.count_nonzero(directions(Moments.of(z, Y), options)[2])
     telling = directions(rest, options)[2].sum(axis=1)[owner] == rank
