@@ -102,7 +102,7 @@ def _taught(model: AdaptiveProMP) -> dict[str, Array]:
         "strays": anchor.strays,
         "centre": scale.centre,
         "unit": scale.unit,
-        "lengths": scale.lengths.astype(np.float64),
+        "axes": scale.axes.astype(np.float64),
         "conditions": regression.conditions,
         "vectors": regression.vectors,
         **_listed("held", corrections.held, regression),
@@ -129,8 +129,8 @@ def _adaptive(header: dict[str, Any], arrays: dict[str, Array]) -> AdaptiveProMP
     options = _options(AdaptiveOptions, header["options"])
     anchor = Anchor(arrays["home"], arrays["strays"])
     encoding = Encoding(options.basis, options.samples, arrays["rotation"], anchor)
-    lengths = arrays["lengths"] > 0.0
-    scale = ConditionScale(arrays["centre"], arrays["unit"], lengths, np.ones(len(lengths)))
+    axes = arrays["axes"].astype(np.intp)
+    scale = ConditionScale(arrays["centre"], arrays["unit"], axes, np.ones(len(axes)))
     model = AdaptiveProMP.of_vectors(
         encoding, scale, arrays["conditions"], arrays["vectors"], extent=header["extent"], options=options
     )

@@ -67,6 +67,12 @@ class Kinds:
         return np.arange(len(self.of_column))
 
     @cached_property
+    def axis_of_column(self) -> NDArray[np.intp]:
+        """The coordinate of the position, 0 to 2, that each entry of a vector belongs to, shape (D,); -1: to none."""
+        a_function = np.append(np.arange(POSITIONS), np.full(OUTPUTS - POSITIONS, -1))
+        return np.append(np.tile(a_function, self.rows.shape[1]), -1)
+
+    @cached_property
     def columns(self) -> tuple[NDArray[np.intp], ...]:
         """The entries of a vector that belong to each kind."""
         return tuple(np.flatnonzero(self.of_column == kind) for kind in range(KINDS))

@@ -1,6 +1,6 @@
 """Moments of conditions and vectors, and what is left of them without a part."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
@@ -33,6 +33,17 @@ class Moments:
         s_mean, mean = S.mean(axis=0), X.mean(axis=0)
         away = S - s_mean
         return cls(np.array(float(len(S))), s_mean, mean, away.T @ away, away.T @ (X - mean))
+
+    def part(self, dimensions: NDArray[np.intp], columns: NDArray[np.intp]) -> Self:
+        """Those of some dimensions of the conditions, and of some entries of the vectors."""
+        rows = dimensions[:, None]
+        return replace(
+            self,
+            s_mean=self.s_mean[..., dimensions],
+            mean=self.mean[..., columns],
+            scatter=self.scatter[..., rows, dimensions],
+            cross=self.cross[..., rows, columns],
+        )
 
     @classmethod
     def without_each(cls, S: Array, X: Array, owner: NDArray[np.intp]) -> Self:

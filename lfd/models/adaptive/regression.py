@@ -15,7 +15,7 @@ from lfd.models.adaptive.kinds import KINDS, Kinds
 from lfd.models.adaptive.left_out import LeftOut, leave_out
 from lfd.models.adaptive.moments import Moments
 from lfd.models.adaptive.scale import ConditionScale
-from lfd.models.adaptive.trend import TrendOptions, limited, reach_variance, slopes
+from lfd.models.adaptive.trend import TrendOptions, limited, reach_variance, slopes, slopes_by_coordinate
 from lfd.motion.alignment import group_by_condition
 
 Groups = list[NDArray[np.intp]]
@@ -88,6 +88,11 @@ class Regression:
     what does not depend on the condition is averaged, and the model is about as good as the best of them. None is
     followed far beyond the conditions shown, but for one that predicts exactly.
 
+    Where the condition tells where the object is, each trend is also tried coordinate by coordinate: how a motion goes
+    sideways depends on how far aside the object is, and not on how high it is. That leaves far less to learn; it blends
+    the frames of the start and of the object (Calinon 2016), each axis by itself. Such a trend stands alone, without
+    the process: what departs from it may be noise.
+
     Attributes:
         scale: Of the conditions.
         conditions: S, shape (M, c).
@@ -140,15 +145,16 @@ class Regression:
 
     @cached_property
     def shares(self) -> Array:
-        """How much each trend counts in each kind, and last one that is followed everywhere, shape (K + 1, 3).
+        """How much each trend of `LeftOut` counts in each kind, shape (K + 1, 3) or (2 K + 1, 3).
 
         One condition teaches no trend. Two, or others that cannot tell, are joined by a straight line, which is
         followed no further than they lie apart.
         """
         found = self._left_out
-        shares = np.zeros((len(self.options.trend.shrinkages) + 1, KINDS))
+        K = len(self.options.trend.shrinkages)
+        shares = np.zeros((K + 1 if self._depends is None else 2 * K + 1, KINDS))
         if found is None:
-            shares[-2] = 1.0
+            shares[K - 1] = 1.0
         elif not found.telling.any():
             shares[0] = 1.0
         else:
@@ -156,7 +162,7 @@ class Regression:
             spread = np.maximum(self._squares(self.vectors[None] - self._mean)[0], np.finfo(np.float64).tiny)
             counted = np.maximum(errors, _NEGLIGIBLE * spread)
             weights = (counted.min(axis=0) / counted) ** self.options.sharpness
-            weights[-1, errors[-1] > _EXACT * spread] = 0.0
+            weights[K, errors[K] > _EXACT * spread] = 0.0
             shares = weights / weights.sum(axis=0)
         return shares
 
@@ -225,26 +231,44 @@ class Regression:
             return None
         about_centre, about_mean = self.z - self._centre, self.vectors - self._mean
         return leave_out(
-            about_centre, about_mean, self.groups, self._inverse, noise=self.options.noise, options=self.options.trend
+            about_centre,
+            about_mean,
+            self.groups,
+            self._inverse,
+            noise=self.options.noise,
+            options=self.options.trend,
+            depends=self._depends,
         )
+
+    @cached_property
+    def _depends(self) -> NDArray[np.bool_] | None:
+        """Which entries of the vectors a trend by coordinates lets depend on which dimensions, shape (c, D)."""
+        axes, axis_of_column = self.scale.axes[:, None], self.kinds.axis_of_column
+        return (axes < 0) | (axis_of_column < 0) | (axes == axis_of_column) if self.scale.lengths.any() else None
 
     @cached_property
     def _reach_variance(self) -> Array:
         return reach_variance(self._moments, self.options.trend)
 
     @cached_property
-    def _slopes(self) -> tuple[Array, Array]:
-        """Of what is followed within the radius, and everywhere, each shape (c, D)."""
+    def _slopes(self) -> tuple[Array, Array, Array]:
+        """Of what is followed within the radius, beside the process and alone, and everywhere, each shape (c, D)."""
         counted, B = self.shares[:, self.kinds.of_column], slopes(self._moments, self.options.trend)
-        return np.einsum("kd,kcd->cd", counted[:-1], B), counted[-1] * B[0]
+        beside = np.einsum("kd,kcd->cd", counted[: len(B)], B)
+        alone = np.zeros_like(beside)
+        if self._depends is not None:
+            by_coordinate = slopes_by_coordinate(self._moments, self._depends, self.options.trend)
+            alone = np.einsum("kd,kcd->cd", counted[len(B) + 1 :], by_coordinate)
+        return beside, alone, counted[len(B)] * B[0]
 
     @cached_property
     def _limited(self) -> Array:
-        return self._slopes[0]
+        beside, alone, _ = self._slopes
+        return beside + alone
 
     @cached_property
     def _unlimited(self) -> Array:
-        return self._slopes[1]
+        return self._slopes[2]
 
     @cached_property
     def _inverse(self) -> Array:
@@ -252,9 +276,10 @@ class Regression:
 
     @cached_property
     def _gain(self) -> Array:
-        away = self.z - self._centre
-        trend = away @ (self._limited + self._unlimited)
-        return np.asarray(self._inverse @ (self.vectors - self._mean - trend), dtype=np.float64)
+        beside, _, everywhere = self._slopes
+        share = self.shares[: len(self.options.trend.shrinkages) + 1].sum(axis=0)[self.kinds.of_column]
+        departures = share * (self.vectors - self._mean) - (self.z - self._centre) @ (beside + everywhere)
+        return np.asarray(self._inverse @ departures, dtype=np.float64)
 
 
 _NEGLIGIBLE = 1e-14  # of the spread about the mean, as squares: rounding

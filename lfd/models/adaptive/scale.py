@@ -26,14 +26,14 @@ class ConditionScale:
     Attributes:
         centre: Of the conditions, shape (c,).
         unit: Shape (c,), in units of the condition, positive; infinite where a dimension has none.
-        lengths: Which dimensions are lengths, shape (c,).
+        axes: Which coordinate of the way to the object, 0 to 2, each dimension is, shape (c,); -1: it is no length.
         relevance: Factor by which each dimension counts, shape (c,); 0 switches it off (automatic relevance
             determination).
     """
 
     centre: Array
     unit: Array
-    lengths: NDArray[np.bool_]
+    axes: NDArray[np.intp]
     relevance: Array
 
     @classmethod
@@ -41,17 +41,22 @@ class ConditionScale:
         """The scale of demonstrations, at least one, whose motions lead `extent` [m] from their start."""
         conditions = np.array([d.condition for d in demonstrations])
         ways = np.array([d.origin - d.trajectory.positions[0] for d in demonstrations])
-        return cls.of_conditions(conditions, _per_metre(conditions, ways) * extent)
+        per_metre, axes = _per_metre(conditions, ways)
+        return cls.of_conditions(conditions, per_metre * extent, axes)
 
     @classmethod
-    def of_conditions(cls, conditions: Array, unit: Array) -> Self:
-        """The scale of conditions (M, c) whose lengths have a unit, shape (c,), and all else zero there."""
+    def of_conditions(cls, conditions: Array, unit: Array, axes: NDArray[np.intp]) -> Self:
+        """The scale of conditions (M, c), given the unit (c,) of those dimensions that are lengths, and their axes."""
         centre = conditions.mean(axis=0)
-        lengths = unit > 0.0
         spread = np.sqrt(np.mean((conditions - centre) ** 2, axis=0))
         varies = spread > _ROUNDING * np.abs(conditions).max(axis=0)
         other = np.where(varies, SPREADS * spread, np.inf)
-        return cls(frozen(centre), frozen(np.where(lengths, unit, other)), lengths, np.ones(len(centre)))
+        return cls(frozen(centre), frozen(np.where(axes >= 0, unit, other)), axes, np.ones(len(centre)))
+
+    @property
+    def lengths(self) -> NDArray[np.bool_]:
+        """Which dimensions are lengths, shape (c,)."""
+        return self.axes >= 0
 
     def standard(self, conditions: Array) -> Array:
         """Conditions (..., c) as numbers about their centre, shape (..., c)."""
@@ -81,8 +86,8 @@ class ConditionScale:
         return bool(np.isinf(self.unit).any())
 
 
-def _per_metre(conditions: Array, ways: Array) -> Array:
-    """How many units of each dimension (c,) make a metre; 0 where it is no length.
+def _per_metre(conditions: Array, ways: Array) -> tuple[Array, NDArray[np.intp]]:
+    """How many units of each dimension (c,) make a metre, 0 where it is no length, and its axis.
 
     A condition is a place if it is the way from the start to the origin in all demonstrations, in whatever unit. In
     any other, a dimension that varies is a length if it is a coordinate of that way.
@@ -94,10 +99,11 @@ def _per_metre(conditions: Array, ways: Array) -> Array:
     if conditions.shape == ways.shape:
         factor = _proportion(conditions.ravel(), ways.ravel())
         if factor:
-            return np.full(conditions.shape[1], factor)
+            return np.full(conditions.shape[1], factor), np.arange(conditions.shape[1])
     varies = np.ptp(conditions, axis=0) > _ROUNDING * np.abs(conditions).max(axis=0)
-    factors = [max(_proportion(values, way) for way in ways.T) for values in conditions.T]
-    return np.where(varies, factors, 0.0)
+    factors = np.array([[_proportion(values, way) for way in ways.T] for values in conditions.T])
+    per_metre = np.where(varies, factors.max(axis=1), 0.0)
+    return per_metre, np.where(per_metre > 0.0, factors.argmax(axis=1), -1)
 
 
 def _proportion(values: Array, of: Array) -> float:

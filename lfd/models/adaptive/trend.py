@@ -49,6 +49,27 @@ def slopes(moments: Moments, options: TrendOptions) -> Array:
     return np.concatenate([sloped, np.zeros_like(sloped[..., :1, :, :])], axis=-3)
 
 
+def slopes_by_coordinate(moments: Moments, depends: NDArray[np.bool_], options: TrendOptions) -> Array:
+    """The same, where an entry of the vectors depends on some dimensions of the condition only.
+
+    Args:
+        moments: Of conditions and vectors.
+        depends: Which entries may depend on which dimensions, shape (c, D).
+        options: Of the trends.
+
+    Returns:
+        Shape (..., K, c, D); zero where nothing depends.
+    """
+    cross = moments.cross
+    sloped = np.zeros((*cross.shape[:-2], len(options.shrinkages), *depends.shape))
+    patterns, pattern_of = np.unique(depends, axis=1, return_inverse=True)
+    for p, pattern in enumerate(patterns.T):
+        dimensions, columns = np.flatnonzero(pattern), np.flatnonzero(pattern_of == p)
+        if len(dimensions):
+            sloped[..., dimensions[:, None], columns] = slopes(moments.part(dimensions, columns), options)
+    return sloped
+
+
 def directions(moments: Moments, options: TrendOptions) -> tuple[Array, Array, NDArray[np.bool_]]:
     """Principal directions of the conditions (..., c, c), their scatter (..., c), and in which of them they differ."""
     values, axes = np.linalg.eigh(moments.scatter)

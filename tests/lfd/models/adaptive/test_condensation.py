@@ -24,7 +24,7 @@ def test_many_samples_become_the_means_of_what_is_nearest(rng):
 
 
 def test_nearness_is_in_units_of_the_scale():
-    scale = ConditionScale(np.zeros(2), np.array([1.0, 100.0]), np.zeros(2, bool), np.ones(2))
+    scale = ConditionScale(np.zeros(2), np.array([1.0, 100.0]), np.full(2, -1), np.ones(2))
     conditions, vectors = np.array([[0.0, 0.0], [1.0, 90.0], [0.1, 90.0]]), np.array([[0.0], [1.0], [4.0]])
     _, near_in_units = condensed(conditions, vectors, 2, scale)
     np.testing.assert_allclose(near_in_units, [[0.0], [2.5]])

@@ -236,7 +236,7 @@ def test_the_mean_square_is_that_of_the_positions(none):
 def test_a_dimension_that_never_varied_gets_its_unit_from_a_correction(rng):
     """Far along it, the correction counts less."""
     conditions = np.column_stack([rng.normal(size=5), np.full(5, 3.0)])
-    scale = ConditionScale.of_conditions(conditions, np.zeros(2))
+    scale = ConditionScale.of_conditions(conditions, np.zeros(2), np.full(2, -1))
     fitted = Regression(scale, conditions, rng.normal(size=(5, D)), KINDS, RegressionOptions())
     held = correct(corrections(fitted), [0.0, 4.0], sized(POSITION, 0.3))
     shares = [np.abs(change(held, [0.0, size])).max() for size in (4.0, 3.0, 9.0, 300.0)]

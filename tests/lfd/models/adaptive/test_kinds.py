@@ -34,3 +34,9 @@ def test_what_is_measured_has_the_inner_products_of_the_functions(rng):
     X = rng.normal(size=(3, D))
     paths = ENCODING.positions(X, 25).reshape(3, -1)
     np.testing.assert_allclose(KINDS.measured(X)[POSITION] @ KINDS.measured(X)[POSITION].T, paths @ paths.T / 25)
+
+
+def test_each_entry_of_positions_belongs_to_one_coordinate_and_changes_no_other():
+    for column, axis in enumerate(KINDS.axis_of_column):
+        path = ENCODING.positions(np.eye(D)[[column]], 25)[0]
+        assert np.flatnonzero(np.abs(path).max(axis=0) > 0.0).tolist() == ([axis] if axis >= 0 else [])

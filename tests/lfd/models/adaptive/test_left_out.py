@@ -3,19 +3,20 @@ import pytest
 
 from lfd.models.adaptive.left_out import leave_out
 from lfd.models.adaptive.moments import Moments
-from lfd.models.adaptive.trend import TrendOptions, directions, limited, reach_variance, slopes
+from lfd.models.adaptive.trend import TrendOptions, directions, limited, reach_variance, slopes, slopes_by_coordinate
 
 OPTIONS = TrendOptions(least=0.01)
 NOISE, LENGTH = 0.2, 0.8
+DEPENDS = np.array([[True, False, True], [False, True, True]])
 
 
 def kernel(a, b, length=LENGTH):
     return np.exp(-0.5 * np.sum((a[:, None] - b) ** 2, axis=2) / length**2)
 
 
-def left_out(z, Y, groups):
+def left_out(z, Y, groups, depends=None):
     inverse = np.linalg.inv(kernel(z, z) + NOISE * np.eye(len(z)))
-    return leave_out(z, Y, groups, inverse, noise=NOISE, options=OPTIONS)
+    return leave_out(z, Y, groups, inverse, noise=NOISE, options=OPTIONS, depends=depends)
 
 
 @pytest.fixture
@@ -40,6 +41,19 @@ def test_errors_are_those_of_a_regression_that_was_fitted_without_the_condition(
             departures = Y[rest] - moments.mean - (z[rest] - moments.s_mean) @ B
             predicted = moments.mean + followed @ B + nearness @ departures
             np.testing.assert_allclose(found.errors[k, group], Y[group] - predicted, atol=1e-9)
+
+
+def test_so_are_those_of_trends_by_coordinates_which_stand_alone(data):
+    z, Y, groups = data
+    found, without = left_out(z, Y, groups, DEPENDS), left_out(z, Y, groups)
+    np.testing.assert_array_equal(found.errors[:6], without.errors)
+    for group in groups:
+        rest = np.setdiff1d(np.arange(8), group)
+        moments = Moments.of(z[rest], Y[rest])
+        radius = np.linalg.norm(z[rest] - moments.s_mean, axis=1).max(keepdims=True)
+        followed = limited(z[group] - moments.s_mean, radius, OPTIONS)
+        predicted = moments.mean + followed @ slopes_by_coordinate(moments, DEPENDS, OPTIONS)
+        np.testing.assert_allclose(found.errors[6:, group], Y[group] - predicted, atol=1e-9)
 
 
 def test_what_is_left_open_there_is_the_variance_of_the_process_of_the_others(data):

@@ -6,7 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lfd.models.adaptive.kinds import DURATION, ORIENTATION, POSITION
+from lfd.models.adaptive.moments import Moments
 from lfd.models.adaptive.regression import RegressionOptions
+from lfd.models.adaptive.trend import slopes, slopes_by_coordinate
 from tests.lfd.models.adaptive.vectors import KINDS, D, regression, sized
 
 OPTIONS = RegressionOptions()
@@ -80,10 +82,26 @@ def test_two_conditions_are_joined_by_a_line_that_ends_beyond_them(rng):
     assert fitted.shares.sum() == 3.0
 
 
-@pytest.fixture
-def curved(rng):
+def test_coordinates_that_each_depend_on_their_own_are_told_from_all_else(rng):
+    """Few noisy motions: what follows the object axis by axis is learnt by trends that know no more than that."""
+    conditions = rng.normal(size=(8, 3))
+    slope = np.zeros((3, D))
+    for axis in range(3):
+        slope[axis, KINDS.axis_of_column == axis] = 1.0
+    noisy = conditions @ slope + 0.5 * rng.normal(size=(8, D))
+    places, numbers = (regression(conditions, noisy, axes=axes) for axes in ([0, 1, 2], None))
+    assert places.shares[TRENDS:, POSITION].sum() > 0.9
+    missed, missed_without = (
+        KINDS.sizes(conditions @ slope - fitted.at_each(conditions)[0])[POSITION].sum() for fitted in (places, numbers)
+    )
+    assert missed < 0.7 * missed_without
+
+
+@pytest.fixture(params=[None, [1, -1]], ids=["numbers", "place and number"])
+def curved(rng, request):
     conditions = np.repeat(rng.normal(size=(5, 2)), [1, 2, 1, 3, 1], axis=0)
-    return regression(conditions, rng.normal(size=(8, D)) + conditions @ rng.normal(size=(2, D)))
+    vectors = rng.normal(size=(8, D)) + conditions @ rng.normal(size=(2, D))
+    return regression(conditions, vectors, axes=request.param)
 
 
 def anew(whole, rest):
@@ -105,9 +123,10 @@ def test_left_out_errors_are_those_of_a_regression_that_has_not_seen_the_conditi
 
 def test_shares_go_with_a_power_of_the_errors_at_left_out_conditions(curved):
     """Of each trend alone, in each kind: fitted anew without each condition."""
-    squares = np.zeros((TRENDS, 3))
-    for k in range(TRENDS):
-        alone = np.zeros((TRENDS, 3))
+    count = len(curved.shares)
+    squares = np.zeros((count, 3))
+    for k in range(count):
+        alone = np.zeros((count, 3))
         alone[k] = 1.0
         for group in curved.groups:
             fitted = anew(curved, np.setdiff1d(np.arange(8), group))
@@ -115,7 +134,7 @@ def test_shares_go_with_a_power_of_the_errors_at_left_out_conditions(curved):
             missed = curved.vectors[group] - fitted.at_each(curved.conditions[group])[0]
             squares[k] += KINDS.sizes(missed).sum(axis=1)
     weights = squares**-OPTIONS.sharpness
-    weights[-1] = 0.0  # followed everywhere only if it predicts exactly
+    weights[TRENDS - 1] = 0.0  # followed everywhere only if it predicts exactly
     np.testing.assert_allclose(curved.shares, weights / weights.sum(axis=0), rtol=1e-6)
 
 
@@ -143,10 +162,19 @@ def test_departures_from_the_trend_are_a_gaussian_process(curved):
     K = np.exp(-0.5 * np.sum((z[:, None] - z) ** 2, axis=2) / length**2)
     k = np.exp(-0.5 * np.sum((z - s) ** 2, axis=1) / length**2)
     weights = np.linalg.solve(K + OPTIONS.noise * np.eye(8), k)
-    limited, unlimited = curved._slopes
     assert np.linalg.norm(s - centre) < np.linalg.norm(z - centre, axis=1).max()
-    departures = curved.vectors - curved.vectors.mean(axis=0) - (z - centre) @ (limited + unlimited)
-    expected = curved.vectors.mean(axis=0) + (s - centre) @ (limited + unlimited) + weights @ departures
+    away = curved.vectors - curved.vectors.mean(axis=0)
+    moments, trend = Moments.of(z, curved.vectors), OPTIONS.trend
+    beside = slopes(moments, trend)
+    shares = curved.shares[:, KINDS.of_column]
+    expected = curved.vectors.mean(axis=0)
+    for share, B in zip(shares, [*beside, beside[0]], strict=False):
+        expected = expected + share * ((s - centre) @ B + weights @ (away - (z - centre) @ B))
+    if len(shares) > TRENDS:
+        # The first dimension is the second coordinate of the place: other coordinates do not depend on it.
+        depends = np.array([(KINDS.axis_of_column < 0) | (KINDS.axis_of_column == 1), np.ones(D, dtype=bool)])
+        alone = (s - centre) @ slopes_by_coordinate(moments, depends, trend)
+        expected = expected + np.sum(shares[TRENDS:] * alone, axis=0)
     np.testing.assert_allclose(curved.at(s).mean, expected, atol=1e-9)
     assert curved.at(s).unexplained == pytest.approx(1.0 - weights @ k)
 

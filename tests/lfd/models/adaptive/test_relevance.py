@@ -24,7 +24,7 @@ def family(rng, M, useful, useless, noise=0.0):
 
 def fitted(S, X, lengths=False):
     plain = regression(S, X)
-    return replace(plain, scale=replace(plain.scale, lengths=np.full(S.shape[1], lengths)))
+    return replace(plain, scale=replace(plain.scale, axes=np.where(lengths, np.arange(S.shape[1]), -1)))
 
 
 def error(model, S, X):

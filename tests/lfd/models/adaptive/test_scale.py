@@ -18,30 +18,31 @@ def described(reach, describe):
 
 def test_one_unit_of_a_length_is_one_extent_in_whatever_unit_it_was_measured(reach):
     scale = ConditionScale.of(described(reach, lambda s, i: [1e3 * s[0], -0.01 * s[1], s[2]]), EXTENT)
-    assert scale.lengths.all()
+    assert scale.axes.tolist() == [0, 1, 2]
     np.testing.assert_allclose(scale.unit, EXTENT * np.array([1e3, 0.01, 1.0]))
 
 
 @pytest.mark.parametrize("coordinate", range(3))
 def test_a_single_number_is_a_length_if_it_is_any_coordinate_of_the_way(reach, coordinate):
     scale = ConditionScale.of(described(reach, lambda s, i: [2.0 * s[coordinate]]), EXTENT)
-    assert scale.lengths.all()
+    assert scale.axes.tolist() == [coordinate]
     np.testing.assert_allclose(scale.unit, 2.0 * EXTENT)
 
 
 def test_one_unit_of_anything_else_is_some_standard_deviations(reach):
     scale = ConditionScale.of(described(reach, lambda s, i: [s[0], [2.0, 5.0, 11.0][i]]), EXTENT)
-    assert scale.lengths.tolist() == [True, False]
+    assert scale.axes.tolist() == [0, -1]
     np.testing.assert_allclose(scale.unit, [EXTENT, SPREADS * np.std([2.0, 5.0, 11.0])])
 
 
 def test_a_number_that_grows_with_a_coordinate_and_an_offset_is_no_length(reach):
     scale = ConditionScale.of(described(reach, lambda s, i: [s[0] + 0.1, s[1]]), EXTENT)
-    assert scale.lengths.tolist() == [False, True]
+    assert scale.axes.tolist() == [-1, 1]
 
 
 def test_one_demonstration_of_a_place_tells_its_unit(reach):
     scale = ConditionScale.of(described(reach, lambda s, i: 10.0 * s)[:1], EXTENT)
+    assert scale.axes.tolist() == [0, 1, 2]
     np.testing.assert_allclose(scale.unit, 10.0 * EXTENT)
 
 
@@ -75,7 +76,7 @@ def test_where_nothing_moves_there_are_no_lengths(reach):
 
 
 def test_a_dimension_that_never_varied_makes_no_difference_and_is_told_apart():
-    scale = ConditionScale.of_conditions(np.array([[1.0, 3.0], [2.0, 3.0]]), np.zeros(2))
+    scale = ConditionScale.of_conditions(np.array([[1.0, 3.0], [2.0, 3.0]]), np.zeros(2), np.full(2, -1))
     assert scale.unit[1] == np.inf
     np.testing.assert_array_equal(scale.standard(np.array([1.5, 9.0])), [0.0, 0.0])
     assert scale.unseen(np.array([1.5, 9.0]))
@@ -85,26 +86,26 @@ def test_a_dimension_that_never_varied_makes_no_difference_and_is_told_apart():
 
 def test_rounding_is_no_variation():
     third = 0.1 + 0.2
-    scale = ConditionScale.of_conditions(np.array([[third], [0.3], [0.3]]), np.zeros(1))
+    scale = ConditionScale.of_conditions(np.array([[third], [0.3], [0.3]]), np.zeros(1), np.full(1, -1))
     assert np.isinf(scale.unit).all()
-    varied = ConditionScale.of_conditions(np.array([[0.3 + 1e-9], [0.3], [0.3]]), np.zeros(1))
+    varied = ConditionScale.of_conditions(np.array([[0.3 + 1e-9], [0.3], [0.3]]), np.zeros(1), np.full(1, -1))
     assert np.isfinite(varied.unit).all()
 
 
 def test_conditions_become_distances_from_their_centre_in_units_times_their_relevance():
-    scale = ConditionScale(np.array([1.0, -2.0]), np.array([0.5, 4.0]), np.ones(2, bool), np.array([1.0, 0.5]))
+    scale = ConditionScale(np.array([1.0, -2.0]), np.array([0.5, 4.0]), np.arange(2), np.array([1.0, 0.5]))
     np.testing.assert_allclose(scale.standard(np.array([[2.0, 2.0], [1.0, -2.0]])), [[2.0, 0.5], [0.0, 0.0]])
 
 
 def test_a_correction_gives_a_unit_where_there_was_none_and_leaves_the_others():
-    scale = ConditionScale.of_conditions(np.array([[1.0, 3.0], [2.0, 3.0]]), np.zeros(2))
+    scale = ConditionScale.of_conditions(np.array([[1.0, 3.0], [2.0, 3.0]]), np.zeros(2), np.full(2, -1))
     completed = scale.completed(np.array([[9.0, 4.0], [1.5, 1.0]]))
     np.testing.assert_allclose(completed.unit, [scale.unit[0], SPREADS * np.sqrt((1.0 + 4.0) / 2.0)])
     assert scale.completed(np.array([[9.0, 3.0]])) is scale
 
 
 def test_no_correction_completes_nothing():
-    scale = ConditionScale.of_conditions(np.array([[1.0, 3.0]]), np.zeros(2))
+    scale = ConditionScale.of_conditions(np.array([[1.0, 3.0]]), np.zeros(2), np.full(2, -1))
     assert scale.completed(np.zeros((0, 2))) is scale
 
 

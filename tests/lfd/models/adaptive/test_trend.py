@@ -3,7 +3,7 @@ import pytest
 
 from lfd.exceptions import OutOfRange
 from lfd.models.adaptive.moments import Moments
-from lfd.models.adaptive.trend import TrendOptions, directions, limited, reach_variance, slopes
+from lfd.models.adaptive.trend import TrendOptions, directions, limited, reach_variance, slopes, slopes_by_coordinate
 
 OPTIONS = TrendOptions()
 
@@ -34,6 +34,19 @@ def test_a_trend_is_the_ridge_regression_of_a_third_of_the_scatter_in_each_direc
     np.testing.assert_allclose(slopes(Moments.of(S, X), options)[1], expected, atol=1e-12)
 
 
+def test_by_coordinates_each_entry_has_the_trend_of_the_dimensions_that_it_depends_on(data):
+    """The first entry depends on all three, the second on one, the third on none, the fourth on two."""
+    S, X = data
+    depends = np.array([[1, 0, 0, 1], [1, 1, 0, 0], [1, 0, 0, 1]], dtype=bool)
+    B = slopes_by_coordinate(Moments.of(S, X), depends, OPTIONS)
+    for column, of_column in enumerate(depends.T):
+        dimensions = np.flatnonzero(of_column)
+        if len(dimensions):
+            alone = slopes(Moments.of(S[:, dimensions], X[:, [column]]), OPTIONS)[..., 0]
+            np.testing.assert_allclose(B[:, dimensions, column], alone, atol=1e-12)
+        np.testing.assert_array_equal(B[:, ~of_column, column], 0.0)
+
+
 def test_directions_in_which_conditions_hardly_differ_teach_no_trend(rng):
     S = np.column_stack([rng.normal(size=50), 0.9 * OPTIONS.least * rng.choice([-1.0, 1.0], size=50)])
     S -= S.mean(axis=0)
@@ -51,9 +64,12 @@ def test_many_sets_at_once_are_as_one_by_one(rng):
     S, X = rng.normal(size=(9, 3)), rng.normal(size=(9, 4))
     owner = np.repeat(np.arange(3), 3)
     B, variance = (f(Moments.without_each(S, X, owner), OPTIONS) for f in (slopes, reach_variance))
+    depends = np.array([[1, 0, 0, 1], [0, 1, 0, 1], [0, 1, 1, 0]], dtype=bool)
+    C = slopes_by_coordinate(Moments.without_each(S, X, owner), depends, OPTIONS)
     for g in range(3):
         alone = Moments.of(S[owner != g], X[owner != g])
         np.testing.assert_allclose(B[g], slopes(alone, OPTIONS), atol=1e-10)
+        np.testing.assert_allclose(C[g], slopes_by_coordinate(alone, depends, OPTIONS), atol=1e-10)
         np.testing.assert_allclose(variance[g], reach_variance(alone, OPTIONS), rtol=1e-9)
     away, radius = rng.normal(size=(6, 3)), rng.uniform(0.2, 1.0, size=6)
     one_by_one = [limited(away[[i]], radius[[i]], OPTIONS)[0] for i in range(6)]

@@ -15,14 +15,14 @@ KINDS = Kinds.of(ENCODING)
 D = 3 * 6 + 1
 
 
-def unit_scale(c):
-    """Numbers that have no unit already."""
-    return ConditionScale(np.zeros(c), np.ones(c), np.ones(c, dtype=bool), np.ones(c))
+def unit_scale(c, axes=None):
+    """Numbers that have no unit already; coordinates of a place where axes are given."""
+    return ConditionScale(np.zeros(c), np.ones(c), np.full(c, -1) if axes is None else np.array(axes), np.ones(c))
 
 
-def regression(conditions, vectors, options=None):
+def regression(conditions, vectors, options=None, axes=None):
     conditions = np.asarray(conditions, float)
-    scale = unit_scale(conditions.shape[1])
+    scale = unit_scale(conditions.shape[1], axes)
     return Regression(scale, conditions, np.asarray(vectors, float), KINDS, options or RegressionOptions())
 
 
