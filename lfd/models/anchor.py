@@ -55,7 +55,7 @@ class Anchor:
     def at(self, start: Array, phases: Array) -> Array:
         """What the start (6,) alone contributes to a motion at phases (T,) from 0 to 1, shape (T, 6)."""
         stray = self.strays @ (start - self.home)
-        return np.asarray(_blends(phases.tobytes()) @ np.stack([start - stray, stray]), dtype=np.float64)
+        return np.asarray(_blends(phases.tobytes()) @ np.array([start - stray, stray]), dtype=np.float64)
 
     def rates(self, start: Array, phases: Array) -> Array:
         """Derivatives of `at` by the phase, shape (T, 6)."""

@@ -74,7 +74,7 @@ class Encoding:
         if self.anchor:
             outputs -= self.anchor.at(outputs[0], phases)
         w = _solver(self.basis, phases.tobytes(), self.anchored) @ outputs
-        return np.append(w, math.log(demonstration.trajectory.duration))
+        return np.concatenate([w.ravel(), [math.log(demonstration.trajectory.duration)]])
 
     def decode(self, x: Array, situation: Situation, n: int) -> Trajectory:
         """The trajectory of n points in the base frame that the vector x (6 N + 1,) stands for.

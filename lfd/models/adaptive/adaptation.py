@@ -183,7 +183,8 @@ class AdaptiveProMP:
         duration_variance = taught * self.spread.covariance[-1, -1]
         for scatter, differences in self._differences(effect, changed):
             covariances = covariances + scatter * _mean_square(self.encoding.positions(differences, n))
-            duration_variance += scatter * float(np.mean(differences[:, -1] ** 2))
+            of_duration = differences[:, -1]
+            duration_variance += scatter * float(of_duration @ of_duration) / len(of_duration)
         return Prediction(
             trajectory,
             covariances,

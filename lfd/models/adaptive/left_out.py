@@ -78,7 +78,7 @@ def leave_out(
     errors = np.zeros((K + 1 if C is None else 2 * K + 1, M, Y.shape[1]))
     unexplained = np.zeros(M)
     sizes = np.array([len(group) for group in groups])
-    for size in np.unique(sizes).tolist():  # those of one size at once
+    for size in sorted(set(sizes.tolist())):  # those of one size at once
         these = np.flatnonzero(sizes == size)
         members = np.array([groups[g] for g in these.tolist()])
         block = np.linalg.inv(inverse[members[:, :, None], members[:, None]])

@@ -45,7 +45,7 @@ def sort_into_ways(against: NDArray[np.bool_], distances: Array, current: NDArra
     for count, j in enumerate(kept[1:].tolist(), start=1):
         before = kept[:count]
         taken = ways[before]
-        open_to_it = [way for way in np.unique(taken).tolist() if not against[j, before][taken == way].any()]
+        open_to_it = [way for way in sorted(set(taken.tolist())) if not against[j, before][taken == way].any()]
         nearest = {way: float(distances[j, before][taken == way].min()) for way in open_to_it}
         ways[j] = min(nearest, key=nearest.__getitem__) if nearest else taken.max() + 1
     for j in np.flatnonzero(~current).tolist():
