@@ -8,6 +8,10 @@ Refinements: each sequence is replayed from the initial model, in order. What co
 prediction and refinement (root mean square over the samples) that is left after the update, the gap before each later
 refinement of the sequence, and the share of a gap that somebody else's correction at the same condition leaves.
 
+The first leaves little choice in the other two. A model that leaves nothing of a correction predicts it to whoever asks
+next in that situation, so what is then missed is how far people differ, from each other or from their own last motion:
+"nearest + anchor" shows it. The gap before a person's correction is that of the initial model, which knows neither.
+
 Options may be chosen on --part tune alone, and what a choice reaches is read from --part report;
 tests/bench/evaluation/parts.py says which recordings are which. The baselines' options (tests/bench/baselines) were
 chosen on the sets of the former.
