@@ -246,7 +246,5 @@ class _Bar:
             said(record.reason, markup=False, soft_wrap=True)
         if any(run.name == piece.run.name for run in self._left) or entry.summary is None:
             return
-        parts = [
-            f"[{_STYLES[holds]}]{count} {holds.value}[/]" for holds in Holds if (count := entry.summary.count(holds))
-        ]
+        parts = [f"[{_STYLES[holds]}]{holds.of(count)}[/]" for holds in Holds if (count := entry.summary.count(holds))]
         said(f"{piece.run.name:<20} {', '.join(parts)} [dim]{entry.summary.seconds:.0f} s of work[/]", soft_wrap=True)

@@ -25,6 +25,11 @@ class Holds(Enum):
     NO = "does not hold"
     UNDECIDED = "undecided"
 
+    def of(self, count: int) -> str:
+        """So many claims, as in "1 holds" and "2 do not hold"."""
+        said = self.value if count == 1 else {Holds.YES: "hold", Holds.NO: "do not hold"}.get(self, self.value)
+        return f"{count} {said}"
+
 
 @dataclass(frozen=True)
 class Estimate:

@@ -95,7 +95,7 @@ def _claims(
         ),
         Claim(
             Source.THESIS,
-            "With demonstrations of three conditions it is not.",
+            "With demonstrations of three conditions the start is not shifted.",
             "largest shift",
             float(shifts[enough][THESIS].max()),
             Relation.BELOW,

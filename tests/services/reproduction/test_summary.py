@@ -83,3 +83,14 @@ def test_cells_are_means_counts_of_people_or_texts():
     assert (cells["c"], cells["d"]) == (VARIES, "always")
     assert (found.people, found.seconds, found.notes) == (2, 5.0, ("1",))
     assert summarised(analysis(person=False), [run(1, True, "x")], 5.0).people == 0
+
+
+def test_claims_are_counted_in_words():
+    assert [holds.of(count) for holds in Holds for count in (1, 2)] == [
+        "1 holds",
+        "2 hold",
+        "1 does not hold",
+        "2 do not hold",
+        "1 undecided",
+        "2 undecided",
+    ]
