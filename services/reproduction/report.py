@@ -17,7 +17,7 @@ import numpy as np
 from services.process.files import write_whole
 from services.reproduction.analysis import Analysis, Source
 from services.reproduction.exceptions import CannotKeep
-from services.reproduction.models import CONTENDERS
+from services.reproduction.models import CONTENDERS, Contender
 from services.reproduction.numerals import bounded, interval, shown
 from services.reproduction.store import Done, Failed, Record, Run, is_svg
 from services.reproduction.summary import Holds, Judgement, Summary, summarised
@@ -65,6 +65,12 @@ class Entry:
     def judgements(self) -> tuple[Judgement, ...]:
         """Of its claims; none before a run is done."""
         return self.summary.judgements if self.summary else ()
+
+    @property
+    def compared(self) -> list[Contender]:
+        """The models to whom any question of it arises."""
+        named = {name for row in (self.summary.rows if self.summary else ()) for name in row.cells}
+        return [contender for contender in CONTENDERS if contender.name in named]
 
     @property
     def complete(self) -> bool:

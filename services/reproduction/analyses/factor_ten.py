@@ -128,4 +128,5 @@ FACTOR_TEN = Analysis(
     " predictions are not correct, as they should be further apart; when it is, they are.",
     run=_factor_ten,
     seconds=2.0,
+    person=False,
 )
