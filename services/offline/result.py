@@ -62,7 +62,7 @@ class Attempt:
         reason: why it did not run to its end, empty where it did.
         prediction: of the model.
         refined: the reference, the operator's correction included.
-        commanded: what the joints were told, of which the model learns.
+        commanded: what the joints were told; the model learns of it, oriented as the reference.
         measured: what the arm did.
         miss: how much nearer it should have come to reach the target; 0 where it did [m].
     """

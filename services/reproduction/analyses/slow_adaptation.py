@@ -147,7 +147,8 @@ def _refinement(place: Array, demonstrations: tuple[Demonstration, ...], seed: i
     (course,) = rehearse(plan).first
     for attempt in course.attempts:
         if attempt.mode is Mode.REFINE and attempt.success:
-            return Demonstration.reaching(replace(attempt.commanded, duration=DURATION_S), place)
+            shown = replace(attempt.commanded, orientations=attempt.refined.orientations, duration=DURATION_S)
+            return Demonstration.reaching(shown, place)
     raise CommandFailed(f"no refinement of {course.refinements} succeeded")
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import msgspec
 import numpy as np
 
 from lfd.exceptions import LfdError
@@ -85,7 +86,7 @@ def _taught(state: Workflow, result: EpisodeResult, outcome: Outcome, episode: E
     finished = episode.finishing and result.cut is Cut.FINISHED
     succeeded = outcome.success and (result.completed or finished)
     part = WHOLE if succeeded else _part_before(result, finished=finished)
-    motion = result.commanded if succeeded or part is None else _of_all_phases(result)
+    motion = _shown(result) if succeeded or part is None else _of_all_phases(result)
     if part is None or motion is None:
         return None
     return Taught(motion, state.looked or ORIGIN, state.condition, part)
@@ -102,11 +103,20 @@ def _part_before(result: EpisodeResult, *, finished: bool) -> Part | None:
     return Part(0.0, last) if result.operator_input and (cut or spoilt) and last >= SHORTEST else None
 
 
+def _shown(result: EpisodeResult) -> Motion:
+    """Where the arm was told to be, oriented as it was asked to be.
+
+    At a joint's limit, or in a hurry, the orientation gives way first. That was nobody's wish; learnt, it would be
+    asked for from then on, and give way by as much again.
+    """
+    return msgspec.structs.replace(result.commanded, orientations=result.refined.orientations)
+
+
 def _of_all_phases(result: EpisodeResult) -> Motion | None:
-    """What was commanded, as a motion of all the prediction's phases: where it was cut short, it stood from then on."""
+    """What was shown, as a motion of all the prediction's phases: where it was cut short, it stood from then on."""
     try:
-        commanded = Trajectory(*motion_from_wire(result.commanded))
+        shown = Trajectory(*motion_from_wire(_shown(result)))
     except (LfdError, ServiceError):
         return None  # of numbers that no robot sends
-    whole = at_phases(commanded, np.minimum(commanded.phases / result.progress, 1.0))
-    return motion_to_wire(whole.positions, whole.orientations, commanded.duration)
+    whole = at_phases(shown, np.minimum(shown.phases / result.progress, 1.0))
+    return motion_to_wire(whole.positions, whole.orientations, shown.duration)

@@ -150,7 +150,7 @@ class Site:
             completed=True,
             reason="",
             prediction=self.state.prediction.id,
-            refined=MOTION,
+            refined=changes.get("commanded", MOTION),
             commanded=MOTION,
             measured=MOTION,
             verdict=Verdict(reached=outcome.reached, kicked_over=outcome.kicked_over, collision=outcome.collision),

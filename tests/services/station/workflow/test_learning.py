@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 from protocol import queries
+from services.bus.arrays import motion_to_wire
 from services.station.workflow.state import Action, Phase
 from tests.services.station.workflow.site import BY_HAND, COLLIDED, REACHED, Site
 
@@ -73,3 +74,17 @@ def test_where_there_is_nothing_to_teach_the_operator_is_asked():
     site.step()
     assert site.state.phase is Phase.DECIDING
     assert "model/add_demonstration" not in site.names()
+
+
+def test_an_orientation_that_the_arm_could_not_hold_is_learnt_as_it_was_asked_for():
+    refined = motion_to_wire([[0.5, 0.0, 0.5], [0.9, 0.0, 0.6]], [[1.0, 0.0, 0.0, 0.0]] * 2, 7.0)
+    turned = [[1.0, 0.0, 0.0, 0.0], [0.96, 0.0, 0.0, 0.28]]
+    commanded = motion_to_wire([[0.5, 0.0, 0.5], [0.8, 0.0, 0.6]], turned, 7.0)
+    site = Site(BY_HAND, [COLLIDED])
+    site.press(Action.EXECUTE, Phase.EXECUTING)
+    site.press(Action.REFINE, Phase.EXECUTING)
+    site.end(REACHED, refined=refined, commanded=commanded)
+    site.run_to(Phase.LEARNING)
+    site.step()
+    (request,) = site.requests(queries.ADD_DEMONSTRATION)
+    assert (request.motion.positions, request.motion.orientations) == (commanded.positions, refined.orientations)
