@@ -9,7 +9,7 @@ from lfd.exceptions import (
     TooFewPoints,
     WrongShape,
 )
-from lfd.motion.trajectory import Trajectory
+from lfd.motion.trajectory import Trajectory, equal_phases
 
 POSITIONS = np.arange(12.0).reshape(4, 3)
 ORIENTATIONS = np.tile([1.0, 0.0, 0.0, 0.0], (4, 1))
@@ -29,6 +29,16 @@ def test_arrays_are_copied_in_and_read_only_out():
     for array in (trajectory.positions, trajectory.orientations):
         with pytest.raises(ValueError, match="read-only"):
             array[0, 0] = 1.0
+
+
+def test_positions_may_be_as_large_as_numbers_are():
+    positions = np.full((2, 3), 1e300)
+    np.testing.assert_array_equal(Trajectory(positions, [[1.0, 0.0, 0.0, 0.0]] * 2, 1.0).positions, positions)
+
+
+def test_nobody_can_change_the_phases_of_other_motions():
+    np.testing.assert_allclose(equal_phases(5), [0.0, 0.25, 0.5, 0.75, 1.0])
+    assert not equal_phases(5).flags.writeable
 
 
 def test_orientations_become_sign_continuous():

@@ -1,4 +1,5 @@
 import numpy as np
+import pytest
 
 from lfd.models.adaptive.condensation import condensed
 from lfd.models.adaptive.scale import ConditionScale
@@ -11,11 +12,12 @@ def test_few_samples_stay_as_they_are(rng):
         np.testing.assert_array_equal(kept, given)
 
 
-def test_many_samples_become_the_means_of_what_is_nearest(rng):
+@pytest.mark.parametrize("M", [200, 1200])  # more than are compared at once, too
+def test_many_samples_become_the_means_of_what_is_nearest(M, rng):
     centres = np.array([[0.0, 0.0], [10.0, 0.0], [0.0, 10.0]])
-    owners = rng.integers(3, size=200)
-    conditions = np.vstack([centres, centres[owners] + rng.uniform(-1.0, 1.0, size=(200, 2))])
-    vectors = rng.normal(size=(203, 5))
+    owners = rng.integers(3, size=M)
+    conditions = np.vstack([centres, centres[owners] + rng.uniform(-1.0, 1.0, size=(M, 2))])
+    vectors = rng.normal(size=(M + 3, 5))
     owners = np.concatenate([np.arange(3), owners])
     few_conditions, few_vectors = condensed(conditions, vectors, 3, unit_scale(2))
     for i in range(3):
