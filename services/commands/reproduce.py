@@ -141,15 +141,15 @@ def reproduce(request: Request, analyses: Sequence[Analysis] = ANALYSES) -> int:
         with _Bar(console, todo) as bar:
             for piece, record in carry_out(todo, store, jobs, bar):
                 records[piece.run] = record
-                bar.ended(piece, record, Entry.of(piece.analysis, records, seeds))
+                # Whoever interrupts it has two seconds: what is there by then has been written before.
+                if bar.ended(piece, record, Entry.of(piece.analysis, records, seeds)):
+                    write_report(request.out, reported(), seeds)
     except KeyboardInterrupt:
-        report = write_report(request.out, reported(), seeds)
         left = sum(piece.run not in records for piece in todo)
         console.print(
             f"interrupted with {_runs(left)} to go; the same command goes on; so far: {report}", soft_wrap=True
         )
         raise
-    report = write_report(request.out, reported(), seeds)
     found = [Entry.of(analysis, records, seeds) for analysis in chosen]
     failed = sum(entry.failed for entry in found)
     console.print(_summary(found, len(asked) - len(todo), failed), soft_wrap=True)
@@ -236,15 +236,18 @@ class _Bar:
         done = sum(self._of_analysis[run].analysis.seconds * one for run, one in dict(self._shares).items())
         self._progress.update(self._runs, completed=done, description=f"{piece.run.name} {piece.run.seed}")
 
-    def ended(self, piece: Piece, record: Record, entry: Entry) -> None:
-        """Say what came out, where that was the analysis' last run."""
+    def ended(self, piece: Piece, record: Record, entry: Entry) -> bool:
+        """Say what came out, where that was the analysis' last run; returns whether it was."""
         self._left.remove(piece.run)
         self.advanced(piece, 1.0)
         said = self._progress.console.print
         if not isinstance(record, Done):
             said(f"[red]failed[/] {piece.run.name} {piece.run.seed}: ", end="", soft_wrap=True)
             said(record.reason, markup=False, soft_wrap=True)
-        if any(run.name == piece.run.name for run in self._left) or entry.summary is None:
-            return
+        if any(run.name == piece.run.name for run in self._left):
+            return False
+        if entry.summary is None:
+            return True
         parts = [f"[{_STYLES[holds]}]{holds.of(count)}[/]" for holds in Holds if (count := entry.summary.count(holds))]
         said(f"{piece.run.name:<20} {', '.join(parts)} [dim]{entry.summary.seconds:.0f} s of work[/]", soft_wrap=True)
+        return True

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from enum import Enum
 from statistics import fmean, stdev
 
-from scipy import stats
+from scipy.special import stdtrit
 
 from services.offline.proportion import Proportion
 from services.reproduction.analysis import Analysis, Claim, Figure, Finding, Row, Source, Value
@@ -58,7 +58,7 @@ class Estimate:
         mean, n = fmean(values), len(values)
         if n == 1 or not all(map(math.isfinite, values)):
             return cls(mean, mean, mean, n)
-        half = float(stats.t.ppf(0.5 + 0.5 * _CONFIDENCE, n - 1)) * stdev(values) / math.sqrt(n)
+        half = float(stdtrit(n - 1, 0.5 + 0.5 * _CONFIDENCE)) * stdev(values) / math.sqrt(n)
         least = 0.0 if min(values) >= 0.0 else -math.inf
         return cls(mean, max(mean - half, least), min(mean + half, math.inf if total is None else total), n)
 
