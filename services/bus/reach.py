@@ -31,7 +31,13 @@ MEASURE_S = 0.2
 OPEN_LEAST_MS = 150
 OPEN_MOST_MS = 10_000
 OPEN_TRIPS = 5
-"""Three round trips open a link; the rest is for jitter. Whatever takes longer is sooner there by dialling again."""
+"""Those of a handshake; the rest is for jitter. Whatever takes longer is sooner there by dialling again."""
+
+HANDSHAKE_TRIPS = 3
+"""Open a link."""
+
+LEISURE = 2
+"""Times as long as it need be: a pace at which a link that was cut is found again too late."""
 
 
 @dataclass(frozen=True)
@@ -117,3 +123,13 @@ def open_timeout_ms(trip_s: float) -> int:
         trip_s: there and back [s].
     """
     return round(min(OPEN_MOST_MS, OPEN_LEAST_MS + 1e3 * OPEN_TRIPS * trip_s))
+
+
+def fits(pace_ms: int, trip_s: float) -> bool:
+    """Whether links open over such a round trip at this pace, and not much later than they could.
+
+    Args:
+        pace_ms: how long each attempt to open one may take [ms].
+        trip_s: there and back [s].
+    """
+    return 1e3 * HANDSHAKE_TRIPS * trip_s < pace_ms <= LEISURE * open_timeout_ms(trip_s)

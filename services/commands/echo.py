@@ -11,7 +11,7 @@ from typing import Any
 
 import msgpack
 
-from services.bus.zenoh import Passing, close_session, open_session, watch
+from services.bus.zenoh import Passing, open_session, watch
 from services.commands.arguments import add_network, whole
 from services.commands.settings import configuration
 from services.process.ending import end_within
@@ -121,4 +121,4 @@ def echo(connect: str, key: str, count: int | None) -> None:
             sys.stdout.flush()
             shown_count += 1
     finally:
-        close_session(session)
+        session.close()

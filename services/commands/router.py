@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 from argparse import ArgumentParser, Namespace
 
-from services.bus.zenoh import close_session, open_router
+from services.bus.zenoh import open_router
 from services.commands.arguments import add_network
 from services.commands.settings import configuration as configured
 from services.process.config import Configuration
@@ -39,9 +39,9 @@ def run_router(configuration: Configuration, upstream: str | None = None) -> Non
     """
     stop = stop_on_signals()
     end_within()
-    session = open_router(configuration.listen, upstream)
+    router = open_router(configuration.listen, upstream)
     try:
         log.info("listening on %s", configuration.listen)
         stop.wait()
     finally:
-        close_session(session)
+        router.close()

@@ -12,7 +12,7 @@ from protocol.codec import decode
 from protocol.exceptions import ProtocolError
 from protocol.messages import Heartbeat
 from protocol.topics import HEARTBEAT, VERSION
-from services.bus.zenoh import Passing, close_session, open_session, watch
+from services.bus.zenoh import Passing, open_session, watch
 from services.commands.arguments import add_network
 from services.commands.settings import configuration
 from services.commands.terminal import Terminal
@@ -115,4 +115,4 @@ def top(connect: str, *, once: bool) -> None:
                 time.sleep(0.5)
                 live.update(beats.table())
     finally:
-        close_session(session)
+        session.close()

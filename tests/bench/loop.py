@@ -20,7 +20,7 @@ from protocol import topics
 from protocol.codec import decode
 from protocol.exceptions import ProtocolError
 from protocol.messages import Mode, Phase
-from services.bus.zenoh import Passing, close_session, open_session, watch
+from services.bus.zenoh import Passing, open_session, watch
 from services.process.clock import SystemClock
 from services.process.isolation import retouch_command
 from sim.tasks import SCENES
@@ -120,7 +120,7 @@ def run(scene):
                     with contextlib.suppress(subprocess.TimeoutExpired):
                         process.wait(MEMORY_EVERY_S)
             finally:
-                close_session(session)
+                session.close()
                 process.terminate()
                 process.wait(10.0)
         if not report.exists():

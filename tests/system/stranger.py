@@ -4,7 +4,7 @@ from collections import deque
 
 import zenoh
 
-from services.bus.zenoh import ENCODING, Passing, close_session, open_session, watch
+from services.bus.zenoh import ENCODING, Passing, open_session, watch
 from tests.system.harness import START_S, eventually
 
 
@@ -22,28 +22,28 @@ class Stranger:
         return self
 
     def __exit__(self, *_):
-        close_session(self._session)
+        self._session.close()
 
     def put(self, key, payload, schema=""):
         """Publish; waits where the network is busy, so that nothing is lost."""
         encoding = zenoh.Encoding(ENCODING).with_schema(schema) if schema else zenoh.Encoding.ZENOH_BYTES
-        self._session.put(key, payload, encoding=encoding, congestion_control=zenoh.CongestionControl.BLOCK)
+        self._session.current.put(key, payload, encoding=encoding, congestion_control=zenoh.CongestionControl.BLOCK)
 
     def get(self, key, payload, schema=""):
         """Ask; the payloads of all answers."""
         encoding = zenoh.Encoding(ENCODING).with_schema(schema)
-        replies = self._session.get(key, payload=payload, encoding=encoding, timeout=5.0)
+        replies = self._session.current.get(key, payload=payload, encoding=encoding, timeout=5.0)
         return [reply.ok.payload.to_bytes() for reply in replies if reply.ok is not None]
 
     def listened(self, key):
         """Wait until somebody listens to a key, as far as the network knows: what is put before then is lost."""
-        publisher = self._session.declare_publisher(key)
+        publisher = self._session.current.declare_publisher(key)
         eventually(lambda: publisher.matching_status.matching, START_S, f"somebody listens to {key}")
         publisher.undeclare()
 
     def answered(self, key):
         """Wait until somebody answers on a key, as far as the network knows."""
-        querier = self._session.declare_querier(key)
+        querier = self._session.current.declare_querier(key)
         eventually(lambda: querier.matching_status.matching, START_S, f"somebody answers on {key}")
         querier.undeclare()
 

@@ -7,7 +7,7 @@ import zenoh
 
 from protocol import queries, topics
 from protocol.messages import AuthorityState, SafetyState
-from services.bus.zenoh import close_session, connect, open_session
+from services.bus.zenoh import connect, open_session, watch
 from services.process.clock import SystemClock
 from tests.system.harness import START_S, eventually
 from tests.system.test_ending import Router
@@ -40,8 +40,8 @@ def test_nobody_waits_for_a_full_link(tmp_path):
         loader = open_session(router.endpoint, START_S)
         hearer = open_session(router.endpoint, START_S)
         heard = []
-        hearer.declare_subscriber("load", lambda sample: heard.append(sample.key_expr))
-        publisher = loader.declare_publisher("load", congestion_control=zenoh.CongestionControl.DROP)
+        watch(hearer, "load", heard.append)
+        publisher = loader.current.declare_publisher("load", congestion_control=zenoh.CongestionControl.DROP)
         eventually(lambda: publisher.put(LOAD) or heard, START_S, "the load is heard")
         bus.publish(topics.SAFETY_STATE, SafetyState(emergency_stop=False))
         router.hang()
@@ -54,5 +54,5 @@ def test_nobody_waits_for_a_full_link(tmp_path):
         ]
         assert slowest(calls, HANGS_S) < AT_ONCE_S
         for session in (loader, hearer):
-            close_session(session)
+            session.close()
         bus.close()

@@ -2,14 +2,16 @@
 
 from services.bus.zenoh.bus import ZenohBus, connect
 from services.bus.zenoh.encoding import ENCODING
-from services.bus.zenoh.sessions import close_session, open_router, open_session
+from services.bus.zenoh.router import Router, open_router
+from services.bus.zenoh.session import Session, open_session
 from services.bus.zenoh.watch import Passing, watch
 
 __all__ = [
     "ENCODING",
     "Passing",
+    "Router",
+    "Session",
     "ZenohBus",
-    "close_session",
     "connect",
     "open_router",
     "open_session",

@@ -23,8 +23,9 @@ from services.bus.identity import new_publisher
 from services.bus.outbox import Outbox
 from services.bus.server import Server
 from services.bus.subscription import Subscription
+from services.bus.zenoh.dialling import Opened
 from services.bus.zenoh.encoding import announced, encoding
-from services.bus.zenoh.sessions import close_session, open_session
+from services.bus.zenoh.session import Session, open_session
 from services.process.clock import Clock
 from services.process.exceptions import NameTaken, RouterUnreachable
 
@@ -62,21 +63,23 @@ _TRANSPORTS = {
 class ZenohBus:
     """One process' way to all others of its robot, over a client's session.
 
+    Who it is and how far its numbers have come is the bus'; what is declared is declared on every session of Zenoh's
+    in turn.
+
     Args:
-        session: an open session; the bus closes it.
+        session: the bus closes it.
         robot: whose topics these are.
         process: this process' name, the last chunk of the keys that it publishes on.
         clock: for stamps and receipt times.
     """
 
-    def __init__(self, session: zenoh.Session, robot: str, process: str, clock: Clock) -> None:
+    def __init__(self, session: Session, robot: str, process: str, clock: Clock) -> None:
         self._session = session
         self._robot = checked_name(robot)
         self._process = checked_name(process)
         self._clock = clock
         self._outbox = Outbox(new_publisher(), self._robot, self._process)
         self._clocks = Clocks(self.identity)
-        self._publishers: dict[str, zenoh.Publisher] = {}
         self._inlets: list[Subscription[Any] | Server[Any, Any]] = []
         self._token: zenoh.LivelinessToken | None = None
 
@@ -94,19 +97,19 @@ class ZenohBus:
         """
         key = f"retouch/{VERSION}/{self._robot}/alive/{self._process}"
         deadline = time.monotonic() + NAME_WAIT_S
-        while held := list(self._session.liveliness().get(key, timeout=NAME_ASK_S)):
+        while held := self._session.use(lambda opened: list(opened.session.liveliness().get(key, timeout=NAME_ASK_S))):
             if time.monotonic() > deadline:
                 if any(reply.ok is not None for reply in held):
                     raise NameTaken(self._robot, self._process)
                 raise TimeoutError
             time.sleep(0.1)
-        self._token = self._session.liveliness().declare_token(key)
+        self._session.declare(lambda session: self._announce(session, key))
 
     def publish(self, topic: Topic[M], message: M) -> None:
         """Send to whoever subscribes."""
         payload = self._outbox.pack(topic, message, self._clock.now_ns())
         if payload is not None:
-            (self._publishers.get(topic.name) or self._declare(topic)).put(payload)
+            self._session.use(lambda opened: self._publisher(opened, topic).put(payload))
 
     def subscribe(self, topic: Topic[M]) -> Subscription[M]:
         """Receive what any process publishes on the topic."""
@@ -116,7 +119,8 @@ class ZenohBus:
             key = str(sample.key_expr)
             subscription.receive(sample.payload.to_bytes(), announced(sample.encoding), self._clock.now_ns(), key)
 
-        self._session.declare_subscriber(topic.key(self._robot, "*"), store)
+        key_expression = topic.key(self._robot, "*")
+        self._session.declare(lambda session: session.declare_subscriber(key_expression, store))
         self._inlets.append(subscription)
         return subscription
 
@@ -130,7 +134,7 @@ class ZenohBus:
             schema = announced(call.encoding) if call.encoding is not None else ""
             server.receive(payload, schema, _responder(call, key, announcement(query, self._robot, query.reply)))
 
-        self._session.declare_queryable(key, store, complete=True)
+        self._session.declare(lambda session: session.declare_queryable(key, store, complete=True))
         self._inlets.append(server)
         return server
 
@@ -157,15 +161,17 @@ class ZenohBus:
             pending.settle(Failed(str(error)))
             return pending
         transport = _TRANSPORTS[QoS.EVENT]
-        self._session.get(
-            query.key(self._robot),
-            zenoh.handlers.Callback(settle, end),
-            payload=payload,
-            encoding=encoding(announcement(query, self._robot, query.request)),
-            timeout=timeout_s,
-            congestion_control=transport.congestion_control,
-            priority=transport.priority,
-            express=transport.express,
+        self._session.use(
+            lambda opened: opened.session.get(
+                query.key(self._robot),
+                zenoh.handlers.Callback(settle, end),
+                payload=payload,
+                encoding=encoding(announcement(query, self._robot, query.request)),
+                timeout=timeout_s,
+                congestion_control=transport.congestion_control,
+                priority=transport.priority,
+                express=transport.express,
+            )
         )
         return pending
 
@@ -180,18 +186,22 @@ class ZenohBus:
 
     def close(self) -> None:
         """Leave the network."""
-        close_session(self._session)
+        self._session.close()
 
-    def _declare(self, topic: Topic[Any]) -> zenoh.Publisher:
-        transport = _TRANSPORTS[topic.qos]
-        publisher = self._session.declare_publisher(
-            topic.key(self._robot, self._process),
-            encoding=encoding(topic.schema),
-            priority=transport.priority,
-            congestion_control=transport.congestion_control,
-            express=transport.express,
-        )
-        self._publishers[topic.name] = publisher
+    def _announce(self, session: zenoh.Session, key: str) -> None:
+        self._token = session.liveliness().declare_token(key)
+
+    def _publisher(self, opened: Opened, topic: Topic[Any]) -> zenoh.Publisher:
+        publisher = opened.publishers.get(topic.name)
+        if publisher is None:
+            transport = _TRANSPORTS[topic.qos]
+            publisher = opened.publishers[topic.name] = opened.session.declare_publisher(
+                topic.key(self._robot, self._process),
+                encoding=encoding(topic.schema),
+                priority=transport.priority,
+                congestion_control=transport.congestion_control,
+                express=transport.express,
+            )
         return publisher
 
 

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import zenoh
 
 from services.bus.zenoh.encoding import announced
-from services.bus.zenoh.sessions import reason
+from services.bus.zenoh.session import Session
+from services.bus.zenoh.transport import reason
 from services.process.exceptions import BusError
 
 
@@ -21,7 +22,7 @@ class Passing:
     schema: str
 
 
-def watch(session: zenoh.Session, key_expression: str, callback: Callable[[Passing], None]) -> None:
+def watch(session: Session, key_expression: str, callback: Callable[[Passing], None]) -> None:
     """Hand whatever passes on a key expression to the callback, foreign and newer senders' messages included.
 
     Raises:
@@ -35,4 +36,4 @@ def watch(session: zenoh.Session, key_expression: str, callback: Callable[[Passi
     def hand_on(sample: zenoh.Sample) -> None:
         callback(Passing(str(sample.key_expr), sample.payload.to_bytes(), announced(sample.encoding)))
 
-    session.declare_subscriber(expression, hand_on)
+    session.declare(lambda current: current.declare_subscriber(expression, hand_on))

@@ -1,62 +1,22 @@
 """A session opens however late its router answers, and dials a cut link at the pace of the way there."""
 
-import contextlib
 import json
-import select
 import socket
-import threading
-import time
 
 import pytest
 import zenoh
 
 from services.bus.reach import OPEN_LEAST_MS
-from services.bus.zenoh import close_session, open_router, open_session
+from services.bus.zenoh import open_router, open_session
+from services.bus.zenoh.dialling import Dialling, Opened
+from services.process.endpoint import parse
 from services.process.exceptions import RouterUnreachable
 from tests.ports import free_port
+from tests.services.bus.late import Late
 
 pytestmark = pytest.mark.zenoh
 
 WITHIN_S = 30.0
-
-
-class Late:
-    """Stands before a router and passes on what both sides say, each time so much later.
-
-    Args:
-        port: of the router.
-        late_s: of what the router says [s].
-    """
-
-    def __init__(self, port, late_s):
-        self.late_s = late_s
-        self.opened = 0
-        self._port = port
-        self._server = socket.create_server(("127.0.0.1", 0))
-        self.endpoint = f"tcp/127.0.0.1:{self._server.getsockname()[1]}"
-        threading.Thread(target=self._accept, daemon=True).start()
-
-    def close(self):
-        """Accept no more."""
-        self._server.close()
-
-    def _accept(self):
-        with contextlib.suppress(OSError):
-            while True:
-                near, _ = self._server.accept()
-                self.opened += 1
-                threading.Thread(target=self._pass_on, args=(near,), daemon=True).start()
-
-    def _pass_on(self, near):
-        with contextlib.suppress(OSError), near, socket.create_connection(("127.0.0.1", self._port)) as far:
-            while True:
-                for side in select.select([near, far], [], [])[0]:
-                    said = side.recv(65536)
-                    if not said:
-                        return
-                    if side is far:
-                        time.sleep(self.late_s)
-                    (near if side is far else far).sendall(said)
 
 
 @pytest.fixture
@@ -73,14 +33,14 @@ def late():
     yield make
     for one in opened:
         one.close()
-    close_session(router)
+    router.close()
 
 
 def test_a_router_that_answers_later_than_one_attempt_may_take_is_reached(late):
     way = late(OPEN_LEAST_MS / 1e3)
     session = open_session(way.endpoint, WITHIN_S)
-    assert list(session.info.routers_zid())
-    close_session(session)
+    assert session.is_linked()
+    session.close()
 
 
 def test_who_never_answers_as_a_router_is_told_so_in_time(late):
@@ -89,7 +49,7 @@ def test_who_never_answers_as_a_router_is_told_so_in_time(late):
         open_session(way.endpoint, 1.0)
 
 
-class Opened:
+class OneSession:
     """A session that counts for open until it is closed."""
 
     def __init__(self):
@@ -116,12 +76,14 @@ def test_a_session_dials_at_the_quickest_pace_that_opens_it(monkeypatch, answers
         tried.append(json.loads(str(configuration))["transport"]["unicast"]["open_timeout"])
         if not answers[len(tried) - 1]:
             raise zenoh.ZError("Unable to connect. Timeout! at orchestrator.rs:388.")
-        sessions.append(Opened())
+        sessions.append(OneSession())
         return sessions[-1]
 
-    monkeypatch.setattr("services.bus.zenoh.sessions.zenoh.open", answer)
+    monkeypatch.setattr("services.bus.zenoh.dialling.zenoh.open", answer)
     with socket.create_server(("127.0.0.1", 0)) as router:
-        session = open_session(f"tcp/127.0.0.1:{router.getsockname()[1]}", WITHIN_S)
+        dialling = Dialling(parse(f"tcp/127.0.0.1:{router.getsockname()[1]}"))
+        dialling.start()
+        dialling.join(WITHIN_S)
     assert tried == kept
-    assert session is sessions[-1]
+    assert dialling.opened == Opened(sessions[-1], kept[-1] if answers[-1] else tried[-2])
     assert [one.closed for one in sessions] == [True] * (len(sessions) - 1) + [False]

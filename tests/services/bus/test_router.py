@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from services.bus.zenoh import close_session, open_router
-from services.bus.zenoh.sessions import LEASE_MS
+from services.bus.zenoh import open_router
+from services.bus.zenoh.transport import LEASE_MS
 
 pytestmark = pytest.mark.zenoh
 
@@ -33,5 +33,5 @@ def test_what_a_router_accepts_is_given_up_with_the_lease():
             if one.getsockname()[1] == port
         ]
     finally:
-        close_session(router)
+        router.close()
     assert times == [LEASE_MS]

@@ -1,0 +1,84 @@
+"""Zenoh as all sessions have it: how one is configured and left, and what its errors say."""
+
+from __future__ import annotations
+
+import json
+import logging
+import re
+import threading
+from typing import Any
+
+import zenoh
+
+log = logging.getLogger(__name__)
+
+LEASE_MS = 1000
+"""A link on which nothing was heard for so long is given up; a shorter cut TCP bridges by itself."""
+
+REDIAL_MS = 20
+"""Between two attempts to open a link again."""
+
+FULL_LINK_US = 200_000
+"""How long what may not be dropped (a declaration) waits for room on a full link; then the link is dialled anew."""
+
+CLOSE_S = 0.5
+"""How long a session may take to leave; where its router hangs with a full link it would take ten seconds."""
+
+POLL_S = 0.02
+
+
+def configuration(
+    mode: str, connect: str | None, listen: str | None, pace_ms: int, within_ms: int = -1
+) -> zenoh.Config:
+    """No discovery: a network is what was named. Links that die are noticed and dialled again within a second.
+
+    Args:
+        mode: "client" or "router".
+        connect: whom to dial.
+        listen: where to listen.
+        pace_ms: how long one attempt to open a link may take, now and after each cut [ms].
+        within_ms: a session that has no link by then does not open [ms]; -1 to open it without.
+    """
+    config: dict[str, Any] = {
+        "mode": mode,
+        "scouting": {"multicast": {"enabled": False}, "gossip": {"enabled": False}},
+        "listen": {"endpoints": [listen] if listen else []},
+        "connect": {
+            "endpoints": [connect] if connect else [],
+            "timeout_ms": within_ms,
+            "exit_on_failure": within_ms >= 0,
+            "retry": {"period_init_ms": REDIAL_MS, "period_max_ms": REDIAL_MS, "period_increase_factor": 1.0},
+        },
+        "transport": {
+            "unicast": {"open_timeout": pace_ms},
+            "link": {
+                "tx": {
+                    "lease": LEASE_MS,
+                    "queue": {"congestion_control": {"block": {"wait_before_close": FULL_LINK_US}}},
+                }
+            },
+        },
+    }
+    return zenoh.Config.from_json5(json.dumps(config))
+
+
+def leave(session: zenoh.Session) -> None:
+    """Leave the network; without it a process with a subscriber never ends.
+
+    A session that cannot leave in `CLOSE_S` is left behind: its router will notice by itself.
+    """
+    closing = threading.Thread(target=_close, args=(session,), name="closing", daemon=True)
+    closing.start()
+    closing.join(CLOSE_S)
+
+
+def _close(session: zenoh.Session) -> None:
+    try:
+        session.close()  # type: ignore[no-untyped-call]  # Zenoh's stub leaves it bare
+    except zenoh.ZError as error:
+        log.debug("the session could not leave: %s", reason(error))
+
+
+def reason(error: zenoh.ZError) -> str:
+    """The error without the place in Zenoh's source."""
+    return re.sub(r" at \S+\.rs:\d+\.?", "", str(error).splitlines()[0])

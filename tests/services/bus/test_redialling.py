@@ -1,0 +1,126 @@
+"""A link that Zenoh does not find again by itself, because the way has become another, is opened anew."""
+
+import pytest
+
+from protocol import queries, topics
+from protocol.messages import ModelState
+from services.bus.zenoh import connect, open_router
+from services.process.clock import SystemClock
+from services.process.exceptions import NameTaken
+from tests.ports import free_port
+from tests.services.bus.late import Late
+from tests.system.harness import eventually
+
+pytestmark = pytest.mark.zenoh
+
+WITHIN_S = 20.0
+LATE_S = 0.2
+"""So late nobody is through in the time that a link over loopback is given."""
+
+
+@pytest.fixture(autouse=True)
+def _soon(monkeypatch):
+    """What is waited for in a real outage is waited for shortly."""
+    monkeypatch.setattr("services.bus.zenoh.redialling.LOOK_S", 0.05)
+    monkeypatch.setattr("services.bus.zenoh.redialling.GRACE_S", 0.1)
+
+
+@pytest.fixture
+def router():
+    """Its port."""
+    port = free_port()
+    opened = open_router(f"tcp/127.0.0.1:{port}")
+    yield port
+    opened.close()
+
+
+@pytest.fixture
+def way(router):
+    """To the router: short at first."""
+    one = Late(router, 0.0)
+    yield one
+    one.close()
+
+
+@pytest.fixture
+def bus(router):
+    """A function that opens the bus of another process."""
+    opened = []
+
+    def open_one(process, endpoint=f"tcp/127.0.0.1:{router}"):
+        opened.append(connect(endpoint, "robot1", process, SystemClock()))
+        return opened[-1]
+
+    yield open_one
+    for one in opened:
+        one.close()
+
+
+def becomes_longer(way):
+    """A cut, and the way is another one."""
+    way.late_s = LATE_S
+    way.cut()
+
+
+def state(version):
+    return ModelState(kind="adaptive", version=version, demonstrations=1, updates=0, scene="s")
+
+
+def hears(sender, subscription, version):
+    """Publish until it is heard; the message."""
+
+    def heard():
+        sender.publish(topics.MODEL_STATE, state(version))
+        received = subscription.latest()
+        return received is not None and received.message.version == version and received.message
+
+    return eventually(heard, WITHIN_S, f"version {version} is heard")
+
+
+def test_what_is_published_comes_again_and_its_numbers_go_on(way, bus):
+    model, station = bus("model", way.endpoint), bus("station")
+    subscription = station.subscribe(topics.MODEL_STATE)
+    before = hears(model, subscription, 1)
+    becomes_longer(way)
+    after = hears(model, subscription, 2)
+    assert after.publisher == before.publisher
+    assert after.sequence > before.sequence
+
+
+def test_who_only_listens_hears_again(way, bus):
+    model, station = bus("model"), bus("station", way.endpoint)
+    subscription = station.subscribe(topics.MODEL_STATE)
+    hears(model, subscription, 1)
+    becomes_longer(way)
+    hears(model, subscription, 2)
+
+
+def answered(asker, server, asked):
+    """Ask until there is an answer, and let the server give it."""
+    pending = []
+
+    def got():
+        if not pending or pending[0].poll() is not None:
+            pending.insert(0, asker.ask(queries.UNDO, asked, timeout_s=2.0))
+        for call in server.take():
+            call.reply(queries.Learnt(state(7)))
+        return any(isinstance(one.poll(), queries.Learnt) for one in pending)
+
+    eventually(got, WITHIN_S, "it is answered")
+
+
+@pytest.mark.parametrize("far", ["model", "station"], ids=["who is asked", "who asks"])
+def test_questions_are_answered_again(way, bus, far):
+    model, station = (bus(name, way.endpoint) if name == far else bus(name) for name in ("model", "station"))
+    server = model.serve(queries.UNDO)
+    answered(station, server, queries.Undo(request=1))
+    becomes_longer(way)
+    answered(station, server, queries.Undo(request=2))
+
+
+def test_a_name_is_claimed_again(way, bus):
+    model, station = bus("model", way.endpoint), bus("station")
+    becomes_longer(way)
+    hears(model, station.subscribe(topics.MODEL_STATE), 1)
+    with pytest.raises(NameTaken):
+        bus("model")
