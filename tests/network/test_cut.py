@@ -19,6 +19,10 @@ SETTLED_S = 1.0
 STILL_M = 1e-4
 WITHIN_S = 10.0
 
+SHORT_S = 0.005
+LONG_S = 0.12
+"""Each way; three round trips over the long way take longer than a link over the short one is given to open."""
+
 
 @pytest.fixture
 def moving(link, router, tmp_path):
@@ -76,6 +80,25 @@ def test_a_stop_pressed_in_the_middle_of_an_outage_is_latched_before_anything_mo
     after = onlooker.since(cut + SETTLED_S)
     assert {seen.phase for seen in after} <= {"hold", "stopped"}
     assert travelled(after) < STILL_M
+
+
+def test_a_stop_pressed_in_an_outage_arrives_over_a_way_that_has_become_long(link, router, tmp_path):
+    link.shape(delay_s=SHORT_S)
+    with (
+        Command("robot", "--scene", "particle", "--connect", router, folder=tmp_path),
+        Onlooker(router) as onlooker,
+        Operator(link, router) as operator,
+    ):
+        operator.says("executing")
+        cut = link.cut()
+        onlooker.until(lambda seen: seen.phase == "hold", WITHIN_S, "it holds")
+        sleep_until(cut + CUT_S / 2)
+        operator.press()
+        sleep_until(cut + CUT_S)
+        link.shape(cut=False, delay_s=LONG_S)
+        eventually(lambda: onlooker.safety["emergency_stop"], START_S, "the stop is latched")
+        operator.says("confirmed")
+        assert onlooker.safety["by"] == "far"
 
 
 def test_the_command_line_presses_through_an_outage(link, moving, router, tmp_path):

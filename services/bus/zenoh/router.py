@@ -71,8 +71,16 @@ class Router:
         leave(self._session)
 
 
-class _Uplink:
-    """A router's link to another one. At which pace it opens is tried by a client's session, which cuts nobody off."""
+class Uplink:
+    """A router's link to another one. At which pace it opens is tried by a client's session, which cuts nobody off.
+
+    Args:
+        router: that joins the other one.
+        endpoint: of the other one.
+
+    Attributes:
+        endpoint: of the other one.
+    """
 
     def __init__(self, router: Router, endpoint: Endpoint) -> None:
         self.endpoint = endpoint
@@ -120,7 +128,7 @@ def open_router(listen: str, connect: str | None = None) -> Router:
     pace_ms = open_timeout_ms(0.0 if isinstance(trip, Silence) else trip)
     router = Router(listen, connect, Opened(_opened(listen, connect, pace_ms), pace_ms))
     if other is not None:
-        Redialling(_Uplink(router, other), router.end).start()
+        Redialling(Uplink(router, other), router.end).start()
     return router
 
 
@@ -141,9 +149,10 @@ def _give_up_with_the_lease() -> None:
     Zenoh closes a link with SO_LINGER, which holds up one of its few threads, and with it other links, until TCP has
     sent the rest once more: up to seconds after a link that was cut is back. Accepted sockets inherit the time.
     """
-    for file in list(Path("/proc/self/fd").iterdir()):
+    # What is no socket must not be taken for one: Python makes a copy of it, and forgets that where it fails.
+    for file in [file for file in Path("/proc/self/fd").iterdir() if file.is_socket()]:
         with (
-            contextlib.suppress(OSError),  # this one is no socket, or the listing's own
+            contextlib.suppress(OSError),  # it was closed meanwhile, or is no TCP socket
             socket.fromfd(int(file.name), socket.AF_INET, socket.SOCK_STREAM) as listener,
         ):
             if listener.getsockopt(socket.SOL_SOCKET, socket.SO_ACCEPTCONN):

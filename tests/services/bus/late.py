@@ -36,8 +36,10 @@ class Late:
                 near.shutdown(socket.SHUT_RDWR)
 
     def close(self):
-        """Accept no more."""
+        """Accept no more, and end what there is."""
+        self._server.shutdown(socket.SHUT_RDWR)
         self._server.close()
+        self.cut()
 
     def _accept(self):
         with contextlib.suppress(OSError):

@@ -5,7 +5,7 @@ import socket
 import pytest
 
 from services.bus import reach
-from services.bus.reach import OPEN_LEAST_MS, OPEN_MOST_MS, Silence, open_timeout_ms, probe
+from services.bus.reach import OPEN_LEAST_MS, OPEN_MOST_MS, Silence, fits, open_timeout_ms, probe
 from services.process.endpoint import parse
 from services.process.exceptions import BadEndpoint
 
@@ -81,6 +81,14 @@ def test_a_link_may_take_longer_to_open_where_the_way_is_long():
     assert open_timeout_ms(0.0) == OPEN_LEAST_MS
     assert OPEN_LEAST_MS + 3 * 600 < open_timeout_ms(0.6) < OPEN_MOST_MS
     assert open_timeout_ms(60.0) == OPEN_MOST_MS
+
+
+@pytest.mark.parametrize("trip", [0.0, 0.001, 0.05, 0.6])
+def test_the_pace_of_a_way_fits_it_and_that_of_another_does_not(trip):
+    pace = open_timeout_ms(trip)
+    assert fits(pace, trip)
+    assert not fits(pace, trip + pace / 3e3), "three round trips, and it is given up before they are made"
+    assert not fits(open_timeout_ms(2 * trip + 0.1), trip), "a cut link would be dialled too late"
 
 
 def failing(error):

@@ -1,11 +1,16 @@
 """A link that Zenoh does not find again by itself, because the way has become another, is opened anew."""
 
+import threading
+
 import pytest
+import zenoh
 
 from protocol import queries, topics
 from protocol.messages import ModelState
-from services.bus.zenoh import connect, open_router
+from services.bus.reach import OPEN_LEAST_MS, Silence
+from services.bus.zenoh import connect, open_router, open_session, redialling
 from services.process.clock import SystemClock
+from services.process.endpoint import parse
 from services.process.exceptions import NameTaken
 from tests.ports import free_port
 from tests.services.bus.late import Late
@@ -124,3 +129,117 @@ def test_a_name_is_claimed_again(way, bus):
     hears(model, station.subscribe(topics.MODEL_STATE), 1)
     with pytest.raises(NameTaken):
         bus("model")
+
+
+@pytest.fixture
+def dialled(monkeypatch):
+    """Sessions that were opened from now on; each only once it is let."""
+    opened, tried, let = [], threading.Event(), threading.Event()
+    really = zenoh.open
+
+    def open_when_let(configuration):
+        tried.set()
+        assert let.wait(WITHIN_S)
+        opened.append(really(configuration))
+        return opened[-1]
+
+    def let_open():
+        let.set()
+        return eventually(lambda: opened, WITHIN_S, "it opens")[0]
+
+    def watch():
+        monkeypatch.setattr("services.bus.zenoh.dialling.zenoh.open", open_when_let)
+        return tried, let_open
+
+    return watch
+
+
+def test_a_session_that_opens_when_the_old_one_is_linked_again_is_dropped(way, dialled):
+    session = open_session(way.endpoint, WITHIN_S)
+    first = session.current
+    tried, let_open = dialled()
+    becomes_longer(way)
+    assert tried.wait(WITHIN_S)
+    way.late_s = 0.0
+    eventually(session.is_linked, WITHIN_S, "it comes back by itself")
+    other = let_open()
+    eventually(other.is_closed, WITHIN_S, "the new one is closed")
+    assert session.current is first
+    assert session.is_linked()
+    session.close()
+
+
+def test_a_session_that_opens_when_the_old_one_is_closed_is_dropped(way, dialled):
+    session = open_session(way.endpoint, WITHIN_S)
+    tried, let_open = dialled()
+    becomes_longer(way)
+    assert tried.wait(WITHIN_S)
+    session.close()
+    way.late_s = 0.0
+    eventually(let_open().is_closed, WITHIN_S, "the new one is closed")
+
+
+class Link:
+    """One that is looked after; it is there, and needed no more, after so many looks at it."""
+
+    endpoint = parse("tcp/127.0.0.1:7447")
+    pace_ms = OPEN_LEAST_MS
+
+    def __init__(self, looks):
+        self.end = threading.Event()
+        self.taken = []
+        self._looks = looks
+
+    def is_linked(self):
+        """Whether it is there."""
+        self._looks -= 1
+        if self._looks < 0:
+            self.end.set()
+        return self._looks < 0
+
+    def take(self, opened):
+        """Was opened."""
+        self.taken.append(opened)
+        self.end.set()
+
+
+@pytest.fixture
+def looked_after(monkeypatch):
+    """A function that looks after a link over such a way, where every dialling opens; what was opened."""
+
+    def look(link, trips):
+        turn = iter(trips)
+        monkeypatch.setattr(redialling, "probe", lambda _: next(turn))
+        monkeypatch.setattr(redialling, "Dialling", At)
+        monkeypatch.setattr(redialling, "AGAIN_S", 0.0)
+        monkeypatch.setattr(redialling, "GRACE_S", 60.0)
+        redialling.Redialling(link, link.end).run()
+        return link.taken
+
+    return look
+
+
+class At:
+    """Dialling that has opened at once."""
+
+    def __init__(self, endpoint):
+        self.opened = endpoint.text
+
+    def start(self):
+        """Dial."""
+
+    def is_alive(self):
+        """Whether it goes on."""
+        return False
+
+
+def test_a_way_that_has_become_too_long_is_dialled_as_soon_as_it_is_there(looked_after):
+    assert looked_after(Link(looks=100), [Silence("no route"), Silence("no answer"), 0.3]) == [Link.endpoint.text]
+
+
+def test_a_way_that_is_as_before_is_left_to_the_transport(looked_after):
+    assert looked_after(Link(looks=20), [0.0]) == []
+
+
+def test_a_way_that_is_not_there_is_not_dialled(looked_after):
+    assert looked_after(Link(looks=20), [Silence("no answer")] * 20) == []

@@ -1,5 +1,6 @@
 """A router's links are given up by the kernel when their lease is over, so that closing one holds up no other."""
 
+import os
 import socket
 from pathlib import Path
 
@@ -7,6 +8,7 @@ import pytest
 
 from services.bus.zenoh import open_router
 from services.bus.zenoh.transport import LEASE_MS
+from tests.ports import free_port
 
 pytestmark = pytest.mark.zenoh
 
@@ -22,9 +24,15 @@ def listeners():
             continue
 
 
+def test_opening_a_router_leaves_nothing_behind_of_what_is_open(tmp_path):
+    with (tmp_path / "file").open("w") as file:
+        open_router(f"tcp/127.0.0.1:{free_port()}").close()
+        links = [os.path.realpath(one) for one in Path("/proc/self/fd").iterdir()]
+        assert links.count(os.path.realpath(file.name)) == 1
+
+
 def test_what_a_router_accepts_is_given_up_with_the_lease():
-    with socket.create_server(("127.0.0.1", 0)) as probe:
-        port = probe.getsockname()[1]
+    port = free_port()
     router = open_router(f"tcp/127.0.0.1:{port}")
     try:
         times = [
