@@ -81,7 +81,6 @@ class ZenohBus:
         self._outbox = Outbox(new_publisher(), self._robot, self._process)
         self._clocks = Clocks(self.identity)
         self._inlets: list[Subscription[Any] | Server[Any, Any]] = []
-        self._token: zenoh.LivelinessToken | None = None
 
     @property
     def identity(self) -> int:
@@ -103,7 +102,7 @@ class ZenohBus:
                     raise NameTaken(self._robot, self._process)
                 raise TimeoutError
             time.sleep(0.1)
-        self._session.declare(lambda session: self._announce(session, key))
+        self._session.declare(lambda session: session.liveliness().declare_token(key))
 
     def publish(self, topic: Topic[M], message: M) -> None:
         """Send to whoever subscribes."""
@@ -187,9 +186,6 @@ class ZenohBus:
     def close(self) -> None:
         """Leave the network."""
         self._session.close()
-
-    def _announce(self, session: zenoh.Session, key: str) -> None:
-        self._token = session.liveliness().declare_token(key)
 
     def _publisher(self, opened: Opened, topic: Topic[Any]) -> zenoh.Publisher:
         publisher = opened.publishers.get(topic.name)

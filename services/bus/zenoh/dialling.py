@@ -24,11 +24,13 @@ class Opened:
         session: the session.
         pace_ms: how long each of its attempts to open the link again may take [ms].
         publishers: that were declared on it, by what they are called; empty at first.
+        declared: whatever else was; some of it lasts only as long as it is kept.
     """
 
     session: zenoh.Session
     pace_ms: int
     publishers: dict[str, zenoh.Publisher] = field(default_factory=dict)
+    declared: list[object] = field(default_factory=list)
 
 
 class Dialling(threading.Thread):

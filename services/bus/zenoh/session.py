@@ -72,11 +72,11 @@ class Session:
         """Declare something now, and on every session that takes the place of this one."""
         with self._exchange:
             self._declarations.append(declaration)
-            session = self.current
+            opened = self._opened
         try:
-            declaration(session)
+            opened.declared.append(declaration(opened.session))
         except zenoh.ZError:
-            if session is self.current:
+            if opened is self._opened:
                 raise
 
     def look_after(self) -> None:
@@ -103,18 +103,15 @@ class Session:
 
     def _exchanged(self, opened: Opened) -> Opened:
         """Declare everything on the session, and use it from then on; whichever is used no more."""
-        declared = 0
         while True:
             with self._exchange:
-                missing = self._declarations[declared:]
+                missing = self._declarations[len(opened.declared) :]
                 if self._end.is_set():
                     return opened
                 if not missing:
                     old, self._opened = self._opened, opened
                     return old
-            for declaration in missing:
-                declaration(opened.session)
-            declared += len(missing)
+            opened.declared.extend(declaration(opened.session) for declaration in missing)
 
     def close(self) -> None:
         """Leave the network."""
