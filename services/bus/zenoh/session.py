@@ -94,7 +94,7 @@ class Session:
         if old is opened:
             leave(opened.session)
             return
-        log.info("the router at %s was found again by dialling at another pace", self.endpoint.text)
+        log.info("the router at %s is linked again, over a session that was opened anew", self.endpoint.text)
         # A session is never freed whose publishers outlive it.
         for publisher in list(old.publishers.values()):
             with contextlib.suppress(zenoh.ZError):
