@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import signal
 import struct
@@ -9,13 +10,15 @@ import warnings
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
-from multiprocessing import Pipe
+from multiprocessing import Pipe, resource_tracker
 from multiprocessing.connection import Connection
+from pathlib import Path
 from threading import Thread
 from typing import TypeVar
 
 from joblib import Parallel, delayed
 from joblib.externals.loky import get_reusable_executor
+from joblib.externals.loky.backend import resource_tracker as loky_tracker
 from joblib.externals.loky.process_executor import TerminatedWorkerError
 
 from services.process.exceptions import CommandFailed
@@ -67,6 +70,12 @@ def each(
         for number, item in enumerate(items):
             yield _done(work, item, number, advance)
         return
+    # What looks after shared memory is no process of the pool, and its start would let Ctrl-C through below.
+    resource_tracker.ensure_running()
+    loky_tracker.ensure_running()
+    others = _children()
+    # Whoever closes it, or interrupts it at any moment, knows that work is left undone.
+    warnings.filterwarnings("ignore", ".* tasks which were still being processed", UserWarning)
     with _listening(advance) as reports:
         try:
             with _deaf_to_ctrl_c():
@@ -85,11 +94,23 @@ def each(
             except TerminatedWorkerError:
                 raise ProcessDied from None
             finally:
-                with warnings.catch_warnings():
-                    warnings.simplefilter("ignore")  # whoever closes it knows that work is left undone
-                    results.close()
+                _kill(_children() - others)
+                results.close()
         finally:
+            _kill(_children() - others)
             get_reusable_executor().shutdown(wait=True, kill_workers=True)
+
+
+def _children() -> set[int]:
+    """The processes that this one has started, as the system tells: those too that are only being started."""
+    return {int(pid) for of in Path("/proc/self/task").glob("*/children") for pid in of.read_text().split()}
+
+
+def _kill(processes: set[int]) -> None:
+    """End them at once: a busy machine takes seconds to end them in good order, and a signal leaves two."""
+    for process in processes:
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(process, signal.SIGKILL)
 
 
 def overall(count: int, progress: Progress) -> Advance:

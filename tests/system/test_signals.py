@@ -80,7 +80,7 @@ def test_work_that_is_shared_out_is_left_at_once_with_one_line_and_without_its_p
         assert command.ended(STOP_S) == Exit.INTERRUPTED
         eventually(lambda: command.left() == [], STOP_S, command.left)
     lines = [line for line in command.err.removeprefix(before).splitlines() if line]
-    assert len(lines) == 1
+    assert len(lines) == 1, "\n".join(lines)
     assert lines[0].startswith(said)
 
 
