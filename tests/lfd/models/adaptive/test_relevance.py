@@ -87,6 +87,26 @@ def test_a_change_is_made_only_for_a_gain(rng):
     assert chosen.score < 0.95 * plain.score
 
 
+def test_without_a_gain_no_change_is_made_though_none_is_asked_for(rng):
+    """A dimension in which all are the same makes no difference, whatever its factor."""
+    S, X, _ = family(rng, 10, useful=1, useless=1)
+    S[:, 1] = 0.0
+    assert relevant(fitted(S, X), replace(OPTIONS, gain=0.0)).scale.relevance[1] == 1.0
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_what_predicts_exactly_is_left_as_it_is(seed):
+    rng = np.random.default_rng(seed)
+    S = rng.uniform(-0.35, 0.35, size=(10, 2))
+    plain = fitted(S, S @ rng.normal(size=(2, D)))
+    assert relevant(plain, OPTIONS) is plain
+
+
+def test_what_was_chosen_is_not_bettered_by_choosing_again(rng):
+    chosen = relevant(fitted(*bowl(rng, 12, useless=2)), OPTIONS)
+    assert relevant(chosen, OPTIONS) is chosen
+
+
 def test_of_many_demonstrations_some_are_looked_at_and_all_are_learnt_from(rng):
     S, X, _ = family(rng, 40, useful=1, useless=1, noise=0.02)
     chosen = relevant(fitted(S, X), replace(OPTIONS, most=9))
@@ -112,3 +132,10 @@ def test_the_process_is_fitted_where_that_predicts_better(rng):
     chosen = relevant(plain, OPTIONS)
     assert chosen.options.noise < plain.options.noise
     assert chosen.score < 0.5 * plain.score
+
+
+def test_few_conditions_do_not_judge_the_process_either(rng):
+    S = np.linspace(-0.5, 0.5, OPTIONS.conditions - 1)[:, None]
+    plain = fitted(S, np.sin(6.0 * S) @ rng.normal(size=(1, D)))
+    assert relevant(plain, OPTIONS) is plain
+    assert relevant(plain, replace(OPTIONS, conditions=3)) is not plain
