@@ -23,12 +23,14 @@ class Opened:
     Attributes:
         session: the session.
         pace_ms: how long each of its attempts to open the link again may take [ms].
+        router: at the other end of the link, which does not come back as the same one where it was started again.
         publishers: that were declared on it, by what they are called; empty at first.
         declared: whatever else was; some of it lasts only as long as it is kept.
     """
 
     session: zenoh.Session
     pace_ms: int
+    router: zenoh.ZenohId | None = None
     publishers: dict[str, zenoh.Publisher] = field(default_factory=dict)
     declared: list[object] = field(default_factory=list)
 
@@ -100,9 +102,9 @@ class Dialling(threading.Thread):
         # It dials a cut link at the pace at which it was opened: the router may only have begun late.
         sooner = self._attempt(least_ms) if pace_ms > least_ms else None
         if sooner is None:
-            return Opened(session, pace_ms)
+            return _linked(session, pace_ms)
         leave(session)
-        return Opened(sooner, least_ms)
+        return _linked(sooner, least_ms)
 
     def _attempt(self, pace_ms: int) -> zenoh.Session | None:
         try:
@@ -111,3 +113,7 @@ class Dialling(threading.Thread):
             if "Timeout!" not in str(error):
                 raise
             return None
+
+
+def _linked(session: zenoh.Session, pace_ms: int) -> Opened:
+    return Opened(session, pace_ms, next(iter(session.info.routers_zid()), None))

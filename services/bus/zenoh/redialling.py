@@ -1,15 +1,16 @@
-"""What brings a link back that Zenoh does not find again by itself.
+"""What brings a link back as it was before.
 
 Zenoh dials a link that was cut for ever, but at the pace of the way as it was when the session was opened: each attempt
 is given up after the same time. Over a way that has become longer, or to a router that answers later than then, none of
-them comes through.
+them comes through. And where the first attempts came too late for the router, a link that it does find again may be
+deaf: nothing arrives on it, because the router has not heard what is subscribed to. So Zenoh's own link serves until a
+session that is opened anew takes its place.
 """
 
 from __future__ import annotations
 
 import logging
 import threading
-import time
 from typing import Protocol
 
 from services.bus.reach import Silence, fits, probe
@@ -20,11 +21,11 @@ from services.process.exceptions import BadEndpoint
 
 log = logging.getLogger(__name__)
 
-LOOK_S = 1.0
-"""Between two looks at a link that is there."""
+LOOK_S = 0.25
+"""Between two looks at a link that is there; one that is lost for less is bridged by TCP, or was never lost."""
 
-GRACE_S = 2.0
-"""How long Zenoh may take to open the link by itself once the way is there, where its pace fits the way."""
+GRACE_S = 1.0
+"""How long nobody else dials once the way is there, where Zenoh's pace fits it: a stop that waits comes first."""
 
 AGAIN_S = 0.2
 """Between two looks whether the way is there."""
@@ -44,11 +45,11 @@ class Redialled(Protocol):
         ...
 
     def is_linked(self) -> bool:
-        """Whether it is there."""
+        """Whether it is there, and was all the time as far as can be told."""
         ...
 
-    def take(self, opened: Opened) -> None:
-        """It was not there, but a session could be opened, which is the taker's from now on."""
+    def take(self, opened: Opened) -> bool:
+        """Take over a session that was opened since it was lost; whether all is as before now."""
         ...
 
 
@@ -66,29 +67,34 @@ class Redialling(threading.Thread):
         self._end = end
 
     def run(self) -> None:
-        """Look once a second."""
+        """Look, again and again."""
+        lost = False
         while not self._end.wait(LOOK_S):
-            if not self._link.is_linked():
-                self._redial()
+            lost = lost or not self._link.is_linked()
+            if lost:
+                lost = not self._restored()
 
-    def _redial(self) -> None:
+    def _restored(self) -> bool:
         trip = self._reach()
-        if trip is None or (fits(self._link.pace_ms, trip) and self._over_within(GRACE_S)):
-            return
+        if trip is None:
+            return False
+        if fits(self._link.pace_ms, trip):
+            self._end.wait(GRACE_S)
         dialling = Dialling(self._link.endpoint)
         dialling.start()
-        while dialling.is_alive() and not self._over_within(POLL_S):
+        while dialling.is_alive() and not self._end.wait(POLL_S):
             pass
-        if self._over_within(0.0):
+        if self._end.is_set():
             dialling.give_up()
         elif dialling.opened is not None:
-            self._link.take(dialling.opened)
+            return self._link.take(dialling.opened)
         else:
             log.debug("cannot dial %s: %s", self._link.endpoint.text, dialling.error)
+        return False
 
     def _reach(self) -> float | None:
         """The trip to the router, once the way is there [s]; None where that is not asked any more."""
-        while not self._over_within(AGAIN_S):
+        while not self._end.wait(AGAIN_S):
             try:
                 trip = probe(self._link.endpoint)
             except BadEndpoint:  # whoever knew the host's name is out of reach too
@@ -96,13 +102,3 @@ class Redialling(threading.Thread):
             if not isinstance(trip, Silence):
                 return trip
         return None
-
-    def _over_within(self, seconds: float) -> bool:
-        """Whether nobody has to dial any more: the link is there, or not needed."""
-        deadline = time.monotonic() + seconds
-        while not (self._end.is_set() or self._link.is_linked()):
-            left = deadline - time.monotonic()
-            if left <= 0.0:
-                return False
-            self._end.wait(min(POLL_S, left))
-        return True

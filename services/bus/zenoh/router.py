@@ -96,18 +96,19 @@ class Uplink:
         """Whether it is there."""
         return self._other is not None and self._other in self._router.joined()
 
-    def take(self, opened: Opened) -> None:
+    def take(self, opened: Opened) -> bool:
         """Learn who the other router is; dial it at this pace, where its own is too quick for the router."""
-        self._other = next(iter(opened.session.info.routers_zid()), None)
+        self._other = opened.router
         leave(opened.session)
         if self.is_linked() or opened.pace_ms <= self.pace_ms:
-            return
+            return self.is_linked()
         log.warning(
             "the router at %s answers later than before: this one is opened again to dial it more slowly;"
             " whoever is connected here is cut off for a moment",
             self.endpoint.text,
         )
         self._router.open_again(opened.pace_ms)
+        return False
 
 
 def open_router(listen: str, connect: str | None = None) -> Router:

@@ -55,8 +55,9 @@ class Session:
         return self._opened.pace_ms
 
     def is_linked(self) -> bool:
-        """Whether there is a link to the router."""
-        return bool(self.current.info.routers_zid())
+        """Whether there is a link to the router, and to the same one as at first."""
+        opened = self._opened
+        return opened.router in opened.session.info.routers_zid()
 
     def use(self, act: Callable[[Opened], T]) -> T:
         """What the act returns, with Zenoh's session as it is now; once more where that was exchanged meanwhile."""
@@ -83,23 +84,24 @@ class Session:
         """Find the router again from now on, however long the way has become."""
         self._redialling.start()
 
-    def take(self, opened: Opened) -> None:
-        """Put a session in the place of one that does not find its router again."""
+    def take(self, opened: Opened) -> bool:
+        """Put a session in the place of one that had lost its router; whether it is there now."""
         try:
             old = self._exchanged(opened)
         except zenoh.ZError as error:
             log.debug("the new session was lost at once: %s", reason(error))
             leave(opened.session)
-            return
+            return False
         if old is opened:
             leave(opened.session)
-            return
-        log.info("the router at %s is linked again, over a session that was opened anew", self.endpoint.text)
+            return False
+        log.debug("the router at %s is linked again, over a session that was opened anew", self.endpoint.text)
         # A session is never freed whose publishers outlive it.
         for publisher in list(old.publishers.values()):
             with contextlib.suppress(zenoh.ZError):
                 publisher.undeclare()  # type: ignore[no-untyped-call]  # Zenoh's stub leaves it bare
         leave(old.session)
+        return True
 
     def _exchanged(self, opened: Opened) -> Opened:
         """Declare everything on the session, and use it from then on; whichever is used no more."""

@@ -54,6 +54,8 @@ class OneSession:
 
     def __init__(self):
         self.closed = False
+        self.info = self
+        self.routers_zid = lambda: ["router"]
 
     def close(self):
         """Leave."""
@@ -85,5 +87,5 @@ def test_a_session_dials_at_the_quickest_pace_that_opens_it(monkeypatch, answers
         dialling.start()
         dialling.join(WITHIN_S)
     assert tried == kept
-    assert dialling.opened == Opened(sessions[-1], kept[-1] if answers[-1] else tried[-2])
+    assert dialling.opened == Opened(sessions[-1], kept[-1] if answers[-1] else tried[-2], "router")
     assert [one.closed for one in sessions] == [True] * (len(sessions) - 1) + [False]

@@ -154,7 +154,8 @@ def dialled(monkeypatch):
     return watch
 
 
-def test_a_session_that_opens_when_the_old_one_is_linked_again_is_dropped(way, dialled):
+def test_a_link_that_comes_back_by_itself_serves_until_another_one_takes_its_place(way, dialled):
+    """It may be deaf."""
     session = open_session(way.endpoint, WITHIN_S)
     first = session.current
     tried, let_open = dialled()
@@ -162,11 +163,26 @@ def test_a_session_that_opens_when_the_old_one_is_linked_again_is_dropped(way, d
     assert tried.wait(WITHIN_S)
     way.late_s = 0.0
     eventually(session.is_linked, WITHIN_S, "it comes back by itself")
-    other = let_open()
-    eventually(other.is_closed, WITHIN_S, "the new one is closed")
     assert session.current is first
+    other = let_open()
+    eventually(first.is_closed, WITHIN_S, "the first one is left")
+    assert session.current is other
     assert session.is_linked()
     session.close()
+
+
+def test_a_router_that_was_started_again_between_two_looks_is_noticed(monkeypatch):
+    monkeypatch.setattr("services.bus.zenoh.redialling.LOOK_S", 3600.0)
+    endpoint = f"tcp/127.0.0.1:{free_port()}"
+    router = open_router(endpoint)
+    session = open_session(endpoint, WITHIN_S)
+    assert session.is_linked()
+    router.close()
+    router = open_router(endpoint)
+    eventually(session.current.info.routers_zid, WITHIN_S, "it comes back by itself")
+    assert not session.is_linked()
+    session.close()
+    router.close()
 
 
 def test_a_session_that_opens_when_the_old_one_is_closed_is_dropped(way, dialled):
@@ -179,42 +195,73 @@ def test_a_session_that_opens_when_the_old_one_is_closed_is_dropped(way, dialled
     eventually(let_open().is_closed, WITHIN_S, "the new one is closed")
 
 
+class End:
+    """Of looking after a link; nobody waits for it, and all waits are noted."""
+
+    def __init__(self):
+        self.waited = []
+        self._set = False
+
+    def set(self):
+        """No more."""
+        self._set = True
+
+    def is_set(self):
+        """Whether."""
+        return self._set
+
+    def wait(self, seconds):
+        """Note it."""
+        self.waited.append(seconds)
+        return self._set
+
+
 class Link:
-    """One that is looked after; it is there, and needed no more, after so many looks at it."""
+    """One that was lost, and is needed no more once a session was taken in its place.
+
+    Args:
+        takes: how many sessions are offered until one is taken.
+    """
 
     endpoint = parse("tcp/127.0.0.1:7447")
     pace_ms = OPEN_LEAST_MS
 
-    def __init__(self, looks):
-        self.end = threading.Event()
-        self.taken = []
-        self._looks = looks
+    def __init__(self, takes=1):
+        self.end = End()
+        self.offered = []
+        self._looks = iter([False])
+        self._takes = takes
 
     def is_linked(self):
-        """Whether it is there."""
-        self._looks -= 1
-        if self._looks < 0:
-            self.end.set()
-        return self._looks < 0
+        """As Zenoh says: lost at first, then there."""
+        return next(self._looks, True)
 
     def take(self, opened):
         """Was opened."""
-        self.taken.append(opened)
-        self.end.set()
+        self.offered.append(opened)
+        if len(self.offered) == self._takes:
+            self.end.set()
+        return len(self.offered) == self._takes
 
 
 @pytest.fixture
 def looked_after(monkeypatch):
-    """A function that looks after a link over such a way, where every dialling opens; what was opened."""
+    """A function that looks after a link over such a way, where every dialling opens; what was offered to it."""
 
     def look(link, trips):
         turn = iter(trips)
-        monkeypatch.setattr(redialling, "probe", lambda _: next(turn))
+
+        def probe(_):
+            trip = next(turn, None)
+            if trip is None:
+                link.end.set()
+                return Silence("no more is tried")
+            return trip
+
+        monkeypatch.setattr(redialling, "probe", probe)
         monkeypatch.setattr(redialling, "Dialling", At)
-        monkeypatch.setattr(redialling, "AGAIN_S", 0.0)
-        monkeypatch.setattr(redialling, "GRACE_S", 60.0)
         redialling.Redialling(link, link.end).run()
-        return link.taken
+        return link.offered
 
     return look
 
@@ -234,12 +281,20 @@ class At:
 
 
 def test_a_way_that_has_become_too_long_is_dialled_as_soon_as_it_is_there(looked_after):
-    assert looked_after(Link(looks=100), [Silence("no route"), Silence("no answer"), 0.3]) == [Link.endpoint.text]
+    link = Link()
+    assert looked_after(link, [Silence("no route"), Silence("no answer"), 0.3]) == [Link.endpoint.text]
+    assert redialling.GRACE_S not in link.end.waited
 
 
-def test_a_way_that_is_as_before_is_left_to_the_transport(looked_after):
-    assert looked_after(Link(looks=20), [0.0]) == []
+def test_a_way_that_is_as_before_is_left_to_the_transport_first(looked_after):
+    link = Link()
+    assert looked_after(link, [0.0]) == [Link.endpoint.text]
+    assert link.end.waited.count(redialling.GRACE_S) == 1
 
 
 def test_a_way_that_is_not_there_is_not_dialled(looked_after):
-    assert looked_after(Link(looks=20), [Silence("no answer")] * 20) == []
+    assert looked_after(Link(), [Silence("no answer")] * 20) == []
+
+
+def test_a_session_that_could_not_be_taken_is_followed_by_another_although_the_link_is_back(looked_after):
+    assert len(looked_after(Link(takes=3), [0.0] * 3)) == 3

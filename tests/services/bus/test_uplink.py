@@ -100,6 +100,6 @@ class One:
 def test_a_router_is_opened_again_only_where_it_misses_the_other_one_and_dials_too_quickly(joined, pace_ms, slower):
     router = One(joined)
     uplink = Uplink(router, parse("tcp/127.0.0.1:7447"))
-    uplink.take(Opened(One(["other"]), pace_ms))
+    restored = uplink.take(Opened(One(["other"]), pace_ms, "other"))
     assert router.slower == slower
-    assert uplink.is_linked() is ("other" in joined)
+    assert uplink.is_linked() is restored is ("other" in joined)
