@@ -106,10 +106,10 @@ def test_the_command_line_presses_through_an_outage(link, moving, router, tmp_pa
     cut = link.cut()
     sleep_until(cut + CUT_S / 2)
     with Command("stop", "--operator", "bob", "--connect", router, folder=tmp_path, there=link.there) as stop:
+        stop.until(lambda: "NOT confirmed yet" in stop.err, START_S, "it says that nobody has heard it")
         sleep_until(cut + CUT_S)
         link.restore()
         assert stop.ended(START_S) == 0, stop.tail()
-    assert "NOT confirmed yet" in stop.err
     assert "stopped and stands" in stop.err
     eventually(lambda: onlooker.safety["by"] == "bob", WITHIN_S, "the robot tells everybody who stopped it")
     assert travelled(onlooker.since(cut + SETTLED_S)) < STILL_M
