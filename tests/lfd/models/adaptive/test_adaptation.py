@@ -233,7 +233,7 @@ def test_at_corrections_that_agree_the_variance_is_by_hand(count):
     """What is open, what a motion repeats to (half averaged out), how corrections scatter, and what may change."""
     model = AdaptiveProMP.fit([placed(-0.2), placed(0.2)])
     for _ in range(count):
-        model = model.updated(placed(0.05, side=0.2))
+        model = model.updated(placed(0.05, side=0.2, duration=6.0))
     corrections, spread = model.corrections, model.spread
     expected = corrections.regression.at(placed(0.05).condition)
     effect = corrections.effect(expected)

@@ -70,6 +70,11 @@ def test_corrections_that_agree_are_averaged_and_all_count(none):
     assert effect(corrected, HERE).evidence == pytest.approx(5.0, rel=0.01)
 
 
+def test_the_evidence_is_one_where_no_correction_speaks_for_positions(none):
+    assert effect(correct(none, HERE, sized(DURATION, 0.3)), HERE).evidence == 1.0
+    assert effect(correct(none, HERE, sized(POSITION, 0.3)), [1e6, 0.0]).evidence == 1.0
+
+
 @pytest.mark.parametrize("K", [2, 5])
 def test_corrections_that_repeat_each_other_scatter_by_the_noise_that_was_learnt(none, K):
     """K corrections y at one place: y K C / (K C + r C + sigma^2), where C is y^2; a single one knows no sigma."""

@@ -40,6 +40,13 @@ def test_a_number_that_grows_with_a_coordinate_and_an_offset_is_no_length(reach)
     assert scale.axes.tolist() == [-1, 1]
 
 
+def test_a_number_that_is_none_where_a_coordinate_is_and_else_goes_its_own_way_is_no_length(reach):
+    places = [[0.9, 0.3, 0.6], [0.8, 0.0, 0.7], [0.7, 0.2, 0.45]]
+    told = zip(map(reach, places), [2.0, 0.0, 5.0], strict=True)
+    demonstrations = [Demonstration(d.trajectory, d.origin, np.array([d.condition[0], size])) for d, size in told]
+    assert ConditionScale.of(demonstrations, EXTENT).axes.tolist() == [0, -1]
+
+
 def test_one_demonstration_of_a_place_tells_its_unit(reach):
     scale = ConditionScale.of(described(reach, lambda s, i: 10.0 * s)[:1], EXTENT)
     assert scale.axes.tolist() == [0, 1, 2]
