@@ -39,6 +39,11 @@ def test_one_that_fits_several_joins_the_nearest():
     assert sort([[0.2, 0.0], [-0.2, 0.0], [0.0, 0.2]], [0.0, 0.1, 0.08]) == [0, 1, 1]
 
 
+def test_a_way_is_as_near_as_the_nearest_of_it():
+    """The first way also has a correction far away."""
+    assert sort([[0.2, 0.0], [0.2, 0.0], [-0.2, 0.0], [0.0, 0.2]], [0.0, 0.5, 0.1, 0.02]) == [0, 0, 1, 0]
+
+
 def test_one_that_contradicts_a_single_one_of_a_way_does_not_join_it():
     assert sort([[0.2, 0.0], [0.15, 0.2], [-0.2, 0.01]], [0.0, 0.02, 0.03]) == [0, 0, 1]
 
