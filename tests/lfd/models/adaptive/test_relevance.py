@@ -89,9 +89,11 @@ def test_a_change_is_made_only_for_a_gain(rng):
 
 def test_without_a_gain_no_change_is_made_though_none_is_asked_for(rng):
     """A dimension in which all are the same makes no difference, whatever its factor."""
-    S, X, _ = family(rng, 10, useful=1, useless=1)
-    S[:, 1] = 0.0
-    assert relevant(fitted(S, X), replace(OPTIONS, gain=0.0)).scale.relevance[1] == 1.0
+    S = np.column_stack([np.linspace(-0.5, 0.5, OPTIONS.conditions), np.zeros(OPTIONS.conditions)])
+    plain = fitted(S, np.sin(6.0 * S[:, :1]) @ rng.normal(size=(1, D)))
+    chosen = relevant(plain, replace(OPTIONS, gain=0.0))
+    assert chosen is not plain
+    assert chosen.scale.relevance[1] == 1.0
 
 
 @pytest.mark.parametrize("seed", range(4))
