@@ -98,6 +98,17 @@ def test_coordinates_that_each_depend_on_their_own_are_told_from_all_else(rng):
     assert missed < 0.7 * missed_without
 
 
+def test_by_coordinates_a_motion_follows_each_coordinate_of_the_place_in_its_own_only(rng):
+    conditions = rng.normal(size=(8, 3))
+    fitted = regression(conditions, rng.normal(size=(8, D)), axes=[0, 1, 2])
+    fitted.__dict__["shares"] = np.eye(2 * TRENDS - 1)[:, [TRENDS]] * np.ones(3)
+    centre = conditions.mean(axis=0)
+    for axis, step in enumerate(0.1 * np.eye(3)):
+        changed = np.abs(fitted.at(centre + step).mean - fitted.at(centre).mean) > 1e-9
+        of_column = KINDS.axis_of_column
+        np.testing.assert_array_equal(changed, (of_column < 0) | (of_column == axis))
+
+
 @pytest.fixture(params=[None, [1, -1]], ids=["numbers", "place and number"])
 def curved(rng, request):
     conditions = np.repeat(rng.normal(size=(5, 2)), [1, 2, 1, 3, 1], axis=0)
@@ -137,6 +148,11 @@ def test_shares_go_with_a_power_of_the_errors_at_left_out_conditions(curved):
     weights = squares**-OPTIONS.sharpness
     weights[TRENDS - 1] = 0.0  # followed everywhere only if it predicts exactly
     np.testing.assert_allclose(curved.shares, weights / weights.sum(axis=0), rtol=1e-6)
+
+
+def test_however_sharply_trends_are_told_apart_the_best_counts_and_nothing_overflows(curved):
+    sharp = replace(curved, options=replace(OPTIONS, sharpness=1e6))
+    np.testing.assert_allclose(sharp.shares, curved.shares == curved.shares.max(axis=0), atol=1e-9)
 
 
 def test_the_score_is_the_error_at_left_out_conditions_relative_to_the_spread(curved):
