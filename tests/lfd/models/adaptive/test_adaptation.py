@@ -100,6 +100,8 @@ def test_a_condition_of_another_dimension_is_refused(model):
     with pytest.raises(WrongShape):
         model.predict(straight([0.1, 0.2]).situation)
     with pytest.raises(WrongShape):
+        model.distribution(straight([0.1, 0.2]).situation)
+    with pytest.raises(WrongShape):
         AdaptiveProMP.fit([straight([0.1, 0.2]), straight([0.1])])
 
 

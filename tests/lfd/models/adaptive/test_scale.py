@@ -80,6 +80,8 @@ def test_where_nothing_moves_there_are_no_lengths(reach):
     demonstrations = described(reach, lambda s, i: s)
     here = [Demonstration(d.trajectory, d.trajectory.positions[0], d.condition) for d in demonstrations]
     assert not ConditionScale.of(here, EXTENT).lengths.any()
+    nowhere = [Demonstration(d.trajectory, d.origin, np.zeros(3)) for d in here]
+    assert not ConditionScale.of(nowhere, EXTENT).lengths.any()
 
 
 def test_a_dimension_that_never_varied_makes_no_difference_and_is_told_apart():
