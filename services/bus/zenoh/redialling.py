@@ -22,7 +22,7 @@ from services.process.exceptions import BadEndpoint
 log = logging.getLogger(__name__)
 
 LOOK_S = 0.25
-"""Between two looks at a link that is there; one that is lost for less is bridged by TCP, or was never lost."""
+"""Between two looks at a link that is there; a loss between them shows only where the router has become another."""
 
 GRACE_S = 1.0
 """How long nobody else dials once the way is there, where Zenoh's pace fits it: a stop that waits comes first."""

@@ -6,6 +6,9 @@ import socket
 import threading
 import time
 
+LATE_S = 0.2
+"""So late nobody is through in the time that a link over loopback is given."""
+
 
 class Late:
     """Stands before a router and passes on what both sides say, what the router says each time so much later.

@@ -7,21 +7,12 @@ from services.bus.zenoh.dialling import Opened
 from services.bus.zenoh.router import Uplink
 from services.process.endpoint import parse
 from tests.ports import free_port
-from tests.services.bus.late import Late
+from tests.services.bus.late import LATE_S, Late
 from tests.system.harness import eventually
 
-pytestmark = pytest.mark.zenoh
+pytestmark = [pytest.mark.zenoh, pytest.mark.usefixtures("soon")]
 
 WITHIN_S = 60.0
-LATE_S = 0.2
-"""So late nobody is through in the time that a link over loopback is given."""
-
-
-@pytest.fixture(autouse=True)
-def _soon(monkeypatch):
-    """What is waited for in a real outage is waited for shortly."""
-    monkeypatch.setattr("services.bus.zenoh.redialling.LOOK_S", 0.05)
-    monkeypatch.setattr("services.bus.zenoh.redialling.GRACE_S", 0.1)
 
 
 @pytest.fixture

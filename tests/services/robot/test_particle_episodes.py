@@ -9,12 +9,10 @@ from lfd.motion.resampling import from_samples
 from lfd.motion.trajectory import Trajectory
 from protocol import messages, queries, topics
 from protocol.messages import Mode
-from protocol.queries import Accepted, AuthorityGranted, EpisodeStarted, Refused
+from protocol.queries import Accepted, EpisodeStarted, Refused
 from services.bus.arrays import from_wire, motion_to_wire
-from services.bus.memory import MemoryNetwork
 from services.offline.demonstrations import demonstrations
 from services.offline.rollout import rollout
-from services.process.clock import ManualClock
 from services.process.config import Configuration, RobotSection
 from services.robot.assembly import simulated_arm
 from services.robot.correction import Correction
@@ -27,6 +25,7 @@ from sim.robots.gripper import pitched_down
 from sim.tasks import PARTICLE
 from sim.tasks.particle import OBSTACLE_TRAINING
 from tests.services.predictions import announce
+from tests.services.robot.operated import Operated
 
 pytestmark = pytest.mark.sim
 
@@ -122,42 +121,21 @@ def test_no_motion_starts_in_the_obstacle_beside_the_plane_or_turned():
     assert arm.start is PARTICLE.start
 
 
-class Site:
-    """A robot process with the particle, an operator, and a clock that is moved by hand."""
+class Site(Operated):
+    """One with the particle."""
 
     def __init__(self):
-        self.clock = ManualClock()
-        self.network = MemoryNetwork(self.clock)
-        self.operator = self.network.bus()
         configuration = Configuration(robot=RobotSection(scene="particle"))
-        self.service = build(self.network.bus(), self.clock, configuration, Volatile())
+        super().__init__(lambda bus, clock: build(bus, clock, configuration, Volatile()))
         self.scenes = self.operator.subscribe(topics.SCENE_STATE)
         self.worlds = self.operator.subscribe(topics.WORLD_STATE)
         self.results = self.operator.subscribe(topics.EPISODE_RESULT)
-        self.epoch = 0
-
-    def run(self, seconds, master=None):
-        for _ in range(round(seconds * 100)):
-            self.clock.advance(0.01)
-            renewal = messages.AuthorityRenewal(holder="ann", epoch=self.epoch)
-            self.operator.publish(topics.AUTHORITY_RENEWAL, renewal)
-            if master is not None:
-                state = messages.MasterState(displacement=master, engaged=True, holder="ann", epoch=self.epoch)
-                self.operator.publish(topics.MASTER_STATE, state)
-            self.service.step(self.clock.now_ns())
-
-    def ask(self, query, request):
-        pending = self.operator.ask(query, request)
-        self.run(0.01)
-        return pending.poll()
 
 
 @pytest.fixture
 def site():
     site = Site()
-    granted = site.ask(queries.ACQUIRE, queries.AcquireAuthority("ann"))
-    assert isinstance(granted, AuthorityGranted)
-    site.epoch = granted.epoch
+    site.acquire()
     return site
 
 
