@@ -23,7 +23,8 @@ class Opened:
     Attributes:
         session: the session.
         pace_ms: how long each of its attempts to open the link again may take [ms].
-        router: at the other end of the link, which does not come back as the same one where it was started again.
+        router: at the other end of the link; none where that was lost at once.
+        lost: set once the link was lost, whether or not Zenoh has found it again since.
         publishers: that were declared on it, by what they are called; empty at first.
         declared: whatever else was; some of it lasts only as long as it is kept.
     """
@@ -31,6 +32,7 @@ class Opened:
     session: zenoh.Session
     pace_ms: int
     router: zenoh.ZenohId | None = None
+    lost: threading.Event = field(default_factory=threading.Event, compare=False)
     publishers: dict[str, zenoh.Publisher] = field(default_factory=dict)
     declared: list[object] = field(default_factory=list)
 
@@ -116,4 +118,15 @@ class Dialling(threading.Thread):
 
 
 def _linked(session: zenoh.Session, pace_ms: int) -> Opened:
-    return Opened(session, pace_ms, next(iter(session.info.routers_zid()), None))
+    lost = threading.Event()
+
+    def note(event: zenoh.TransportEvent) -> None:
+        if event.kind == zenoh.SampleKind.DELETE:
+            lost.set()
+
+    # What has a callback lasts as long as the session. The router is asked for afterwards: no loss falls between.
+    session.info.declare_transport_events_listener(note)
+    router = next(iter(session.info.routers_zid()), None)
+    if router is None:
+        lost.set()
+    return Opened(session, pace_ms, router, lost)

@@ -22,7 +22,7 @@ from services.process.exceptions import BadEndpoint
 log = logging.getLogger(__name__)
 
 LOOK_S = 0.25
-"""Between two looks at a link that is there; a loss between them shows only where the router has become another."""
+"""Between two looks whether the link was lost meanwhile."""
 
 GRACE_S = 1.0
 """How long nobody else dials once the way is there, where Zenoh's pace fits it: a stop that waits comes first."""
@@ -45,7 +45,7 @@ class Redialled(Protocol):
         ...
 
     def is_linked(self) -> bool:
-        """Whether it is there, and was all the time as far as can be told."""
+        """Whether it is there, and was all the time."""
         ...
 
     def take(self, opened: Opened) -> bool:

@@ -55,9 +55,8 @@ class Session:
         return self._opened.pace_ms
 
     def is_linked(self) -> bool:
-        """Whether there is a link to the router, and to the same one as at first."""
-        opened = self._opened
-        return opened.router in opened.session.info.routers_zid()
+        """Whether there is a link to the router, and was all the time since this session took its place."""
+        return not self._opened.lost.is_set()
 
     def use(self, act: Callable[[Opened], T]) -> T:
         """What the act returns, with Zenoh's session as it is now; once more where that was exchanged meanwhile."""

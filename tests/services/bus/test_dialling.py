@@ -56,6 +56,7 @@ class OneSession:
         self.closed = False
         self.info = self
         self.routers_zid = lambda: ["router"]
+        self.declare_transport_events_listener = lambda _: None
 
     def close(self):
         """Leave."""

@@ -1,5 +1,6 @@
 """A link that Zenoh does not find again by itself, because the way has become another, is opened anew."""
 
+import gc
 import threading
 
 import pytest
@@ -153,12 +154,34 @@ def test_a_link_that_comes_back_by_itself_serves_until_another_one_takes_its_pla
     becomes_longer(way)
     assert tried.wait(WITHIN_S)
     way.late_s = 0.0
-    eventually(session.is_linked, WITHIN_S, "it comes back by itself")
+    eventually(first.info.routers_zid, WITHIN_S, "it comes back by itself")
     assert session.current is first
     other = let_open()
     eventually(first.is_closed, WITHIN_S, "the first one is left")
     assert session.current is other
     assert session.is_linked()
+    session.close()
+
+
+def test_a_loss_is_noticed_that_is_over_before_anybody_looks(way, monkeypatch):
+    monkeypatch.setattr("services.bus.zenoh.redialling.LOOK_S", 3600.0)
+    session = open_session(way.endpoint, WITHIN_S)
+    gc.collect()
+    opened = way.opened
+    assert session.is_linked()
+    way.cut()
+    eventually(lambda: way.opened > opened and session.current.info.routers_zid(), WITHIN_S, "it comes back by itself")
+    assert not session.is_linked()
+    session.close()
+
+
+def test_after_every_loss_the_session_is_opened_anew(way):
+    session = open_session(way.endpoint, WITHIN_S)
+    for _ in range(5):
+        before = session.current
+        way.cut()
+        eventually(before.is_closed, WITHIN_S, "it is left")
+        assert session.is_linked()
     session.close()
 
 
