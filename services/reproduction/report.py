@@ -8,10 +8,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from functools import cache
+from importlib.metadata import version
 from pathlib import Path
 
 import jinja2
-import matplotlib as mpl
 import numpy as np
 
 from services.process.files import write_whole
@@ -120,7 +120,7 @@ def html(entries: Sequence[Entry], seeds: Sequence[int]) -> str:
         people=len(seeds),
         first_seed=seeds[0],
         made=f"{datetime.now(UTC):%d %B %Y, %H:%M} UTC",
-        versions=f"Python {platform.python_version()}, NumPy {np.__version__}, Matplotlib {mpl.__version__}",
+        versions=f"Python {platform.python_version()}, NumPy {np.__version__}, Matplotlib {version('matplotlib')}",
     )
 
 

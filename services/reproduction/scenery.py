@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from mpl_toolkits.mplot3d.art3d import Poly3DCollection
-from mpl_toolkits.mplot3d.axes3d import Axes3D
 from numpy.typing import NDArray
 
 from lfd.motion.rotations import matrix_from_quaternion
 from services.reproduction.style import Line
 from sim.tasks.scene import OBJECT_SIZE, Box, Group, Vector
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+    from mpl_toolkits.mplot3d.axes3d import Axes3D
 
 Array = NDArray[np.float64]
 
@@ -27,6 +30,8 @@ _ZOOM = 1.15
 
 def solid(axes: Axes) -> Axes3D:
     """The axes, which are of three dimensions."""
+    from mpl_toolkits.mplot3d.axes3d import Axes3D  # noqa: PLC0415 - see `style`
+
     if not isinstance(axes, Axes3D):
         raise TypeError("these axes have two dimensions")
     return axes
@@ -50,9 +55,8 @@ def furnish(axes: Axes, boxes: Sequence[Box], lower: Vector, upper: Vector) -> N
             continue
         corners = np.clip(corners, lower, upper)
         alpha = 0.10 if box.group is Group.PANEL else 0.22
-        faces = [corners[list(face)] for face in _FACES]
         pane.add_collection3d(
-            Poly3DCollection(faces, facecolors=box.rgba[:3], edgecolors="#7c8794", linewidths=0.4, alpha=alpha)
+            _block(corners, facecolors=box.rgba[:3], edgecolors="#7c8794", linewidths=0.4, alpha=alpha)
         )
     pane.set(xlim=(lower[0], upper[0]), ylim=(lower[1], upper[1]), zlim=(lower[2], upper[2]))
     pane.set_box_aspect(np.subtract(upper, lower).tolist(), zoom=_ZOOM)
@@ -67,10 +71,15 @@ def furnish(axes: Axes, boxes: Sequence[Box], lower: Vector, upper: Vector) -> N
 def place_object(axes: Axes, position: Sequence[float]) -> None:
     """Draw the object, its centre at a position [m]."""
     corners = np.asarray(position) + _CORNERS * np.array(OBJECT_SIZE) / 2
-    faces = [corners[list(face)] for face in _FACES]
-    solid(axes).add_collection3d(Poly3DCollection(faces, facecolors=OBJECT, edgecolors="white", linewidths=0.3))
+    solid(axes).add_collection3d(_block(corners, facecolors=OBJECT, edgecolors="white", linewidths=0.3))
 
 
 def draw_way(axes: Axes, positions: Array, line: Line, label: str | None = None) -> None:
     """Draw a motion's positions, shape (n, 3) [m]."""
     solid(axes).plot(*positions.T, **line(label))
+
+
+def _block(corners: Array, **look: Any) -> Poly3DCollection:
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # noqa: PLC0415 - see `style`
+
+    return Poly3DCollection([corners[list(face)] for face in _FACES], **look)

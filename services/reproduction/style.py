@@ -1,6 +1,7 @@
 """How the report's plots look: one restrained style, and one colour for one thing.
 
-The hues are Okabe and Ito's, which everybody can tell apart, dark enough for a light ground.
+The hues are Okabe and Ito's, which everybody can tell apart, dark enough for a light ground. Matplotlib is imported
+where something is drawn: who only computes, as every run but the first does, has no use for it.
 """
 
 from __future__ import annotations
@@ -9,14 +10,14 @@ import io
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
-from typing import Any
-
-import matplotlib as mpl
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure as Canvas
+from typing import TYPE_CHECKING, Any
 
 from services.reproduction.analysis import Figure
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Canvas
 
 CONDITIONED = "#d55e00"  # the thesis' model
 ADAPTIVE = "#0072b2"  # the default model
@@ -91,6 +92,8 @@ DEMONSTRATION_LINE = Line(DEMONSTRATION, 1.0)
 
 @contextmanager
 def _styled() -> Iterator[None]:
+    import matplotlib as mpl  # noqa: PLC0415 - as above
+
     with mpl.rc_context(_STYLE):  # type: ignore[arg-type]  # its stub wants literal keys
         yield
 
@@ -106,6 +109,8 @@ def panels(
         rows: that the panels are laid out in.
         solid: the axes are of three dimensions.
     """
+    from matplotlib.figure import Figure as Canvas  # noqa: PLC0415 - as above
+
     columns = -(-len(titles) // rows)
     with _styled():
         canvas = Canvas(figsize=(WIDTH, height * rows), layout="constrained")

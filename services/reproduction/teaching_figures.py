@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-
-from matplotlib.axes import Axes
+from typing import TYPE_CHECKING
 
 from protocol.messages import Mode
 from services.offline.result import Course
@@ -14,6 +13,9 @@ from services.reproduction.scenery import draw_way, furnish, place_object
 from services.reproduction.style import DEMONSTRATION_LINE, REFINEMENT, Line, drawn, panels
 from services.reproduction.teaching import Answer
 from sim.tasks.scene import Vector
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 Part = tuple[Vector, Vector]
 """Least and greatest corner of the part of space that is drawn [m]."""

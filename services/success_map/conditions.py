@@ -8,7 +8,6 @@ from enum import Enum
 import msgspec
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import qmc
 
 from protocol.messages import Vector3
 from services.bus.arrays import vector3
@@ -135,6 +134,8 @@ def grid(scene: AnyScene, n: int, spread: float) -> tuple[Setting, ...]:
         n: at least 1.
         spread: of a start from the scene's own along each axis, at most [m].
     """
+    from scipy.stats import qmc  # noqa: PLC0415 - takes long to import, and a wrong flag is told before
+
     lower, upper = np.array(scene.region.lower), np.array(scene.region.upper)
     depth, width = (upper - lower)[:2]
     across = max(1, round(n * math.sqrt(width / depth)))

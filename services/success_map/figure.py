@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
 from lfd.motion.rotations import matrix_from_quaternion
@@ -17,6 +16,9 @@ from services.reproduction.style import ADAPTIVE, CONDITIONED, OBSTACLE, REFINEM
 from services.success_map.conditions import Condition, Ending, SuccessMap, Target, stage_name
 from sim.tasks import AnyScene
 from sim.tasks.scene import OBJECT_SIZE, Box, Group
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 Array = NDArray[np.float64]
 
@@ -185,6 +187,8 @@ def _within(boxes: list[Box], axis: int, lower: float, upper: float) -> list[Box
 
 def _outline(axes: Axes, view: _View, boxes: list[Box], origin: Array) -> None:
     """Draw boxes around what is shown already, without showing more than a little of them."""
+    from matplotlib.patches import Rectangle  # noqa: PLC0415 - see `style`
+
     shown = axes.get_xlim(), axes.get_ylim()
     for box in boxes:
         low, high = (corner - origin for corner in _extent(box))

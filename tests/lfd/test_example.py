@@ -20,7 +20,7 @@ pytestmark = pytest.mark.sim  # draws, which takes a second to load
 
 def test_the_readmes_example_makes_its_picture(tmp_path):
     (tmp_path / "deploy").symlink_to(ROOT / "deploy")
-    environment = {**os.environ, "MPLBACKEND": "Agg", "PYTHONPATH": str(ROOT), "MPLCONFIGDIR": str(tmp_path / "fonts")}
+    environment = {**os.environ, "MPLBACKEND": "Agg", "PYTHONPATH": str(ROOT)}
     command = [sys.executable, "-W", "error", "-c", EXAMPLE]
     done = subprocess.run(
         command, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=120, check=False

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import product
+from typing import TYPE_CHECKING
 
 import msgspec
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.patches import Ellipse, Rectangle
 from numpy.typing import NDArray
 
 from lfd.motion.trajectory import Trajectory
@@ -23,6 +22,9 @@ from services.reproduction.teaching import Answer, Question
 from services.reproduction.teaching_figures import REFINEMENT_LINE, prediction_line
 from sim.tasks.particle import OBSTACLE_TRAINING, PARTICLE, X_UNIT, Y_UNIT
 from sim.tasks.scene import Group
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 Array = NDArray[np.float64]
 
@@ -241,6 +243,8 @@ def _beyond_figure(answer: Answer, reference: str) -> Figure:
 
 def _furnish(axes: Axes, variant: str) -> None:
     """What stands in the way, in the thesis' units."""
+    from matplotlib.patches import Rectangle  # noqa: PLC0415 - see `style`
+
     for box in PARTICLE.boxes(variant):
         if box.group is not Group.DETAIL:
             centre, half = (np.array(v[:2]) / (X_UNIT, Y_UNIT) for v in (box.centre, box.half_sizes))
@@ -251,6 +255,8 @@ def _furnish(axes: Axes, variant: str) -> None:
 
 def _mark(axes: Axes, arrangement: Arrangement) -> None:
     """The via-points, as rings of the tolerance."""
+    from matplotlib.patches import Ellipse  # noqa: PLC0415 - see `style`
+
     width, height = 2.0 * PARTICLE.tolerance / np.array((X_UNIT, Y_UNIT))
     for x, y in zip(np.array(PARTICLE.via_x) / X_UNIT, arrangement.place / Y_UNIT, strict=True):
         axes.add_patch(Ellipse((x, y), width, height, fill=False, edgecolor=TRUTH, linewidth=1.0, zorder=3.0))

@@ -6,8 +6,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from matplotlib.patches import Rectangle
-from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from lfd.motion.demonstration import Demonstration
@@ -166,6 +164,8 @@ def _fed(kind: Contender, demonstrations: Sequence[Demonstration], refinement: D
 
 
 def _predictions_figure(ways: Mapping[Contender, Way], refinement: Demonstration) -> Figure:
+    from matplotlib.patches import Rectangle  # noqa: PLC0415 - see `style`
+
     canvas, panes = panels([kind.label for kind in SHOWN], height=3.0)
     for axes, kind in zip(panes, SHOWN, strict=True):
         way = ways[kind]
@@ -194,6 +194,8 @@ def _predictions_figure(ways: Mapping[Contender, Way], refinement: Demonstration
 
 
 def _rest_figure(ways: Mapping[int, Mapping[Contender, Way]], refinement: Demonstration) -> Figure:
+    from matplotlib.ticker import MaxNLocator  # noqa: PLC0415 - see `style`
+
     canvas, panes = panels([f"after {count} demonstrations" for count in ways], height=2.4)
     for axes, of_kinds in zip(panes, ways.values(), strict=True):
         for kind, way in of_kinds.items():

@@ -11,7 +11,6 @@ from typing import Self
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
-from scipy.optimize import minimize
 
 from lfd.arrays import Array
 from lfd.models.model import Prediction
@@ -68,6 +67,8 @@ class GaussianProcess:
 
     @classmethod
     def _learnt(cls, examples) -> Self:
+        from scipy.optimize import minimize
+
         S = examples.conditions
         # A dimension that never changes has no length to learn; any will do.
         spread = np.where(np.ptp(S, axis=0) > 0.0, S.std(axis=0), 1.0)

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.integrate import solve_ivp
 
 from lfd.exceptions import (
     InvalidDuration,
@@ -89,6 +88,8 @@ def test_a_recorded_motion_is_reproduced_to_a_millimetre(recordings, name):
 
 @pytest.mark.parametrize("options", [DmpOptions(), DmpOptions(count=20, alpha_y=40.0, alpha_x=3.0)])
 def test_it_solves_equations_b9_to_b12(motion, options):
+    from scipy.integrate import solve_ivp
+
     primitive = DMP.fit(motion, options)
     c = np.exp(-options.alpha_x * np.linspace(0.0, 1.0, options.count))
     h = 1.0 / np.append(c[:-1] - c[1:], c[-2] - c[-1]) ** 2

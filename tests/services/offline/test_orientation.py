@@ -27,7 +27,7 @@ pytestmark = pytest.mark.sim
 
 MORNING = datetime(2026, 3, 1, 8, 0, tzinfo=UTC)
 ROLL = np.array([0.5, 0.0, 0.0])  # [rad] about the gripper's own axis
-REFINE_S, AUTONOMOUS_S = 20.0, 10.0
+REFINE_S, AUTONOMOUS_S = 20.0, 5.0
 
 
 class Site:

@@ -2,7 +2,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.stats import binomtest
 
 from services.offline.proportion import Proportion
 
@@ -11,6 +10,8 @@ COUNTS = st.integers(1, 500).flatmap(lambda n: st.tuples(st.integers(0, n), st.j
 
 @given(COUNTS)
 def test_the_interval_is_the_one_of_wilson(counts):
+    from scipy.stats import binomtest
+
     expected = binomtest(*counts).proportion_ci(method="wilson")
     np.testing.assert_allclose(Proportion(*counts).interval, expected, atol=1e-12)
 

@@ -101,7 +101,7 @@ def test_a_course_succeeds_only_by_a_prediction_and_counts_what_it_took():
 
 
 @pytest.mark.sim
-def test_one_condition_is_refined_learnt_and_then_succeeds_again():
+def test_one_condition_is_refined_learnt_and_then_succeeds_again(hurried):
     """Algorithm 1 with the default model in the changed dishwasher; the second round finds it learnt."""
     arrangement = Arrangement("b2", PLACE)
     demonstrations = tuple(first_demonstrations(DISHWASHER))
@@ -123,7 +123,7 @@ def test_one_condition_is_refined_learnt_and_then_succeeds_again():
 
 
 @pytest.mark.sim
-def test_a_condition_of_the_scenes_own_is_taught_in_the_same_way():
+def test_a_condition_of_the_scenes_own_is_taught_in_the_same_way(hurried):
     """Via-points ten units away from those that the first demonstration passes."""
     arrangement = Arrangement("free", condition=(0.1, 0.1))
     rehearsed = rehearse(Plan("particle", "adaptive", tuple(first_demonstrations(PARTICLE)), (arrangement,)))

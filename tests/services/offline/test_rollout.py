@@ -25,7 +25,7 @@ def arm():
     return simulated_arm(SCENE, "b1", prepare())
 
 
-def corridor(variant, duration=12.0):
+def corridor(variant, duration=6.0):
     """The corridor of a variant, in the tempo of the first one so that the two pair."""
     steps = np.linalg.norm(np.diff(SCENE.corridor("b1", PLACE).positions, axis=0), axis=1)
     times = np.concatenate([[0.0], np.cumsum(steps)]) / np.sum(steps) * duration

@@ -154,10 +154,19 @@ SIMULATED = {"via-points", "obstacle", "table", "dishwasher", "initial-poses", "
 """Minutes each: the laws that they rest on are tested above and beside, and one condition of one scene below."""
 
 
+SHORT = {
+    "dmp._GRID": 1,  # six models at nine places take minutes
+    "dmp.DURATION_S": 4.0,
+    "next_waypoint._DURATION": 5.0,
+}
+"""Sizes of the analyses that follow: enough to find numbers."""
+
+
 @pytest.mark.sim
 @pytest.mark.parametrize("name", [one.name for one in ANALYSES if one.name not in SIMULATED])
 def test_an_analysis_finds_numbers_and_draws_them(name, monkeypatch):
-    monkeypatch.setattr("services.reproduction.analyses.dmp._GRID", 1)  # six models at nine places take minutes
+    for size, value in SHORT.items():
+        monkeypatch.setattr(f"services.reproduction.analyses.{size}", value)
     shares = []
     found = analysis(name).run(Context(0, shares.append))
     assert found.rows
@@ -181,7 +190,7 @@ def test_an_analysis_depends_on_nothing_but_the_code_and_the_seed(name):
 
 
 @pytest.mark.sim
-def test_every_model_is_taught_the_same_condition_by_the_same_person():
+def test_every_model_is_taught_the_same_condition_by_the_same_person(hurried):
     shown, asked = (Arrangement("free", condition=place) for place in ((0.0, 0.0), (0.1, 0.1)))
     answer = answered(Question(PARTICLE, (shown,), (asked,), ()), Context(0, illustrated=False))
     assert answer.rounds.keys() == BY_NAME.keys()

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.stats import ttest_1samp
 
 from services.offline.proportion import Proportion
 from services.reproduction.analysis import Analysis, Claim, Finding, Relation, Row, Source
@@ -63,6 +62,8 @@ def test_a_claim_in_which_nobody_takes_part_holds_or_does_not():
 
 @given(amounts)
 def test_the_interval_of_a_mean_is_student_s_within_what_can_be(values):
+    from scipy.stats import ttest_1samp
+
     found = Estimate.of(values, total=10.0)
     assert 0.0 <= found.low <= found.mean * (1 + 1e-12) + 1e-12
     assert found.mean * (1 - 1e-12) - 1e-12 <= found.high <= 10.0 + 1e-12

@@ -2,7 +2,6 @@
 
 import io
 
-import matplotlib.image
 import msgspec
 import numpy as np
 import pytest
@@ -110,8 +109,10 @@ def test_a_summary_of_one_stage_and_of_nothing():
 @pytest.mark.sim
 @pytest.mark.parametrize("outcomes", [[(C, R), (Ending.KICKED_OVER, Ending.NOT_REACHED), (U, U)], [(R,), (U,)]])
 def test_a_picture_shows_what_there_is(outcomes):
+    from matplotlib.image import imread
+
     found = mapped(*outcomes, corrections=tuple(range(len(outcomes[0]))))
-    picture = matplotlib.image.imread(io.BytesIO(figure(DISHWASHER, found, DEFAULT).image))
+    picture = imread(io.BytesIO(figure(DISHWASHER, found, DEFAULT).image))
     height, width, _ = picture.shape
     assert width > height > 600
     colors = {tuple(color) for color in np.round(255 * picture[..., :3].reshape(-1, 3)).astype(int)}
@@ -261,11 +262,13 @@ def test_corrections_go_through_the_trained_places_first_and_then_as_far_apart_a
 
 @pytest.mark.sim
 def test_the_figure_of_the_particle_shows_conditions_and_the_order_of_corrections():
+    from matplotlib.image import imread
+
     places = [Setting((0.01 * i, -0.01 * i)) for i in range(5)]
     tried = tuple(Condition(one, (Trial(C), Trial(R))) for one in places)
     order = ((0.0, 0.0), (0.1, 0.1), (-0.1, 0.05))
     plain, marked = (
-        matplotlib.image.imread(
+        imread(
             io.BytesIO(
                 figure(
                     PARTICLE, SuccessMap("particle", "obstacle", "adaptive", (0, 3), tried, corrected), DEFAULT
@@ -294,7 +297,7 @@ def test_people_take_turns_at_the_conditions_of_the_particle():
 
 
 @pytest.mark.sim
-def test_the_operator_corrects_once_and_that_is_seen(tmp_path):
+def test_the_operator_corrects_once_and_that_is_seen(tmp_path, hurried):
     found = draw_map(Request(teach=True, grid=1, spread=0.0, jobs=1, out=tmp_path / "map.png"))
     assert found.corrections == (0, 1)
     assert found.count(0, C) == len(found.conditions) == found.count(1, R)
