@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -116,7 +118,7 @@ def test_an_object_that_topples_is_kicked_over_though_its_centre_moved_less_than
 ):
     """On its way down the open gripper moves sideways: a finger tips the object over its edge."""
     place, trained = reaching.training_positions[0], reaching.variants[0]
-    way = steered(reaching.corridor(trained, place), None)
+    way = replace(steered(reaching.corridor(trained, place), None), duration=5.0)
     share = np.clip((np.linspace(0.0, 1.0, len(way.positions)) - 0.75) / 0.2, 0.0, 1.0)
     pushing = Trajectory(way.positions + np.outer(share, [0.0, 0.08, 0.02]), way.orientations, way.duration)
     verdict = rollout(simulated_arm(reaching, trained, prepare()), pushing, place).verdict

@@ -156,8 +156,8 @@ SIMULATED = {"via-points", "obstacle", "table", "dishwasher", "initial-poses", "
 
 SHORT = {
     "dmp._GRID": 1,  # six models at nine places take minutes
-    "dmp.DURATION_S": 4.0,
-    "next_waypoint._DURATION": 5.0,
+    "dmp.DURATION_S": 3.0,
+    "next_waypoint._DURATION": 3.0,
 }
 """Sizes of the analyses that follow: enough to find numbers."""
 
