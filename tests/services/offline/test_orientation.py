@@ -27,7 +27,7 @@ pytestmark = pytest.mark.sim
 
 MORNING = datetime(2026, 3, 1, 8, 0, tzinfo=UTC)
 ROLL = np.array([0.5, 0.0, 0.0])  # [rad] about the gripper's own axis
-REFINE_S, AUTONOMOUS_S = 20.0, 5.0
+AUTONOMOUS_S = 5.0
 
 
 class Site:
@@ -36,8 +36,8 @@ class Site:
     By a person with a steady hand and a good eye, so that what is left of an error is the loop's.
     """
 
-    def __init__(self, name, variant, folder):
-        self.scene, self.variant = scene(name), variant
+    def __init__(self, name, variant, refine_s, folder):
+        self.scene, self.variant, self.refine_s = scene(name), variant, refine_s
         self.place = np.mean([self.scene.region.lower, self.scene.region.upper], axis=0)
         self.clock = ManualClock()
         network = MemoryNetwork(self.clock)
@@ -118,8 +118,8 @@ class Site:
 
 @pytest.fixture(
     params=[
-        pytest.param(("dishwasher", "b1"), id="the orientation alone"),
-        pytest.param(("table", "box"), id="position and orientation together"),
+        pytest.param(("dishwasher", "b1", 10.0), id="the orientation alone"),
+        pytest.param(("table", "box", 20.0), id="position and orientation together"),
     ],
 )
 def site(request, tmp_path):
@@ -133,7 +133,7 @@ def test_an_orientation_that_was_taught_wrongly_is_corrected_once_and_learnt(sit
     _, before = site.errors(wrong.motion)
     assert before[-1] == pytest.approx(0.5, abs=0.01)
 
-    refinement = site.execute(Mode.REFINE, wrong, REFINE_S)
+    refinement = site.execute(Mode.REFINE, wrong, site.refine_s)
     assert refinement.completed
     assert refinement.operator_input
     assert refinement.verdict.reached

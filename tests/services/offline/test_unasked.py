@@ -10,11 +10,13 @@ from services.offline.first_demonstrations import first_demonstrations
 from services.offline.stage import Stage
 from services.process.config import Configuration, ModelSection, RobotSection, StationSection
 from services.station.service import StationService, settings
+from services.station.workflow.episode import UNSEEN_AFTER_RESET_S
 from sim.tasks.particle import PARTICLE
 
 pytestmark = pytest.mark.sim
 
 MOVING = {Phase.RAMP, Phase.EXECUTE, Phase.HOLD}
+LONG = UNSEEN_AFTER_RESET_S + 1.0  # [s] longer than robot and station wait for anything while nothing is executed
 
 
 class Tab:
@@ -123,10 +125,10 @@ def person(tmp_path, monkeypatch):
 
 
 def test_nothing_moves_before_a_press_and_each_press_is_one_episode(person):
-    assert person.phases(30.0) == {Phase.IDLE}
+    assert person.phases(LONG) == {Phase.IDLE}
     person.press("execute")
     person.until("deciding")
-    assert person.phases(30.0) == {Phase.IDLE}
+    assert person.phases(LONG) == {Phase.IDLE}
 
 
 def test_after_a_stop_and_its_release_from_elsewhere_nothing_moves(person):
@@ -137,7 +139,7 @@ def test_after_a_stop_and_its_release_from_elsewhere_nothing_moves(person):
     pending = person.way_in.ask(queries.RELEASE_STOP, queries.ReleaseStop("bob"))
     person.run(lambda: pending.poll() is not None)
     person.until("deciding")
-    assert not MOVING & person.phases(30.0)
+    assert not MOVING & person.phases(LONG)
 
 
 def test_a_stop_of_the_page_is_confirmed_and_released_by_its_person(person):
@@ -149,7 +151,7 @@ def test_a_stop_of_the_page_is_confirmed_and_released_by_its_person(person):
     assert person.actions() == {"release_stop"}
     person.page.pressed = ["release_stop"]
     person.until("deciding")
-    assert not MOVING & person.phases(30.0)
+    assert not MOVING & person.phases(LONG)
 
 
 @pytest.mark.parametrize("absence", [0.8, 5.0])
@@ -171,7 +173,7 @@ def test_a_station_that_was_taken_over_moves_nothing_after_the_other_has_gone(pe
     pending = person.way_in.ask(queries.ACQUIRE, queries.AcquireAuthority("station-2", "bob", take_over=True))
     person.run(lambda: pending.poll() is not None)
     person.until("watching")
-    assert person.phases(30.0) == {Phase.IDLE}
+    assert person.phases(LONG) == {Phase.IDLE}
     assert person.actions() == {"ask", "take_over"}
     person.page.pressed = ["ask"]
     person.until("deciding")
