@@ -112,8 +112,9 @@ class World:
             q = self._data.qpos[self._q]
             error = q_reference - remaining * TIMESTEP * qd_reference - q
             # A blocked joint is not pushed on by the velocity that it cannot have.
-            free = np.clip(2.0 - np.abs(error) / _REACH, 0.0, 1.0)
-            pull = np.clip(error, -_REACH, _REACH) + free * self._lead * qd_reference
+            # Not by np.clip: of so few numbers it takes five times as long.
+            free = np.minimum(np.maximum(2.0 - np.abs(error) / _REACH, 0.0), 1.0)
+            pull = np.minimum(np.maximum(error, -_REACH), _REACH) + free * self._lead * qd_reference
             self._data.ctrl[: len(CONTROLLED_JOINTS)] = q + pull
             mujoco.mj_step(self._model, self._data)
             found.extend(collisions(self._model, self._data))
