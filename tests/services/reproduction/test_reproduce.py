@@ -265,8 +265,8 @@ def test_figures_are_drawn_only_where_they_are_wanted():
 
 @pytest.mark.system
 def test_two_at_once_in_processes_of_their_own(tmp_path, capfd):
-    names = ["welford", "time-warping"]
-    assert main(["reproduce", *names, "--out", str(tmp_path), "--jobs", "2", "--people", "2"]) == 0
+    name = "time-warping"
+    assert main(["reproduce", name, "--out", str(tmp_path), "--jobs", "2", "--people", "2"]) == 0
     assert capfd.readouterr().out.strip() == str(tmp_path / "report.html")
     store = Store(tmp_path, command.code_key())
-    assert all(isinstance(store.read(Run(name, seed, seed == 0)), Done) for name in names for seed in range(2))
+    assert all(isinstance(store.read(Run(name, seed, seed == 0)), Done) for seed in range(2))
