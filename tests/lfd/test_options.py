@@ -83,6 +83,7 @@ NUMBERS_BEYOND = {
     CovarianceOptions: {
         "open_slope": [-0.1, *NEVER],
         "near_std": [0.0, -0.1, *NEVER],
+        "value_std": [0.0, -0.1, *NEVER],
         "near": [0.0, -0.1, *NEVER],
         "beside": [0.0, -0.1, *NEVER],
     },
@@ -103,7 +104,14 @@ WITHIN = {
     AdaptiveOptions: {"samples": 2, "repeatability": 0.0, "most": 1},
     RegressionOptions: {"same": 0.0, "near": 1e-9, "near_spread": 0.0, "noise": 1e-9, "sharpness": 0.0},
     TrendOptions: {"least": 0.0, "marker_noise": 0.0, "softness": 1e-9, "shrinkages": (0.0, math.inf)},
-    CovarianceOptions: {"open_slope": 0.0, "near_std": 1e-9, "near": 1e-9, "beside": 1e-9, "reach": (1e-9,) * 3},
+    CovarianceOptions: {
+        "open_slope": 0.0,
+        "near_std": 1e-9,
+        "value_std": 1e-9,
+        "near": 1e-9,
+        "beside": 1e-9,
+        "reach": (1e-9,) * 3,
+    },
     CorrectionOptions: {"noise": 1e-9, "same": 0.0, "gate": 1e-9, "half_life_s": 1e-9, "most": 1},
     WorldOptions: {"noise": 1e-9, "evidence": 1e-9, "jump": 1e-9, "stays": 1e-9},
 }

@@ -6,7 +6,8 @@ The change at s, given the changes y_j that the corrections made at s_j, is C(s,
    motion, which is zero among them). A correction that this explains is no reason to doubt what was shown.
 2. What is a detail of one place.
 3. Where a correction is larger than that, the world has changed: a part as large as the surprise, and a few times as
-   wide as the motion is long.
+   wide as the motion is long. No two motions of a person are the same, so of each coordinate at each phase only what
+   exceeds that scatter is taken elsewhere (Wiener's filter): a detour is, by how far a hand was off its aim is not.
 
 All three fade to nothing far away, and no prediction departs further from the demonstrations than the largest
 correction did: the weights of the corrections never add up to more than what the nearest of them has in part 3.
@@ -172,17 +173,32 @@ class Corrections:
         return np.asarray(vectors - self._expected[0], dtype=np.float64)
 
     @cached_property
+    def _details(self) -> Array:
+        """What of the changes is a detail of its place, shape (J, D): y v / (y^2 + v), value by value.
+
+        The rest is what Wiener's filter keeps of a change among departures of variance v; in no kind more than all.
+        """
+        kinds = self.regression.kinds
+        variances = (self.options.covariance.value_std * self._units[kinds.of_column]) ** 2
+        squares = kinds.values(self.changes) ** 2
+        kept = self.changes * (squares / (squares + variances))
+        sizes, all_of_it = kinds.sizes(kept), kinds.sizes(self.changes)
+        most = np.sqrt(all_of_it / np.maximum(sizes, np.maximum(all_of_it, _TINY)))
+        return np.asarray(self.changes - most[kinds.of_column].T * kept, dtype=np.float64)
+
+    @cached_property
     def mean_square(self) -> float:
         """Of the corrections' positions [m^2]."""
         return float(self._products[POSITION].trace() / len(self))
 
     def _of_way(self, way: int, place: Nearness, beyond: float) -> Effect:
-        weights, left, surprise = self._solved[way].at(place, beyond)
-        change = self.regression.kinds.each_from_its_own(weights @ self.changes)
-        counted = weights[POSITION]
+        applied = self._solved[way].at(place, beyond)
+        changes = applied.weights @ self.changes - applied.carried @ self._details
+        change = self.regression.kinds.each_from_its_own(changes)
+        counted = applied.weights[POSITION]
         squares = float(counted @ counted)
         evidence = max(float(np.abs(counted).sum()) ** 2 / squares, 1.0) if squares > 0.0 else 1.0
-        return Effect(change, float(left[POSITION]), float(surprise[POSITION]), evidence)
+        return Effect(change, float(applied.left[POSITION]), float(applied.surprise[POSITION]), evidence)
 
     @cached_property
     def _solved(self) -> tuple[Solved, ...]:
@@ -274,4 +290,5 @@ class Corrections:
 
 
 _IMPROBABLE = 0.01
+_TINY = 1e-300
 _OLDEST = 60.0  # half-lives, after which a correction counts for nothing

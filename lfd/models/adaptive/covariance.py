@@ -20,6 +20,8 @@ class CovarianceOptions:
     Attributes:
         open_slope: By how much a motion may change as its condition goes beyond those shown.
         near_std: Size of what is a detail of one place.
+        value_std: The same for a coordinate at a phase: what a correction changed there by less, as one motion
+            differs from another that is meant alike, is hardly carried to other places.
         near: Length over which that fades.
         reach: Length over which a surprising correction fades, in each kind: what the world changed in one place it
             changed wherever the same motion leads through it.
@@ -31,12 +33,15 @@ class CovarianceOptions:
 
     open_slope: float = 1.0
     near_std: float = 0.02
+    value_std: float = 0.05
     near: float = 0.3
     reach: tuple[float, float, float] = (2.5, 2.5, 2.5)
     beside: float = 0.1
 
     def __post_init__(self) -> None:
-        check_options(self, open_slope=NOT_NEGATIVE, near_std=POSITIVE, near=POSITIVE, beside=POSITIVE)
+        check_options(
+            self, open_slope=NOT_NEGATIVE, near_std=POSITIVE, value_std=POSITIVE, near=POSITIVE, beside=POSITIVE
+        )
         if len(self.reach) != KINDS:
             raise OutOfRange("CovarianceOptions.reach", self.reach, f"{KINDS} numbers, one for each kind of output")
         for reach in self.reach:
@@ -57,11 +62,13 @@ class Nearness:
             of one, shape (3, m, J).
         wide: Part 3 at a surprise of one, in each kind: the Matern kernel of order 3/2, shape (3, m, J).
         beside: The corrections' shares in the surprise at the places, before they are normalised, shape (m, J).
+        detail: How much of what is a detail of one place applies, where all else does, shape (m, J).
     """
 
     fixed: Array
     wide: Array
     beside: Array
+    detail: Array
 
     @classmethod
     def of(cls, distances: Array, levy: Array, options: CovarianceOptions) -> Self:
@@ -74,15 +81,32 @@ class Nearness:
         """
         r = options.rates[:, None, None] * distances
         wide = (1.0 + r) * np.exp(-r)
-        near = options.near_std**2 * np.exp(distances * (-1.0 / options.near))
-        fixed = _SLOPE_AT * options.open_slope**2 * levy * wide + near
+        detail = np.exp(distances * (-1.0 / options.near))
+        fixed = _SLOPE_AT * options.open_slope**2 * levy * wide + options.near_std**2 * detail
         beside = np.exp((distances.min(axis=1, keepdims=True) - distances) * (1.0 / options.beside))
-        return cls(fixed, wide, beside)
+        return cls(fixed, wide, beside, detail)
 
     def surprise(self, surprises: Array, acting: Array) -> Array:
         """Root mean square surprise at the places in each kind (3, m), from that of the corrections (3, J)."""
         total = acting @ self.beside.T
         return np.asarray(surprises @ self.beside.T / np.maximum(total, _TINY), dtype=np.float64)
+
+
+@dataclass(frozen=True, eq=False)
+class Applied:
+    """What of the corrections of one way applies at a place, in each kind.
+
+    Attributes:
+        weights: How much of each change, of all together at most as much as is near, shape (3, J).
+        carried: How much of that is there because the world changed elsewhere, shape (3, J).
+        left: The share of the variance, shape (3,).
+        surprise: Mean square of what might be a surprise there, shape (3,).
+    """
+
+    weights: Array
+    carried: Array
+    left: Array
+    surprise: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,28 +166,28 @@ class Solved:
         inverse = np.linalg.inv(C) * both_act
         return cls(options, variances, acting, surprises, std, inverse)
 
-    def at(self, place: Nearness, beyond: float) -> tuple[Array, Array, Array]:
+    def at(self, place: Nearness, beyond: float) -> Applied:
         """What applies at a place.
 
         Args:
             place: Its nearness to the corrections.
             beyond: How far it lies outside what the demonstrations show.
-
-        Returns:
-            In each kind how much of each change applies (3, J), of all together at most as much as is near; the share
-            of the variance left (3,); and the mean square of what might be a surprise there (3,).
         """
         fixed, wide = place.fixed[:, 0], place.wide[:, 0]
         std = place.surprise(self.surprises, self.acting)
         surprise = std[:, 0] ** 2
-        rows = self.variances[:, None] * fixed + std * self.std * wide
-        weights = (rows[:, None] @ self.inverse)[:, 0]
+        surprising = std * self.std * wide
+        rows = self.variances[:, None] * fixed + surprising
+        weights, carried = (np.stack([rows, surprising * (1.0 - place.detail[0])], axis=1) @ self.inverse).swapaxes(
+            0, 1
+        )
         own = self.variances * open_variance(beyond, self.options) + surprise
         left = (1.0 - np.vecdot(weights, rows) / own).clip(0.0, 1.0)
         # Together no more than the nearest of them could do alone: corrections against each other do not run away.
         most = np.maximum((self.acting * wide).max(axis=1, keepdims=True), _TINY)
         total = np.abs(weights).sum(axis=1, keepdims=True)
-        return weights / np.maximum(total / most, 1.0), left, surprise
+        limit = 1.0 / np.maximum(total / most, 1.0)
+        return Applied(weights * limit, carried * limit, left, surprise)
 
 
 def levy(a: Array, b: Array) -> Array:

@@ -28,14 +28,22 @@ class Kinds:
     Attributes:
         rows: The basis at equal phases over the root of their number, shape (P, N): squares of P values add up to a
             mean.
+        centres: The basis at the centres of its functions, whatever is blended out at the start, shape (N, N).
     """
 
     rows: Array
+    centres: Array
 
     @classmethod
     def of(cls, encoding: Encoding) -> Self:
         """Those of an encoding's vectors."""
-        return cls(frozen(encoding.rows(equal_phases(_PHASES)) / np.sqrt(_PHASES)))
+        rows = encoding.rows(equal_phases(_PHASES)) / np.sqrt(_PHASES)
+        return cls(frozen(rows), frozen(encoding.basis.matrix(equal_phases(encoding.basis.count))))
+
+    def values(self, X: Array) -> Array:
+        """What vectors (m, D) say where the function is centred that each entry belongs to, shape (m, D)."""
+        outputs = self.centres @ X[:, :-1].reshape(len(X), -1, OUTPUTS)
+        return np.concatenate([outputs.reshape(len(X), -1), X[:, -1:]], axis=1)
 
     def measured(self, X: Array) -> tuple[Array, Array, Array]:
         """What is compared of vectors (m, D), kind by kind: shapes (m, 3 P), (m, 3 P) and (m, 1)."""

@@ -54,6 +54,41 @@ def test_a_great_surprise_fades_as_the_matern_kernel_of_its_kind_s_reach(taught,
     np.testing.assert_allclose(change(corrected, away), expected, rtol=1e-5, atol=1e-6)
 
 
+def values(*entries):
+    """A change of positions whose values along the three axes are these at all phases."""
+    return np.append(np.tile([*entries, 0.0, 0.0, 0.0], 3), 0.0)
+
+
+@pytest.mark.parametrize("y", [(0.3, 0.02, 0.0), (0.02, -0.2, 0.05)], ids=["to a side", "down"])
+def test_a_value_is_carried_on_as_far_as_it_is_larger_than_motions_differ_anyway(none, y):
+    """Where the world is as changed as there: a value y as y^3 / (y^2 + v), and at its own place as it is."""
+    options = CovarianceOptions(value_std=0.05, near_std=1e-4, near=1e-3, reach=(1e6,) * 3)
+    corrected = correct(corrections(none.regression, covariance=options), HERE, values(*y))
+    kept = np.array(y) ** 3 / (np.array(y) ** 2 + 0.05**2)
+    np.testing.assert_allclose(change(corrected, HERE) * (1.0 + OPTIONS.noise), values(*y), rtol=1e-6, atol=1e-12)
+    elsewhere = change(corrected, HERE + 0.5) * (1.0 + OPTIONS.noise)
+    np.testing.assert_allclose(elsewhere, values(*kept), rtol=1e-4, atol=1e-7)
+
+
+def test_nothing_is_a_detail_where_motions_that_are_meant_alike_are_alike(none):
+    options = CovarianceOptions(value_std=1e-9, near_std=1e-4, near=1e-3, reach=(1e6,) * 3)
+    y = values(0.3, 0.001, 0.0)
+    corrected = correct(corrections(none.regression, covariance=options), HERE, y)
+    np.testing.assert_allclose(change(corrected, HERE + 0.5) * (1.0 + OPTIONS.noise), y, rtol=1e-4, atol=1e-9)
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_what_is_carried_on_is_in_no_kind_larger_than_the_correction(seed):
+    """Although the values of a wild one cancel each other in the motion."""
+    rng = np.random.default_rng(seed)
+    regression_of_none = regression([[0.0, 0.0]], np.zeros((1, D)))
+    options = CovarianceOptions(reach=(1e6,) * 3)
+    y = rng.normal(size=D) * 10.0 ** rng.uniform(-3.0, 0.0)
+    corrected = correct(corrections(regression_of_none, covariance=options), HERE, y)
+    sizes = KINDS.sizes(np.array([change(corrected, HERE + rng.normal(size=2)), y]))
+    assert (sizes[:, 0] <= sizes[:, 1] * (1.0 + 1e-9)).all()
+
+
 def test_the_newest_correction_of_a_condition_wins_if_they_tell_of_other_worlds(none):
     corrected = none
     for y in (0.3, -0.2, 0.1):

@@ -11,7 +11,7 @@ from lfd.models.adaptive.kinds import POSITION
 from tests.lfd.models.adaptive.vectors import KINDS, D, correct, corrections, effect, regression, sized
 
 EXTENT = 0.5
-OPTIONS = CovarianceOptions(open_slope=1.7, near_std=0.03, near=0.4, reach=(2.5, 1.5, 4.0), beside=0.15)
+OPTIONS = CovarianceOptions(open_slope=1.7, near_std=0.03, value_std=0.06, near=0.4, reach=(2.5, 1.5, 4.0), beside=0.15)
 UNITS = (EXTENT, 1.0, 1.0)
 
 
@@ -53,18 +53,28 @@ class Reference:
         shares = np.exp(-np.linalg.norm(self.places - a, axis=1) / OPTIONS.beside)
         return shares @ self.surprises / shares.sum()
 
+    def changed(self, a, b):
+        return self.surprise(a) * self.surprise(b) * self.matern(a, b)
+
     def covariance(self, a, b, beyond_a, beyond_b):
-        changed = self.surprise(a) * self.surprise(b) * self.matern(a, b)
-        return self.fixed(a, b, beyond_a, beyond_b) + changed
+        return self.fixed(a, b, beyond_a, beyond_b) + self.changed(a, b)
+
+    def details(self):
+        """What of each change is one of its place; all values of one are the same."""
+        variance = (OPTIONS.value_std * UNITS[self.kind]) ** 2
+        return self.changes * variance / (self.changes**2 + variance)
 
     def effect(self, s, beyond):
         pairs = list(zip(self.places, self.beyond, strict=True))
         C = np.array([[self.covariance(a, b, u, v) for b, v in pairs] for a, u in pairs])
         c = np.array([self.covariance(s, b, beyond, v) for b, v in pairs])
-        weights = np.linalg.solve(C + CorrectionOptions().noise * np.diag(np.diag(C)), c)
+        elsewhere = [self.changed(s, a) * (1.0 - np.exp(-np.linalg.norm(s - a) / OPTIONS.near)) for a in self.places]
+        noisy = C + CorrectionOptions().noise * np.diag(np.diag(C))
+        weights, carried = np.linalg.solve(noisy, c), np.linalg.solve(noisy, elsewhere)
         left = 1.0 - weights @ c / self.covariance(s, s, beyond, beyond)
         most = max(self.matern(s, a) for a in self.places)
-        return weights / max(np.abs(weights).sum() / most, 1.0) @ self.changes, left, self.surprise(s) ** 2
+        change = weights @ self.changes - carried @ self.details()
+        return change / max(np.abs(weights).sum() / most, 1.0), left, self.surprise(s) ** 2
 
 
 @pytest.mark.parametrize("kind", range(3))
