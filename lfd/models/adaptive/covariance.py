@@ -187,7 +187,10 @@ class Solved:
         most = np.maximum((self.acting * wide).max(axis=1, keepdims=True), _TINY)
         total = np.abs(weights).sum(axis=1, keepdims=True)
         limit = 1.0 / np.maximum(total / most, 1.0)
-        return Applied(weights * limit, carried * limit, left, surprise)
+        # What is a detail of one place is not known where another correction says as much: their mean tells then.
+        squares = np.vecdot(weights, weights)[:, None]
+        alone = np.maximum(2.0 * squares / np.maximum(total**2, _TINY) - 1.0, 0.0)
+        return Applied(weights * limit, carried * (limit * alone), left, surprise)
 
 
 def levy(a: Array, b: Array) -> Array:

@@ -70,6 +70,16 @@ def test_a_value_is_carried_on_as_far_as_it_is_larger_than_motions_differ_anyway
     np.testing.assert_allclose(elsewhere, values(*kept), rtol=1e-4, atol=1e-7)
 
 
+def test_halfway_between_two_corrections_that_agree_nothing_of_them_is_a_detail():
+    """A centimetre to a side, as both say, beside forty upwards; of one alone the rest of it stays at its place."""
+    y = values(0.01, 0.0, 0.4)
+    one = correct(corrections(regression([[0.0, 0.0]], np.zeros((1, D)))), [-0.2, 0.0], y)
+    both = correct(one, [0.2, 0.0], y)
+    at_one, halfway = (change(held, [0.0, 0.0]) for held in (one, both))
+    assert halfway[0] / halfway[2] == pytest.approx(0.01 / 0.4, rel=1e-6)
+    assert at_one[0] / at_one[2] < 0.8 * 0.01 / 0.4
+
+
 def test_nothing_is_a_detail_where_motions_that_are_meant_alike_are_alike(none):
     options = CovarianceOptions(value_std=1e-9, near_std=1e-4, near=1e-3, reach=(1e6,) * 3)
     y = values(0.3, 0.001, 0.0)

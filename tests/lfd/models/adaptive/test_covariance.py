@@ -73,7 +73,8 @@ class Reference:
         weights, carried = np.linalg.solve(noisy, c), np.linalg.solve(noisy, elsewhere)
         left = 1.0 - weights @ c / self.covariance(s, s, beyond, beyond)
         most = max(self.matern(s, a) for a in self.places)
-        change = weights @ self.changes - carried @ self.details()
+        evidence = np.abs(weights).sum() ** 2 / (weights @ weights)
+        change = weights @ self.changes - max(2.0 / evidence - 1.0, 0.0) * carried @ self.details()
         return change / max(np.abs(weights).sum() / most, 1.0), left, self.surprise(s) ** 2
 
 
