@@ -187,7 +187,7 @@ def said(capsys, *flags):
         (["--corrections", "2"], "--corrections, --at, --people and --scatter say how to teach: give --teach too"),
         (["--teach", "--corrections", "2", "--at", "0.86,0.2,0.553"], "--corrections 2 at 1 places: give as many --at"),
         (["--teach", "--at", "here"], "--at: must be numbers in metres"),
-        pytest.param(["--teach", "--at", "2.0,0.2,0.553"], "beyond where targets of scene", marks=pytest.mark.sim),
+        (["--teach", "--at", "2.0,0.2,0.553"], "beyond where targets of scene"),
         (["--teach", "--people", "0"], "--people: must be a whole number"),
         (["--variant", "b3"], "b3"),
         (["--before", "2"], "--before takes back updates of a database"),
@@ -198,7 +198,8 @@ def said(capsys, *flags):
         (["--json", "nowhere/map.json"], "--json: the folder nowhere does not exist"),
     ],
 )
-def test_a_wrong_flag_is_one_line(flags, words, capsys, tmp_path, monkeypatch):
+def test_a_wrong_flag_is_one_line_before_anything_is_simulated(flags, words, capsys, tmp_path, monkeypatch):
+    monkeypatch.setattr("services.commands.map.first_demonstrations", lambda _: pytest.fail("it simulates"))
     monkeypatch.chdir(tmp_path)
     assert words in said(capsys, *flags)
     assert list(tmp_path.iterdir()) == []
