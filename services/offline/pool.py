@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import logging
 import os
 import signal
 import struct
@@ -68,7 +69,9 @@ def each(
     """
     if min(jobs, len(items)) <= 1 or _reports is not None:
         for number, item in enumerate(items):
-            yield _done(work, item, number, advance)
+            with _silent():
+                done = _done(work, item, number, advance)
+            yield done
         return
     # What looks after shared memory is no process of the pool, and its start would let Ctrl-C through below.
     resource_tracker.ensure_running()
@@ -129,6 +132,17 @@ def _done(work: Callable[[Item, Progress], Result], item: Item, number: int, adv
     result = work(item, partial(advance, number))
     advance(number, 1.0)
     return number, result
+
+
+@contextmanager
+def _silent() -> Iterator[None]:
+    """What is done meanwhile says no more than it would in a process of the pool: what is wrong."""
+    before = logging.root.manager.disable
+    logging.disable(logging.INFO)
+    try:
+        yield
+    finally:
+        logging.disable(before)
 
 
 @contextmanager

@@ -1,5 +1,6 @@
 """The same work on every item, here and in processes of its own."""
 
+import logging
 import os
 import signal
 import time
@@ -47,6 +48,24 @@ def test_an_item_is_told_to_begin_and_to_end_even_if_it_says_nothing():
     told = []
     list(each(halve, [2, 4], 1, lambda *report: told.append(report)))
     assert told == [(0, 0.0), (0, 0.5), (0, 1.0), (1, 0.0), (1, 0.5), (1, 1.0)]
+
+
+def speak(number, progress):
+    logging.getLogger("services.work").info("at %d", number)
+    logging.getLogger("services.work").warning("beware of %d", number)
+
+
+def test_what_is_done_here_says_no_more_than_in_another_process(caplog):
+    """Beside the progress only what is wrong; whoever shared it out says what they like."""
+    caplog.set_level(logging.INFO)
+    for number, _ in each(speak, [2, 4], 1):
+        logging.getLogger("services.command").info("%d is done", number)
+    assert [record.getMessage() for record in caplog.records] == [
+        "beware of 2",
+        "0 is done",
+        "beware of 4",
+        "1 is done",
+    ]
 
 
 @pytest.mark.system
