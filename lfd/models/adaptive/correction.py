@@ -6,8 +6,9 @@ The change at s, given the changes y_j that the corrections made at s_j, is C(s,
    motion, which is zero among them). A correction that this explains is no reason to doubt what was shown.
 2. What is a detail of one place.
 3. Where a correction is larger than that, the world has changed: a part as large as the surprise, and a few times as
-   wide as the motion is long. No two motions of a person are the same, so of each coordinate at each phase only what
-   exceeds that scatter is taken elsewhere (Wiener's filter): a detour is, by how far a hand was off its aim is not.
+   wide as the motion is long. No two motions of a person are the same, so where one correction speaks alone only
+   what exceeds that scatter is taken elsewhere, of each coordinate at each phase (Wiener's filter): a detour is, by
+   how far a hand was off its aim is not.
 
 All three fade to nothing far away, and no prediction departs further from the demonstrations than the largest
 correction did: the weights of the corrections never add up to more than what the nearest of them has in part 3.

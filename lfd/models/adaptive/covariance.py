@@ -98,7 +98,7 @@ class Applied:
 
     Attributes:
         weights: How much of each change, of all together at most as much as is near, shape (3, J).
-        carried: How much of that is there because the world changed elsewhere, shape (3, J).
+        carried: How much of that is there because of part 3 alone, where no other correction says as much, (3, J).
         left: The share of the variance, shape (3,).
         surprise: Mean square of what might be a surprise there, shape (3,).
     """
@@ -178,9 +178,8 @@ class Solved:
         surprise = std[:, 0] ** 2
         surprising = std * self.std * wide
         rows = self.variances[:, None] * fixed + surprising
-        weights, carried = (np.stack([rows, surprising * (1.0 - place.detail[0])], axis=1) @ self.inverse).swapaxes(
-            0, 1
-        )
+        elsewhere = surprising * (1.0 - place.detail[0])
+        weights, carried = (np.stack([rows, elsewhere])[:, :, None] @ self.inverse)[:, :, 0]
         own = self.variances * open_variance(beyond, self.options) + surprise
         left = (1.0 - np.vecdot(weights, rows) / own).clip(0.0, 1.0)
         # Together no more than the nearest of them could do alone: corrections against each other do not run away.
