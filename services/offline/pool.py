@@ -37,6 +37,8 @@ Advance = Callable[[int, float], None]
 _REPORT = struct.Struct("qd")  # so short that a pipe takes it whole: nobody has to lock it, and may die when he likes
 _NO_MORE = -1  # instead of an item's number
 
+_INTERRUPTING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
 _reports: Connection | None = None  # to whoever shares the work out; only a process of the pool has one
 
 
@@ -81,7 +83,7 @@ def each(
     warnings.filterwarnings("ignore", ".* tasks which were still being processed", UserWarning)
     with _listening(advance) as reports:
         try:
-            with _deaf_to_ctrl_c():
+            with _uninterrupted():
                 parallel = Parallel(
                     min(jobs, len(items)),
                     backend="loky",
@@ -168,16 +170,26 @@ def _listen(receiver: Connection, advance: Advance) -> None:
 
 
 @contextmanager
-def _deaf_to_ctrl_c() -> Iterator[None]:
-    """Processes that are started meanwhile never hear Ctrl-C, not even while they import.
+def _uninterrupted() -> Iterator[None]:
+    """What would interrupt this comes afterwards: a pool that is only half there cannot be ended.
 
-    It reaches every process of the terminal, and the parent decides what it means.
+    Processes that are started meanwhile never hear it, not even while they import: Ctrl-C reaches every process of the
+    terminal, and the parent decides what it means.
     """
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT,))
+    came: list[int] = []
+    # The mask is for the processes: here another thread may take a signal, and its handler runs all the same.
+    handlers = {number: handler for number in _INTERRUPTING if callable(handler := signal.getsignal(number))}
+    for number in handlers:
+        signal.signal(number, lambda number, _: came.append(number))
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, _INTERRUPTING)
     try:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+        if came:
+            signal.raise_signal(came[0])
 
 
 def _begin(parent: int, reports: Connection) -> None:

@@ -67,7 +67,8 @@ def test_a_folder_that_cannot_be_ends_the_run_with_its_name_and_variable(tmp_pat
 
 def test_a_folder_of_runs_that_cannot_be_is_named_with_its_setting(tmp_path):
     (tmp_path / "runs").write_text("a file")
-    with Command("up", "--headless", "--only", "master", folder=tmp_path) as up:
+    arguments = ("--headless", "--only", "master", "--listen", free_endpoint())
+    with Command("up", *arguments, folder=tmp_path) as up:
         assert up.ended(START_S) == Exit.ENVIRONMENT
     (line,) = up.err.splitlines()
     assert "runs" in line

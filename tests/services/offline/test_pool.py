@@ -3,11 +3,13 @@
 import logging
 import os
 import signal
+import threading
 import time
 from pathlib import Path
 
 import pytest
 
+from services.offline import pool
 from services.offline.pool import ProcessDied, each, overall
 from services.process.exceptions import CommandFailed
 
@@ -88,3 +90,34 @@ def test_a_closed_iterator_leaves_no_process():
     children = Path(f"/proc/{os.getpid()}/task/{os.getpid()}/children").read_text().split()
     running = [Path(f"/proc/{child}/cmdline").read_bytes() for child in children]
     assert [line for line in running if b"loky" in line and b"resource_tracker" not in line] == []
+
+
+@pytest.mark.system
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+def test_what_interrupts_while_the_processes_are_started_comes_once_they_all_are(monkeypatch, number):
+    """Whichever thread it reaches: there is one that listens to the processes."""
+    begun = []
+
+    class Interrupted(pool.Parallel):
+        def __call__(self, tasks):
+            started = threading.Thread(target=os.kill, args=(os.getpid(), number))
+            started.start()
+            started.join()
+            results = super().__call__(tasks)
+            begun.append(self)
+            return results
+
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(pool, "Parallel", Interrupted)
+    before = signal.signal(number, interrupt)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            next(each(halve, [2, 4, 6], 2))
+        assert begun
+        assert signal.getsignal(number) is interrupt
+    finally:
+        signal.signal(number, before)
+    monkeypatch.undo()
+    assert len(dict(each(halve, [2, 4], 2))) == 2
