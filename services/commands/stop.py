@@ -62,7 +62,7 @@ def stop(configuration: Configuration, timeout_s: float = TIMEOUT_S) -> None:
         KeyboardInterrupt: somebody ended it before.
     """
     robot = configuration.name
-    attempt = _Attempt("stop", robot, timeout_s)
+    attempt = _Attempt("stop", robot, timeout_s, "use its own emergency stop")
     with attempt.bus(configuration) as bus:
         attempt.until(Press(bus, configuration.operator).step)
     log.info("robot %s has stopped and stands", robot)
@@ -77,7 +77,8 @@ def release(configuration: Configuration, timeout_s: float = TIMEOUT_S) -> None:
         NotConfirmed: nobody answered in time.
         KeyboardInterrupt: somebody ended it before.
     """
-    attempt = _Attempt("release", configuration.name, timeout_s)
+    remedy = "what is stopped stays so; release it again once the robot can be reached"
+    attempt = _Attempt("release", configuration.name, timeout_s, remedy)
     with attempt.bus(configuration) as bus:
         released = Release(bus, configuration.operator)
         attempt.until(released.step)
@@ -92,12 +93,14 @@ class _Attempt:
         what: is to be confirmed.
         robot: by which.
         timeout_s: gives up after it [s].
+        remedy: what to do where nothing confirmed it.
     """
 
-    def __init__(self, what: str, robot: str, timeout_s: float) -> None:
+    def __init__(self, what: str, robot: str, timeout_s: float, remedy: str) -> None:
         self._what = what
         self._robot = robot
         self._timeout_s = timeout_s
+        self._remedy = remedy
         self._began = time.monotonic()
         self._interrupted = stop_on_signals()
         end_within()
@@ -109,7 +112,7 @@ class _Attempt:
             session = open_session(configuration.connect, self._timeout_s, self._interrupted, self._tell)
         except RouterUnreachable as error:
             reason = f"no router at {error.endpoint}: {error.reason}"
-            raise NotConfirmed(self._what, self._robot, self._timeout_s, reason) from None
+            raise NotConfirmed(self._what, self._robot, self._timeout_s, reason, self._remedy) from None
         bus = ZenohBus(session, self._robot, f"cli-{os.getpid()}", SystemClock())
         try:
             yield bus
@@ -122,7 +125,7 @@ class _Attempt:
         while waits_for := step(clock.now_ns()):
             now = time.monotonic()
             if now - self._began > self._timeout_s:
-                raise NotConfirmed(self._what, self._robot, self._timeout_s, waits_for)
+                raise NotConfirmed(self._what, self._robot, self._timeout_s, waits_for, self._remedy)
             if now - told > TELL_S:
                 told = now
                 self._tell(waits_for)

@@ -153,9 +153,15 @@ def test_a_network_that_is_not_there_is_named(tmp_path):
     with ExitStack() as stack:
         commands = [
             stack.enter_context(Command(*arguments, "--connect", endpoint, folder=tmp_path))
-            for arguments in (("top", "--once"), ("stop", "--timeout", "2"), ("echo", "**"))
+            for arguments in (
+                ("top", "--once"),
+                ("stop", "--timeout", "2"),
+                ("stop", "--release", "--timeout", "2"),
+                ("echo", "**"),
+            )
         ]
-        for command, remedy in zip(commands, ("--connect", "its own emergency stop", "--connect"), strict=True):
+        remedies = ("--connect", "its own emergency stop", "what is stopped stays so", "--connect")
+        for command, remedy in zip(commands, remedies, strict=True):
             assert command.ended(WITHIN_S) == Exit.ENVIRONMENT, command.tail()
             *waiting, line = command.err.splitlines()
             assert waiting

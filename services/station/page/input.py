@@ -67,7 +67,8 @@ class Standing:
     Attributes:
         armed: it has the seat: its input counts.
         let_go: it counts once everything that steers was let go.
-        focused: it has the focus.
+        heard: what is held there comes, and in time.
+        focused: it has the focus, as it said last.
         asked_s: somebody asks for this tab's seat, and gets it in so many seconds [s]; 0 where nobody does.
         asking_s: this tab asks for the seat and gets it in so many seconds [s]; 0 where it does not.
         kept: this tab asked for the seat, which was kept.
@@ -78,6 +79,7 @@ class Standing:
 
     armed: bool
     let_go: bool
+    heard: bool
     focused: bool
     asked_s: float
     asking_s: float
@@ -163,6 +165,7 @@ class Desk:
             return Standing(
                 armed=armed,
                 let_go=self._let_go,
+                heard=armed and self._held is not None,
                 focused=armed and self._held is not None and self._held.focused,
                 asked_s=left_s if armed else 0.0,
                 asking_s=left_s if question is not None and question.tab == tab else 0.0,

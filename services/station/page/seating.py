@@ -30,6 +30,8 @@ def _looking_on(standing: Standing) -> str:
 def _not_counting(standing: Standing) -> str:
     if not standing.armed or not standing.let_go:
         return ""
+    if not standing.heard:
+        return "What you press comes too late to count: this computer or the link is too busy."
     if not standing.focused:
         return "Click into the page: keys count only where it has the focus."
     return "Let go of all keys: then they count again."

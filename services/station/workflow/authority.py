@@ -18,6 +18,8 @@ CONFIRM_S = 2.0
 UNHEARD_S = 1.0
 """A robot that was silent for longer waits for another press: what was asked before it may be wrong by now."""
 
+_LOST, _BACK = "The authority was lost.", "The authority was lost, and is back."
+
 _WITHOUT = frozenset({Phase.WAITING, Phase.ACQUIRING, Phase.WATCHING, Phase.STOPPED, Phase.RELEASING, Phase.FINISHED})
 
 
@@ -29,7 +31,7 @@ def missing(view: View) -> str:
         return f"Waiting for the {' and the '.join(absent)}."
     if view.model is not None and not (view.model.demonstrations or view.model.updates):
         return "Waiting for the first demonstrations."
-    return "" if view.present else "Waiting for the operator: open this page and keep it in view."
+    return "" if view.present else "Waiting for the operator: keep the page that has the input in view."
 
 
 def waiting(state: Workflow, view: View, settings: Settings) -> Step:
@@ -84,7 +86,14 @@ def acquiring(state: Workflow, view: View, settings: Settings) -> Step:
 
 def _granted(state: Workflow, view: View, epoch: int) -> Workflow:
     granted = replace(
-        state, epoch=epoch, holding=True, confirmed=False, granted_s=view.now_s, watches=False, warned=False
+        state,
+        epoch=epoch,
+        holding=True,
+        confirmed=False,
+        granted_s=view.now_s,
+        watches=False,
+        warned=False,
+        event=_BACK if state.event == _LOST else state.event,
     )
     if not runs(state, view) or state.episode is None:
         return to(granted, Phase.LOOKING, view)
@@ -139,7 +148,7 @@ def _loss(state: Workflow, view: View, settings: Settings) -> str:
     taker = another(view, settings)
     if taker:
         return f"{taker} has taken the authority over."
-    return "The authority was lost." if authority.epoch > state.epoch or not authority.holder else ""
+    return _LOST if authority.epoch > state.epoch or not authority.holder else ""
 
 
 def another(view: View, settings: Settings) -> str:

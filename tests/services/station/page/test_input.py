@@ -54,7 +54,8 @@ def test_after_silence_nobody_is_at_the_keys_until_they_were_let_go(browser):
     assert browser.input() == NOTHING
     assert browser.standing().let_go
     assert browser.standing().focused
-    assert not browser.standing(DEAD_MAN_MS + 1).focused
+    assert browser.standing().heard
+    assert not browser.standing(DEAD_MAN_MS + 1).heard
     browser.hold()
     assert browser.input() == OperatorInput(focused=True)
     assert not browser.standing().let_go

@@ -7,6 +7,7 @@ from services.station.page.view import PageView, Shown
 SEATED = Standing(
     armed=True,
     let_go=False,
+    heard=True,
     focused=True,
     asked_s=0.0,
     asking_s=0.0,
