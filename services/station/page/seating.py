@@ -31,7 +31,7 @@ def _not_counting(standing: Standing) -> str:
     if not standing.armed or not standing.let_go:
         return ""
     if not standing.heard:
-        return "What you press comes too late to count: this computer or the link is too busy."
+        return "Your keys come too late: computer or link is busy."
     if not standing.focused:
-        return "Click into the page: keys count only where it has the focus."
+        return "Click into the page: keys count only there."
     return "Let go of all keys: then they count again."

@@ -43,7 +43,7 @@ def test_a_tab_says_why_its_keys_do_not_count():
     assert "Let go of all keys" in seating(replace(SEATED, let_go=True))["let-go"]
     assert "Click into the page" in seating(replace(SEATED, let_go=True, focused=False))["let-go"]
     late = seating(replace(SEATED, let_go=True, heard=False, focused=False))["let-go"]
-    assert "comes too late" in late
+    assert "come too late" in late
     assert "Click into the page" not in late
     assert seating(replace(SEATED, let_go=True, armed=False))["let-go"] == ""
 
