@@ -246,15 +246,15 @@ def _stored(request: Request) -> list[StoredDemonstration]:
 
 def _first(request: Request, scene: AnyScene, variant: str, jobs: int, console: Console) -> list[Learnt]:
     """The scene's first demonstrations, and each person's corrections where they are asked for."""
+    if not request.teach:
+        binding, shown = binding_of(scene), first_demonstrations(scene)
+        initial = [StoredDemonstration(i, Purpose.INITIAL, binding, one) for i, one in enumerate(shown, 1)]
+        return [Learnt(tuple(initial), ())]
     corrections = request.corrections or len(request.at or (0,))
     targets = request.at or in_turn(scene, _PLACES_A_CORRECTION * corrections)
     for target in targets:
         scene.check_place(np.array(target), scene.margin)
     demonstrations = first_demonstrations(scene)  # half a minute, where they are not kept
-    if not request.teach:
-        binding = binding_of(scene)
-        initial = [StoredDemonstration(i, Purpose.INITIAL, binding, one) for i, one in enumerate(demonstrations, 1)]
-        return [Learnt(tuple(initial), ())]
     scatter = Scripted().scatter if request.scatter is None else request.scatter
     lessons = [
         Lesson(scene.name, variant, request.kind, tuple(demonstrations), tuple(targets), corrections, seed, scatter)

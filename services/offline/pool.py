@@ -22,6 +22,7 @@ from joblib.externals.loky import get_reusable_executor
 from joblib.externals.loky.backend import resource_tracker as loky_tracker
 from joblib.externals.loky.process_executor import TerminatedWorkerError
 
+from services.process.ending import ENDING
 from services.process.exceptions import CommandFailed
 from services.process.lifeline import die_with_parent
 
@@ -36,8 +37,6 @@ Advance = Callable[[int, float], None]
 
 _REPORT = struct.Struct("qd")  # so short that a pipe takes it whole: nobody has to lock it, and may die when he likes
 _NO_MORE = -1  # instead of an item's number
-
-_INTERRUPTING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 _reports: Connection | None = None  # to whoever shares the work out; only a process of the pool has one
 
@@ -178,10 +177,10 @@ def _uninterrupted() -> Iterator[None]:
     """
     came: list[int] = []
     # The mask is for the processes: here another thread may take a signal, and its handler runs all the same.
-    handlers = {number: handler for number in _INTERRUPTING if callable(handler := signal.getsignal(number))}
+    handlers = {number: handler for number in ENDING if callable(handler := signal.getsignal(number))}
     for number in handlers:
         signal.signal(number, lambda number, _: came.append(number))
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, _INTERRUPTING)
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, ENDING)
     try:
         yield
     finally:

@@ -25,7 +25,9 @@ def test_the_readmes_example_makes_its_picture(tmp_path):
     done = subprocess.run(
         command, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=120, check=False
     )
-    assert done.returncode == 0, done.stderr
+    # On a machine that has not drawn yet Matplotlib may say that it builds its font cache.
+    told = [line for line in done.stderr.splitlines() if "font cache" not in line]
+    assert (done.returncode, told) == (0, [])
     picture = (tmp_path / "corrected.png").read_bytes()
     assert picture.startswith(b"\x89PNG")
     assert int.from_bytes(picture[16:20], "big") == 900

@@ -183,8 +183,7 @@ class Corrections:
         variances = (self.options.covariance.value_std * self._units[kinds.of_column]) ** 2
         squares = kinds.values(self.changes) ** 2
         kept = self.changes * (squares / (squares + variances))
-        sizes, all_of_it = kinds.sizes(kept), kinds.sizes(self.changes)
-        most = np.sqrt(all_of_it / np.maximum(sizes, np.maximum(all_of_it, _TINY)))
+        most = np.sqrt(self._sizes / np.maximum(kinds.sizes(kept), np.maximum(self._sizes, _TINY)))
         return np.asarray(self.changes - most[kinds.of_column].T * kept, dtype=np.float64)
 
     @cached_property
@@ -196,10 +195,8 @@ class Corrections:
         applied = self._solved[way].at(place, beyond)
         changes = applied.weights @ self.changes - applied.carried @ self._details
         change = self.regression.kinds.each_from_its_own(changes)
-        counted = applied.weights[POSITION]
-        squares = float(counted @ counted)
-        evidence = max(float(np.abs(counted).sum()) ** 2 / squares, 1.0) if squares > 0.0 else 1.0
-        return Effect(change, float(applied.left[POSITION]), float(applied.surprise[POSITION]), evidence)
+        evidence, left, surprise = (float(of[POSITION]) for of in (applied.evidence, applied.left, applied.surprise))
+        return Effect(change, left, surprise, evidence)
 
     @cached_property
     def _solved(self) -> tuple[Solved, ...]:
@@ -210,7 +207,7 @@ class Corrections:
         return tuple(
             Solved.of(
                 nearness,
-                self._products.diagonal(axis1=1, axis2=2),
+                self._sizes,
                 np.asarray(worlds.current & (self._ways == way), dtype=np.float64),
                 doubt=(self.options.noise + self._aged, repeated),
                 units=self._units,
@@ -254,6 +251,11 @@ class Corrections:
     def _products(self) -> Array:
         """Inner products of the changes in each kind, shape (3, J, J)."""
         return self.regression.kinds.products(self.changes)
+
+    @property
+    def _sizes(self) -> Array:
+        """Squared sizes of the changes in each kind, shape (3, J)."""
+        return self._products.diagonal(axis1=1, axis2=2)
 
     @cached_property
     def _near(self) -> NDArray[np.bool_]:

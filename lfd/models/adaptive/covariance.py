@@ -99,12 +99,14 @@ class Applied:
     Attributes:
         weights: How much of each change, of all together at most as much as is near, shape (3, J).
         carried: How much of that is there because of part 3 alone, where no other correction says as much, (3, J).
+        evidence: How many corrections speak for it, at least 1, shape (3,).
         left: The share of the variance, shape (3,).
         surprise: Mean square of what might be a surprise there, shape (3,).
     """
 
     weights: Array
     carried: Array
+    evidence: Array
     left: Array
     surprise: Array
 
@@ -187,9 +189,17 @@ class Solved:
         total = np.abs(weights).sum(axis=1, keepdims=True)
         limit = 1.0 / np.maximum(total / most, 1.0)
         # What is a detail of one place is not known where another correction says as much: their mean tells then.
-        squares = np.vecdot(weights, weights)[:, None]
-        alone = np.maximum(2.0 * squares / np.maximum(total**2, _TINY) - 1.0, 0.0)
-        return Applied(weights * limit, carried * (limit * alone), left, surprise)
+        evidence = _evidence(weights)
+        alone = np.maximum(2.0 / evidence - 1.0, 0.0)[:, None]
+        return Applied(weights * limit, carried * (limit * alone), evidence, left, surprise)
+
+
+def _evidence(weights: Array) -> Array:
+    """How many corrections of the same weight would have such a mean, of weights (3, J), shape (3,)."""
+    squares = np.vecdot(weights, weights)
+    sums = np.abs(weights).sum(axis=1) ** 2
+    evidence: Array = np.divide(sums, squares, out=np.ones_like(sums), where=squares > 0.0)
+    return np.maximum(evidence, 1.0)
 
 
 def levy(a: Array, b: Array) -> Array:

@@ -158,6 +158,7 @@ class Desk:
         with self._lock:
             self._expire(now_ns)
             armed = tab == self._seat.tab
+            held = self._held if armed else None
             question = self._seat.question
             left_s = self._seat.left_ns(now_ns) / 1e9
             known = self._tabs.get(tab)
@@ -165,8 +166,8 @@ class Desk:
             return Standing(
                 armed=armed,
                 let_go=self._let_go,
-                heard=armed and self._held is not None,
-                focused=armed and self._held is not None and self._held.focused,
+                heard=held is not None,
+                focused=held is not None and held.focused,
                 asked_s=left_s if armed else 0.0,
                 asking_s=left_s if question is not None and question.tab == tab else 0.0,
                 kept=tab == self._seat.kept_from,

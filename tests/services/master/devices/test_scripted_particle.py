@@ -25,7 +25,7 @@ class ParticleSite(Site):
 
 @pytest.mark.sim
 @pytest.mark.parametrize("variant", PARTICLE.variants)
-@pytest.mark.parametrize("condition", [(0.1, -0.1), (-0.1, 0.06), (-0.2, 0.2)])
+@pytest.mark.parametrize("condition", [(0.1, -0.1), (-0.1, 0.06), (0.03, 0.1), (-0.2, 0.2)])
 def test_the_hand_leads_the_particle_through_its_via_points(variant, condition):
     site = ParticleSite(variant, condition)
     way = PARTICLE.corridor(variant, np.array(condition)).positions
