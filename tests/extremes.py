@@ -125,6 +125,7 @@ verdicts = st.builds(
     ellipsoid_value=reals,
     object_displacement=vectors,
     object_tilt=reals,
+    missed=reals,
 )
 predictions = st.builds(
     Prediction,

@@ -27,6 +27,7 @@ class Verdict:
         ellipsoid_value: how far off the target is: left side of the ellipsoid's equation (Fig. E.2); at most 1 inside.
         displacement: of the object since the episode began, shape (3,) [m].
         tilt: of the object's upright axis from the vertical [rad].
+        missed: distance from the grasping frame to the object's centre, or the greatest one at a via-point [m].
     """
 
     reached: bool
@@ -35,6 +36,7 @@ class Verdict:
     ellipsoid_value: float
     displacement: Array
     tilt: float = 0.0
+    missed: float = 0.0
 
     @property
     def success(self) -> bool:
@@ -109,6 +111,7 @@ class ReachingJudge:
             ellipsoid_value=value,
             displacement=displacement,
             tilt=tilt,
+            missed=float(np.linalg.norm(object_pose.position - grasping.position)),
         )
 
 

@@ -55,13 +55,15 @@ class ViaPointJudge:
         self._follow(grasping.position)
         ahead = np.isnan(self._passed_at)
         missed = np.where(ahead, grasping.position[1], self._passed_at) - self._y
-        value = float(np.max((missed / self._tolerance) ** 2))
+        most = float(np.max(np.abs(missed)))
+        value = (most / self._tolerance) ** 2
         return Verdict(
             reached=value <= 1.0 and not ahead.any(),
             kicked_over=False,
             collision=self._collision,
             ellipsoid_value=value,
             displacement=np.zeros(3),
+            missed=most,
         )
 
     def _follow(self, now: Array) -> None:

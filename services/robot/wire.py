@@ -40,6 +40,7 @@ def verdict(value: Verdict) -> messages.Verdict:
         ellipsoid_value=value.ellipsoid_value,
         object_displacement=vector3(value.displacement),
         object_tilt=value.tilt,
+        missed=value.missed,
     )
 
 

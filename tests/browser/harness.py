@@ -51,6 +51,7 @@ def working_view() -> PageView:
             kicked_over=False,
             collision=False,
             ellipsoid_value=3.4,
+            missed=0.084,
             object_displacement=(0.002, 0.0, 0.0),
         ),
         safety=messages.SafetyState(emergency_stop=False),

@@ -46,7 +46,7 @@ def criteria(shown: Shown) -> tuple[tuple[bool | None, str], ...]:
         return ((None, ""),) * 3
     moved = max(abs(d) for d in verdict.object_displacement)
     return (
-        (True if verdict.reached else _open_while_moving(shown), f"{verdict.ellipsoid_value:.2f}, at most 1"),
+        (True if verdict.reached else _open_while_moving(shown), _miss(verdict)),
         (not verdict.kicked_over, f"moved {length(moved)}, tilted {math.degrees(verdict.object_tilt):.0f}°"),
         (not verdict.collision, _contact(verdict)),
     )
@@ -73,10 +73,14 @@ def _has_moved(shown: Shown) -> bool:
     return robot is None or robot.episode > 0
 
 
+def _miss(verdict: Verdict) -> str:
+    return f"{length(verdict.missed)} from the target" if verdict.missed >= 0.0 else ""
+
+
 def _contact(verdict: Verdict) -> str:
     if not verdict.collision:
         return "no contact"
     if verdict.collision_position is None:
         return f"{verdict.collision_force:.1f} N"
-    place = ", ".join(f"{c:.2f}" for c in verdict.collision_position)
-    return f"{verdict.collision_force:.1f} N at {place}"
+    place = ", ".join(f"{axis} {c:.2f}" for axis, c in zip("xyz", verdict.collision_position, strict=True))
+    return f"{verdict.collision_force:.1f} N at {place} m"

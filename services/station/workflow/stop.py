@@ -63,6 +63,5 @@ def releasing(state: Workflow, view: View, settings: Settings) -> Step:
 
 def _released(state: Workflow, view: View, safety: SafetyState) -> Workflow:
     """After a stop nothing moves by itself, and a new authority is needed."""
-    at = f" at {safety.at}" if safety.at and safety.released_by else ""
-    event = f"The emergency stop was released by {safety.released_by or 'somebody'}{at}."
+    event = f"The emergency stop was released by {safety.released_by or 'somebody'}."
     return to(replace(state, holding=False, last=None), Phase.WAITING, view, event=event)

@@ -53,8 +53,8 @@ def _stop(view: View) -> str:
 
 
 def _who(safety: SafetyState) -> str:
-    by = f"{safety.by or 'somebody'} ({safety.reason})" if safety.reason else safety.by or "somebody"
-    return f"{by} at {safety.at}" if safety.at else by
+    """Who stopped, and why; when, the page's stop says, by the clock of whoever reads it."""
+    return f"{safety.by or 'somebody'} ({safety.reason})" if safety.reason else safety.by or "somebody"
 
 
 def _light(state: Workflow, view: View) -> Light:

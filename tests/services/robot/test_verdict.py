@@ -33,6 +33,7 @@ def test_the_boundary_counts_as_reached(axis):
     on[axis], outside[axis] = RADII[axis], RADII[axis] * 1.001
     assert judge.judge(UPRIGHT, standing(on), None).reached
     assert not judge.judge(UPRIGHT, standing(outside), None).reached
+    assert judge.judge(UPRIGHT, standing(outside), None).missed == pytest.approx(RADII[axis] * 1.001)
 
 
 @pytest.mark.parametrize("axis", range(3))

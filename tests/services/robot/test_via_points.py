@@ -37,6 +37,7 @@ def test_reached_is_both_via_points_within_the_tolerance():
     assert not passed(0.1101, -0.05).reached
     assert not passed(0.1, -0.0601).reached
     assert passed(0.105, -0.05).ellipsoid_value == pytest.approx(0.25)
+    assert passed(0.105, -0.05).missed == pytest.approx(0.005)
 
 
 def test_nothing_is_reached_before_the_last_via_point_lies_behind():

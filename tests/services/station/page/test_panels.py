@@ -101,8 +101,13 @@ def test_the_counters_tell_used_and_allowed():
 
 
 def test_the_verdict_is_told_criterion_by_criterion():
-    judged = Verdict(reached=True, kicked_over=True, collision=False, ellipsoid_value=0.5)
+    judged = Verdict(reached=True, kicked_over=True, collision=False, missed=0.0314)
     values = verdict(shown(verdict=judged))
     tones = [values[f"{name}@data-tone"] for name in ("verdict", "reached", "kicked", "collision")]
     assert tones == ["bad", "good", "bad", "good"]
-    assert values["reached-evidence"] == "0.50, at most 1"
+    assert values["reached-evidence"] == "31 mm from the target"
+
+
+def test_a_robot_that_does_not_tell_how_far_the_target_was_missed_is_not_spoken_for():
+    judged = Verdict(reached=False, kicked_over=False, collision=False)
+    assert verdict(shown(verdict=judged))["reached-evidence"] == ""

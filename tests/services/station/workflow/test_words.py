@@ -138,7 +138,7 @@ def test_a_stop_that_is_not_confirmed_is_said_before_everything():
 def test_a_latched_stop_says_who_why_and_when():
     light, text = told(REFINING, safety=STOPPED)
     assert light is Light.RED
-    assert text == "Emergency stop by bob (it burns) at 10:00: release it to go on."
+    assert text == "Emergency stop by bob (it burns): release it to go on."
     _, text = told(REFINING, safety=SafetyState(emergency_stop=True))
     assert text == "Emergency stop by somebody: release it to go on."
 
