@@ -14,6 +14,9 @@ Floats = NDArray[np.float64]
 GREATEST = 1e9
 """As of every other number of a message."""
 
+FARTHEST = 1e6
+"""Beyond it nothing is a place, and single precision ends somewhere [m]."""
+
 
 class NotFinite(ServiceError):
     """An array from the wire holds NaN, infinity, or what is too large to be measured."""
@@ -41,6 +44,15 @@ def from_wire(array: Array) -> Floats:
     if wrong:
         raise NotFinite(wrong)
     return values
+
+
+def drawable(array: Array) -> Floats | None:
+    """The array's numbers; None where they are nothing that can be drawn: not finite, or far beyond any robot."""
+    try:
+        values = from_wire(array)
+    except NotFinite:
+        return None
+    return values if np.all(np.abs(values) <= FARTHEST) else None
 
 
 def motion_to_wire(positions: ArrayLike, orientations: ArrayLike, duration: float) -> Motion:

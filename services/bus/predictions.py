@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from protocol.messages import Motion, Prediction, Way
+from protocol.messages import ExecutionState, Motion, Prediction, Way
 from protocol.topics import PREDICTION
 from services.bus.bus import Bus
 
@@ -55,6 +55,10 @@ class Predictions:
         while len(self._known) > KEPT:
             del self._known[next(iter(self._known))]
         return self._known.get(identity)
+
+    def shown(self, execution: ExecutionState | None) -> Prediction | None:
+        """The one to see: of the motion that is under way, whatever was predicted since; else the newest."""
+        return self.newest() if execution is None else self.find(execution.prediction)
 
     def motion(self, identity: int) -> Motion | None:
         """The motion that was predicted under an id; None as of `find`."""

@@ -5,24 +5,13 @@ from __future__ import annotations
 import numpy as np
 import rerun as rr
 
-from protocol.messages import Array
-from services.bus.arrays import Floats, NotFinite, from_wire
+from services.bus.arrays import Floats
 from services.viewer import entities, palette
 from services.viewer.run import Run
 
 _ELLIPSOIDS = 24
 _THINNEST = 0.001  # [m]
 _SIGMAS = 2.0
-_FARTHEST = 1e6  # [m] beyond it nothing is a place, and single precision ends somewhere
-
-
-def drawable(array: Array) -> Floats | None:
-    """The array's numbers; None where they are nothing that can be drawn: not finite, or far beyond any robot."""
-    try:
-        values = from_wire(array)
-    except NotFinite:
-        return None
-    return values if np.all(np.abs(values) <= _FARTHEST) else None
 
 
 def log_prediction(run: Run, positions: Floats, deviations: Floats | None) -> None:

@@ -21,9 +21,10 @@ from protocol.topics import (
     WORLD_STATE,
     WRIST_IMAGE,
 )
-from services.bus.arrays import vector3
+from services.bus.arrays import drawable, vector3
 from services.bus.bus import Bus
 from services.bus.predictions import Predictions
+from services.bus.trace import Trace
 from services.process.clock import Clock
 from services.process.config import Configuration
 from services.process.runner import Service
@@ -32,7 +33,6 @@ from services.viewer.journal import Entry, Journal
 from services.viewer.news import Changes, News
 from services.viewer.robot_model import RobotModel
 from services.viewer.run import Run
-from services.viewer.trace import Trace
 from services.viewer.web import WebServer
 from services.viewer.web_files import web_files
 from sim.exceptions import SimError
@@ -44,7 +44,7 @@ log = logging.getLogger(__name__)
 
 RATE_HZ = 30.0
 
-# What stands still is drawn again this often: whoever opens the live view late has not seen the first time.
+# What stands still is drawn again this often: whoever opens the page late has not seen the first time.
 _REPEAT_S = 1.0
 
 # Numbers over time and the force's arrow: every second step, since nobody sees more and each costs as much as a joint.
@@ -60,7 +60,7 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> Service:
     """The viewer process.
 
     Raises:
-        PortInUse: another program listens where the live view should be.
+        PortInUse: another program listens where its page should be.
         FolderUnusable: the recording cannot be written.
         WebFilesMissing: the web viewer's files are not there.
     """
@@ -82,7 +82,7 @@ class ViewerService:
     Args:
         bus: to them.
         run: where it is drawn.
-        web: the live view's page.
+        web: the page to look at it.
         point: radius of a robot that is a point [m]; None for an arm.
     """
 
@@ -190,15 +190,12 @@ class ViewerService:
             series.log_pose_error(self._run, seen.error)
 
     def _log_motions(self, now_ns: int) -> None:
-        # While a motion is under way it is the one to see, whatever was predicted since.
-        execution = self._execution.fresh(now_ns)
-        predictions = self._predictions
-        prediction = predictions.find(execution.prediction) if execution is not None else predictions.newest()
+        prediction = self._predictions.shown(self._execution.fresh(now_ns))
         if prediction is not None:
             self._write(*self._journal.prediction(prediction))
         if prediction is not None and self._changes.due("prediction", prediction, now_ns):
-            positions = motions.drawable(prediction.motion.positions)
-            deviations = motions.drawable(prediction.deviations)
+            positions = drawable(prediction.motion.positions)
+            deviations = drawable(prediction.deviations)
             if positions is None or deviations is None:
                 self._unusable += 1
             else:

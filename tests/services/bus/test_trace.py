@@ -3,7 +3,7 @@
 import numpy as np
 
 from protocol.messages import Phase, Pose, RobotState
-from services.viewer.trace import POINTS_KEPT, SPACING, Trace
+from services.bus.trace import POINTS_KEPT, SPACING, Trace
 
 UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 
@@ -23,6 +23,18 @@ def test_it_follows_the_reference_while_an_episode_is_executed():
     for phase, x in ((Phase.RAMP, -1.0), (Phase.EXECUTE, 0.0), (Phase.EXECUTE, 0.1), (Phase.HOLD, 0.3)):
         trace.see(robot(x, phase))
     np.testing.assert_array_equal(trace.points, [[0.0, 0.0, 0.0], [0.1, 0.0, 0.0]])
+
+
+def test_it_says_when_the_way_is_another_one():
+    trace = Trace()
+    seen = [trace.see(robot(x)) for x in (0.0, 0.1 * SPACING, 2.0 * SPACING)]
+    assert [*seen, trace.see(robot(2.0 * SPACING, episode=2)), trace.see(robot(0.0, Phase.HOLD, episode=2))] == [
+        True,
+        False,
+        True,
+        True,
+        False,
+    ]
 
 
 def test_another_episode_begins_another_way():

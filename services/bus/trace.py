@@ -23,17 +23,20 @@ class Trace:
         self._episode: tuple[int, int] | None = None
         self._points: deque[Vector3] = deque(maxlen=POINTS_KEPT)
 
-    def see(self, robot: RobotState) -> None:
-        """Follow the reference; another episode begins another trace."""
+    def see(self, robot: RobotState) -> bool:
+        """Follow the reference; another episode begins another trace. Whether the way is another one now."""
         episode = (robot.publisher, robot.episode)
-        if episode != self._episode:
+        begins = episode != self._episode
+        if begins:
             self._episode = episode
             self._points.clear()
         if robot.phase is not Phase.EXECUTE:
-            return
+            return begins
         position = robot.reference.position
-        if not self._points or math.dist(self._points[-1], position) >= SPACING:
+        goes_on = not self._points or math.dist(self._points[-1], position) >= SPACING
+        if goes_on:
             self._points.append(position)
+        return begins or goes_on
 
     @property
     def points(self) -> Floats:
