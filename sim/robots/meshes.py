@@ -1,6 +1,7 @@
 """Triangle meshes of the robot: reading, thinning and writing them."""
 
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,7 @@ Triangles = NDArray[np.float32]
 
 _HEADER_BYTES = 80
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+_CREASE = np.cos(np.radians(40.0))  # triangles that bend more against each other have an edge between them
 _LEAST_GROWTH = 1.05  # of the cell, until few enough triangles are left
 
 
@@ -73,6 +75,59 @@ def _normals(triangles: Triangles) -> NDArray[np.float32]:
     normals = np.cross(first, second)
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     units: NDArray[np.float32] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0.0)
+    return units
+
+
+class Shaded(NamedTuple):
+    """A mesh as graphics cards take it, each vertex once.
+
+    Attributes:
+        vertices: Shape (v, 3) [m].
+        normals: By which they are lit, unit vectors, shape (v, 3).
+        triangles: Indices of the vertices, shape (n, 3).
+    """
+
+    vertices: Triangles
+    normals: Triangles
+    triangles: NDArray[np.uint32]
+
+
+def shaded(triangles: Triangles) -> Shaded:
+    """Return a mesh that looks round where it is round, and keeps its edges where it has some.
+
+    Args:
+        triangles: Corners, shape (n, 3, 3) [m].
+    """
+    triangles = triangles[np.any(_normals(triangles), axis=1)]  # the others have no area
+    vertices, vertex = np.unique(triangles.reshape(-1, 3), axis=0, return_inverse=True)
+    normals = np.round(_corner_normals(triangles, vertex.reshape(-1)), 2)
+    corners, corner = np.unique(np.column_stack([vertices[vertex.reshape(-1)], normals]), axis=0, return_inverse=True)
+    return Shaded(
+        vertices=corners[:, :3].astype(np.float32),
+        normals=corners[:, 3:].astype(np.float32),
+        triangles=corner.reshape(-1, 3).astype(np.uint32),
+    )
+
+
+def _corner_normals(triangles: Triangles, vertex: NDArray[np.intp]) -> Triangles:
+    """Return the mean normal of the triangles around each corner that bend little against its own, shape (3 n, 3).
+
+    Args:
+        triangles: Shape (n, 3, 3) [m].
+        vertex: At which vertex the corners lie, shape (3 n,).
+    """
+    flat = np.repeat(_normals(triangles), 3, axis=0)
+    at_vertex = np.bincount(vertex)
+    beside = at_vertex[vertex]  # corners at the same vertex, of each corner
+    one = np.repeat(np.arange(len(vertex)), beside)
+    nth = np.arange(len(one)) - np.repeat(np.cumsum(beside) - beside, beside)
+    first = np.cumsum(at_vertex) - at_vertex
+    other = np.argsort(vertex, kind="stable")[np.repeat(first[vertex], beside) + nth]
+    smooth = np.sum(flat[one] * flat[other], axis=1) > _CREASE
+    mean = np.zeros_like(flat)
+    np.add.at(mean, one[smooth], flat[other[smooth]])
+    lengths = np.linalg.norm(mean, axis=1, keepdims=True)
+    units: Triangles = np.divide(mean, lengths, out=flat, where=lengths > 0.0)
     return units
 
 

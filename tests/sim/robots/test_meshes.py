@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sim.exceptions import DescriptionInvalid
-from sim.robots.meshes import read_stl, thin, write_stl
+from sim.robots.meshes import read_stl, shaded, thin, write_stl
 
 pytestmark = pytest.mark.sim
 
@@ -42,3 +42,21 @@ def test_thinning_keeps_the_limit_and_the_shape() -> None:
 def test_a_mesh_within_the_limit_stays_as_it_is() -> None:
     triangles = _sphere(8)
     assert thin(triangles, len(triangles)) is triangles
+
+
+def test_what_is_round_is_lit_as_round_and_has_each_vertex_once() -> None:
+    triangles = _sphere(30)
+    triangles = triangles[np.all(np.abs(triangles[..., 2]) < 0.98, axis=1)]  # at the poles some have no area
+    mesh = shaded(triangles)
+    assert len(mesh.vertices) < len(triangles)
+    np.testing.assert_array_equal(mesh.vertices[mesh.triangles], triangles)
+    np.testing.assert_allclose(np.linalg.norm(mesh.normals, axis=1), 1.0, atol=0.02)
+    np.testing.assert_allclose(np.sum(mesh.normals * mesh.vertices, axis=1), 1.0, atol=0.05)
+
+
+def test_an_edge_stays_an_edge() -> None:
+    flat = np.array([[[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 0, 0], [1, 1, 0], [0, 1, 0]]], np.float32)
+    upright = np.array([[[0, 0, 0], [0, 0, 1], [1, 0, 0]]], np.float32)
+    mesh = shaded(np.concatenate([flat, upright]))
+    np.testing.assert_array_equal(mesh.normals[mesh.triangles[:2]], np.broadcast_to([0.0, 0.0, 1.0], (2, 3, 3)))
+    np.testing.assert_array_equal(mesh.normals[mesh.triangles[2]], np.broadcast_to([0.0, 1.0, 0.0], (3, 3)))
