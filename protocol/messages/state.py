@@ -173,7 +173,7 @@ class Verdict(Message, frozen=True, kw_only=True):
         ellipsoid_value: of eq. E.1, or the greatest (error / tolerance)^2 at a via-point; at most 1 where reached.
         object_displacement: since the episode started [m].
         object_tilt: angle between the object's upright axis and the vertical [rad].
-        missed: distance from the grasping frame to the object's centre, or the greatest one at a via-point [m]; negative
+        missed: distance from the grasping frame to the object's centre, or the greatest at a via-point [m]; negative
             where it is not told.
     """
 
