@@ -13,6 +13,7 @@ from protocol.queries import Adapt
 from services.process import endpoint
 from services.process.exceptions import BadEndpoint, ConfigurationError
 from services.process.files import write_whole
+from services.process.misfit import told
 
 LARGEST = 1 << 20
 """Of a configuration file [byte]; more is some other file."""
@@ -219,9 +220,10 @@ def load(path: Path) -> Configuration:
         raise ConfigurationError(path, str(error)) from None
     except RecursionError:
         raise ConfigurationError(path, "it is nested too deeply for a configuration") from None
+    except msgspec.ValidationError as error:
+        raise ConfigurationError(path, told(error, Configuration)) from None
     except msgspec.DecodeError as error:
-        reason = str(error).replace("Object contains unknown field", "unknown key")
-        raise ConfigurationError(path, _BYTE.sub(lambda m: _place(text, int(m[1])), reason)) from None
+        raise ConfigurationError(path, _BYTE.sub(lambda m: _place(text, int(m[1])), str(error))) from None
 
 
 def _text(path: Path) -> str:

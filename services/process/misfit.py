@@ -1,0 +1,84 @@
+"""What in a configuration does not fit, as who wrote the file would say it: section, key, and what would be right."""
+
+from __future__ import annotations
+
+import re
+from difflib import get_close_matches
+from typing import Any
+
+import msgspec
+from msgspec import inspect
+
+_UNKNOWN = re.compile(r"Object contains unknown field `(.+)`")
+_PLACE = re.compile(r" - at `\$\.?(.*)`$")
+_PATTERN = re.compile(r" matching regex '.*'$")
+_NAMED = re.compile(r"\^\(([\w|]+)\)\$")  # a pattern that is a list of texts
+
+_WORDS = {
+    "`str`": "a text",
+    "`int`": "a whole number",
+    "`float`": "a number",
+    "`bool`": "true or false",
+    "`object`": "a section",
+    "`array`": "a list",
+    "`null`": "nothing",
+    "Invalid enum value": "invalid value",
+    "Object missing required field": "the key is missing:",
+}
+
+
+def told(error: msgspec.ValidationError, kind: type) -> str:
+    """What does not fit, in one line.
+
+    Args:
+        error: as raised.
+        kind: of the struct that was to be read.
+    """
+    said = str(error)
+    place = _PLACE.search(said)
+    keys = place[1].split(".") if place and place[1] else []
+    what = _PATTERN.sub("", _PLACE.sub("", said))
+    fits = _type_at(inspect.type_info(kind), keys)
+    unknown = _UNKNOWN.match(what)
+    if unknown:
+        known = [field.encode_name for field in _fields(fits)]
+        meant = get_close_matches(unknown[1], known, 1)
+        right = f"did you mean {meant[0]}?" if meant else f"one of {', '.join(known)}"
+        return f"{_named([*keys, ''])}unknown key {unknown[1]}; {right}"
+    for name, words in _WORDS.items():
+        what = what.replace(name, words)
+    choices = _choices(fits)
+    return f"{_named(keys)}{what[0].lower()}{what[1:]}" + (f"; one of {', '.join(choices)}" if choices else "")
+
+
+def _named(keys: list[str]) -> str:
+    """Section and key, as they stand in a file."""
+    section = ".".join(keys[:-1])
+    place = f"[{section}] {keys[-1]}".strip() if section else "".join(keys[-1:])
+    return f"{place}: " if place else ""
+
+
+def _type_at(kind: Any, keys: list[str]) -> Any:
+    """What is expected under some keys; None where nothing is known of them."""
+    for key in keys:
+        if isinstance(kind, inspect.UnionType) and any(key == getattr(one, "tag_field", None) for one in kind.types):
+            return kind  # the key says which of them it is
+        kind = next((field.type for field in _fields(kind) if field.encode_name == key), None)
+    return kind
+
+
+def _fields(kind: Any) -> list[inspect.Field]:
+    """Of a section, or of any that can stand there."""
+    if isinstance(kind, inspect.UnionType):
+        return [field for one in kind.types for field in _fields(one)]
+    return list(kind.fields) if isinstance(kind, inspect.StructType) else []
+
+
+def _choices(kind: Any) -> list[str]:
+    if isinstance(kind, inspect.StrType) and (named := _NAMED.fullmatch(kind.pattern or "")):
+        return named[1].split("|")
+    if isinstance(kind, inspect.EnumType):
+        return [str(member.value) for member in kind.cls]
+    if isinstance(kind, inspect.UnionType):
+        return [str(one.tag) for one in kind.types if isinstance(one, inspect.StructType) and one.tag]
+    return []
