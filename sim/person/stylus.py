@@ -1,6 +1,7 @@
 """A haptic stylus without the hardware: a point mass with the device's own damping, in a box, and a free gimbal."""
 
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 Vector = tuple[float, float, float]
 
@@ -8,8 +9,7 @@ RATE_HZ = 1000.0
 """At which a haptic device closes its force loop."""
 
 
-@dataclass(frozen=True, slots=True)
-class StylusState:
+class StylusState(NamedTuple):
     """Where the tip of the stylus is, relative to the device's neutral pose, in base axes.
 
     Attributes:
@@ -51,10 +51,12 @@ class Stylus:
             rotation: How the fingers hold the handle [rad]; without fingers the gimbal, which has neither motors nor
                 springs, stays as it is.
         """
-        (px, vx), (py, vy), (pz, vz) = (
-            self._axis(self.state.position[i], self.state.velocity[i], force[i], dt) for i in (0, 1, 2)
-        )
-        self.state = StylusState((px, py, pz), (vx, vy, vz), self.state.rotation if rotation is None else rotation)
+        (px, py, pz), (vx, vy, vz), turned = self.state
+        fx, fy, fz = force
+        px, vx = self._axis(px, vx, fx, dt)
+        py, vy = self._axis(py, vy, fy, dt)
+        pz, vz = self._axis(pz, vz, fz, dt)
+        self.state = StylusState((px, py, pz), (vx, vy, vz), turned if rotation is None else rotation)
         return self.state
 
     def _axis(self, position: float, velocity: float, force: float, dt: float) -> tuple[float, float]:

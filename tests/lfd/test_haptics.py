@@ -21,3 +21,9 @@ def test_force_is_linear_in_the_scale(displacement, velocity, scale):
 @given(vectors)
 def test_damping_never_drives_the_hand(velocity):
     assert force(np.zeros(3), velocity) @ velocity <= 0.0
+
+
+@given(vectors, vectors)
+def test_along_one_axis_it_is_the_same_to_the_last_bit(displacement, velocity):
+    along = [force(x, v) for x, v in zip(displacement.tolist(), velocity.tolist(), strict=True)]
+    assert along == force(displacement, velocity).tolist()
