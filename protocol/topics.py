@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from enum import Enum
+from functools import cached_property, lru_cache
 from typing import Any, Generic, TypeVar
 
 from protocol import messages
@@ -59,12 +60,12 @@ class Topic(Generic[M]):
     about: str
     kept: int = 1
 
-    @property
+    @cached_property
     def schema(self) -> str:
         """Announced with every message, so that a reader can refuse another version before it decodes."""
         return f"{self.type.__name__}/1"
 
-    @property
+    @cached_property
     def stale_after_ns(self) -> int | None:
         """Age at which a sample counts as lost: ten periods, at least 100 ms; events and stops never."""
         if self.qos in (QoS.EVENT, QoS.SAFETY):
@@ -73,13 +74,18 @@ class Topic(Generic[M]):
 
     def published_by(self, process: str) -> bool:
         """Whether a process of this name publishes the topic: one of the role that the table names."""
-        return _NAME.fullmatch(process) is not None and self.publisher in ("any", role(process))
+        return _publishes(self.publisher, process)
 
     def key(self, robot: str, source: str) -> str:
         """The key expression on which `source` publishes for `robot`."""
         return (
             f"retouch/{VERSION}/{checked_name(robot)}/{self.name}/{source if source == '*' else checked_name(source)}"
         )
+
+
+@lru_cache(maxsize=1024)  # asked of every message, about few names; bounded, since a stranger may invent more
+def _publishes(publisher: str, process: str) -> bool:
+    return _NAME.fullmatch(process) is not None and publisher in ("any", role(process))
 
 
 def role(process: str) -> str:

@@ -49,7 +49,7 @@ class Pose(msgspec.Struct, frozen=True):
     orientation: Quaternion
 
     def __post_init__(self) -> None:
-        norm = math.sqrt(sum(c * c for c in self.orientation))
+        norm = math.hypot(*self.orientation)
         if abs(norm - 1.0) > 1e-3:
             raise ValueError(f"orientation has norm {norm:.6g}, not 1")
 

@@ -8,8 +8,8 @@ could be replayed; publishers that somebody invents find no room rather than tak
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
+from typing import NamedTuple
 
 from services.bus.clocks import NEAR_NS, Clocks
 
@@ -39,8 +39,7 @@ class Judgement(Enum):
     IMPLAUSIBLE = "implausible"
 
 
-@dataclass
-class _Newest:
+class _Newest(NamedTuple):
     """Of one publisher."""
 
     sequence: int

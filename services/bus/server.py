@@ -88,6 +88,8 @@ class Server(Generic[Req, Rep]):
 
     def take(self) -> list[Call[Req, Rep]]:
         """The requests since the last call."""
+        if not self._calls:
+            return []
         with self._lock:
             taken = list(self._calls)
             self._calls.clear()

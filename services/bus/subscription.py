@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from dataclasses import dataclass
-from typing import Generic, TypeVar
+from typing import Generic, NamedTuple, TypeVar
 
 from protocol.codec import decode
 from protocol.exceptions import ProtocolError
@@ -20,8 +19,7 @@ from services.bus.tally import Drops, Tally
 M = TypeVar("M", bound=Message)
 
 
-@dataclass(frozen=True)
-class Received(Generic[M]):
+class Received(NamedTuple, Generic[M]):
     """A message and when it came, in the receiver's clock."""
 
     message: M
@@ -106,6 +104,8 @@ class Subscription(Generic[M]):
 
     def take(self) -> list[Received[M]]:
         """The messages since the last call, in order, at most as many as the topic keeps."""
+        if not self._kept:
+            return []
         with self._lock:
             taken = list(self._kept)
             self._kept.clear()

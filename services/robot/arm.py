@@ -219,7 +219,7 @@ class Arm:
             solved, _ = self._kinematics.solve_step(q, target.position, target.orientation, period)
         except InverseFailed as error:
             return q, (*clamped, str(error))
-        if not np.all(np.isfinite(solved)):
+        if not np.isfinite(solved).all():
             return q, (*clamped, "inverse kinematics gave no number")
         q_next, joints = self._limits.clamp(q, solved, CONTROL_PERIOD)
         clamped.extend(joints)

@@ -47,10 +47,10 @@ class States:
         if due(topics.AUTHORITY_STATE, now_ns) or self._epoch != control.lease.epoch:
             self._epoch = control.lease.epoch
             self._bus.publish(topics.AUTHORITY_STATE, self._authority_state(now_ns))
-        safety_state = self._safety_state(tick)
-        if due(topics.SAFETY_STATE, now_ns) or self._stop_latched != safety_state.emergency_stop:
-            self._stop_latched = safety_state.emergency_stop
-            self._bus.publish(topics.SAFETY_STATE, safety_state)
+        stop_latched = control.latch.latched and control.memory.settled
+        if due(topics.SAFETY_STATE, now_ns) or self._stop_latched != stop_latched:
+            self._stop_latched = stop_latched
+            self._bus.publish(topics.SAFETY_STATE, self._safety_state(tick, stop_latched=stop_latched))
         arm = control.arm
         arranged = (arm.variant, arm.start, arm.condition.tobytes())
         if due(topics.SCENE_STATE, now_ns) or self._arranged != arranged:
@@ -108,11 +108,11 @@ class States:
             operator=lease.operator, holder=lease.holder, epoch=lease.epoch, expires_in=lease.expires_in_s(now_ns)
         )
 
-    def _safety_state(self, tick: Tick) -> messages.SafetyState:
+    def _safety_state(self, tick: Tick, *, stop_latched: bool) -> messages.SafetyState:
         """As it is kept: a stop shows as latched when it would outlive this process, or a line says why not."""
         latch, memory = self._control.latch, self._control.memory
         return messages.SafetyState(
-            emergency_stop=latch.latched and memory.settled,
+            emergency_stop=stop_latched,
             by=latch.by,
             reason="; ".join(part for part in (latch.reason, memory.fault) if part),
             at=latch.at,

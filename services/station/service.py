@@ -115,8 +115,13 @@ class StationService:
             log.debug("%s -> %s", before.value, step.state.phase.value)
             if step.state.phase is Phase.RESETTING and step.state.placed is None:
                 self._drawn = None
+        self._publish(held)
+        told = self._schedule.due(topics.TEACHING_STATE, now_ns)
+        if not told and self._page is None:
+            return
         teaching = teaching_state(self._workflow, view, self._settings)
-        self._publish(now_ns, held, teaching)
+        if told:
+            self._bus.publish(topics.TEACHING_STATE, teaching)
         if self._page is not None:
             self._page.show(self._page_view(now_ns, view, teaching))
 
@@ -179,16 +184,14 @@ class StationService:
             self._drawn = Place(condition=drawn) if scene.condition else Place(object_position=vector3(drawn))
         return self._drawn
 
-    def _publish(self, now_ns: int, held: OperatorInput, teaching: messages.TeachingState) -> None:
-        """Who is here and what is held; that s/he is present, where this station holds the authority; the run."""
+    def _publish(self, held: OperatorInput) -> None:
+        """Who is here and what is held; that s/he is present, where this station holds the authority."""
         operator, holder, epoch = self._settings.operator, self._settings.holder, self._workflow.held_epoch
         said = msgspec.structs.replace(held, operator=operator, holder=holder, epoch=epoch)
         self._bus.publish(topics.OPERATOR_INPUT, said)
         if epoch and held.present:
             renewal = messages.AuthorityRenewal(operator=operator, holder=holder, epoch=epoch)
             self._bus.publish(topics.AUTHORITY_RENEWAL, renewal)
-        if self._schedule.due(topics.TEACHING_STATE, now_ns):
-            self._bus.publish(topics.TEACHING_STATE, teaching)
 
     def _page_view(self, now_ns: int, view: View, teaching: messages.TeachingState) -> PageView:
         ears, workflow = self._ears, self._workflow

@@ -161,7 +161,9 @@ def executing(state: Workflow, view: View, settings: Settings) -> Step:
     wanted = _wanted(state, view, settings)
     if wanted is not state.wants:
         state = replace(state, wants=wanted, question=0, intent=0, retry_s=view.now_s, event="")
-    state = replace(state, let_go=_let_go(state, view))
+    let_go = _let_go(state, view)
+    if let_go is not state.let_go:
+        state = replace(state, let_go=let_go)
     waits = view.robot is not None and view.robot.waiting
     offered = frozenset({Action.FINISH, Action.GO_ON} if waits else {Action.FINISH})
     match state.wants:
@@ -172,7 +174,7 @@ def executing(state: Workflow, view: View, settings: Settings) -> Step:
             step = _order(state, view, queries.RESUME)
         case _:
             step = Step(state)
-    return Step(replace(step.state, offered=offered), step.ask)
+    return step if offered == step.state.offered else Step(replace(step.state, offered=offered), step.ask)
 
 
 def _wanted(state: Workflow, view: View, settings: Settings) -> Action | None:
