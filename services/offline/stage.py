@@ -38,9 +38,12 @@ class Stepped(Protocol):
 
 @dataclass
 class _Turn:
+    """Of a service; one that rests keeps its place in time, and is not stepped."""
+
     service: Stepped
     period_ns: int
     due_ns: int
+    rests: bool = False
 
 
 class Stage:
@@ -59,7 +62,8 @@ class Stage:
         self._model = build_model(self.bus(), self._clock, configuration, models)
         self._master = build_master(self.bus(), self._clock, configuration)
         eyes = Eyes(self.bus(), np.random.default_rng(configuration.seed))
-        self._turns = [self._turn(service) for service in (robot, eyes, self._model, self._master)]
+        self._masters = self._turn(self._master)
+        self._turns = [*(self._turn(service) for service in (robot, eyes, self._model)), self._masters]
 
     def bus(self) -> MemoryBus:
         """A way in, for a service or for whoever looks on."""
@@ -73,7 +77,8 @@ class Stage:
             for turn in self._turns:
                 if turn.due_ns <= now:
                     turn.due_ns += turn.period_ns
-                    turn.service.step(now)
+                    if not turn.rests:
+                        turn.service.step(now)
 
     def teach(self, arrangement: Reset, refinements_allowed: int, until: Callable[[], bool]) -> None:
         """Let a station run Algorithm 1 under one arrangement.
@@ -88,6 +93,8 @@ class Stage:
         bus = self.bus()
         station = self._turn(StationService(bus, chosen, None, self._configuration.seed))
         self._turns.append(station)
+        # Where nothing is taught nobody corrects, and the robot listens to no master.
+        self._masters.rests = refinements_allowed == 0
         try:
             self.run(until)
         finally:

@@ -162,8 +162,8 @@ class Kinematics:
         Args:
             q: Joint positions, shape (8,).
         """
-        pin.computeDistances(self._model, self._data, self._geometry, self._geometry_data, q)
-        return float(min(result.min_distance for result in self._geometry_data.distanceResults))
+        nearest = pin.computeDistances(self._model, self._data, self._geometry, self._geometry_data, q)
+        return float(self._geometry_data.distanceResults[nearest].min_distance)
 
 
 def _load(urdf: Path) -> tuple[pin.Model, pin.GeometryModel]:

@@ -13,8 +13,6 @@ from sim.pose import Pose
 
 Array = NDArray[np.float64]
 
-_UP = np.array([0.0, 0.0, 1.0])
-
 
 @dataclass(frozen=True, eq=False)
 class Verdict:
@@ -121,8 +119,9 @@ def tilt_of(orientation: Array) -> float:
     Args:
         orientation: of the body, shape (4,).
     """
-    x, y, z = rotate(orientation, _UP)
-    return math.atan2(math.hypot(x, y), z)
+    w, x, y, z = orientation.tolist()
+    # Where the z axis points: the third column of the rotation's matrix.
+    return math.atan2(math.hypot(2.0 * (w * y + x * z), 2.0 * (y * z - w * x)), 1.0 - 2.0 * (x * x + y * y))
 
 
 def ellipsoid_value(grasping: Pose, object_position: Array, radii: Array) -> float:

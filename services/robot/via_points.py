@@ -70,6 +70,7 @@ class ViaPointJudge:
         """Note the y at each via-point's x that lies between the last period and this one."""
         if self._before is not None:
             crossed = (self._before[0] < self._x) & (self._x <= now[0])
-            y = np.interp(self._x[crossed], [self._before[0], now[0]], [self._before[1], now[1]])
-            self._passed_at[crossed] = y
+            if crossed.any():
+                y = np.interp(self._x[crossed], [self._before[0], now[0]], [self._before[1], now[1]])
+                self._passed_at[crossed] = y
         self._before = now
