@@ -23,19 +23,20 @@ CUT = "…"
 
 def fit(value: S) -> S:
     """The message, its texts and lists no longer than their types allow; the same object where all of them are."""
-    fitted: S = _of_struct(type(value))(value)
+    fit_ = _of_struct(type(value))
+    fitted: S = value if fit_ is None else fit_(value)
     return fitted
 
 
 @cache
-def _of_struct(type_: type[msgspec.Struct]) -> Fit:
+def _of_struct(type_: type[msgspec.Struct]) -> Fit | None:
     info = inspect.type_info(type_)
     assert isinstance(info, inspect.StructType)  # for the type checker: a struct has no other
     fits = {field.name: fit_ for field in info.fields if (fit_ := _of(field.type)) is not None}
+    if not fits:
+        return None
 
     def fitted(value: Any) -> Any:
-        if value is None:
-            return None
         changed = {}
         for name, fit_ in fits.items():
             before = getattr(value, name)

@@ -79,12 +79,13 @@ class Freshness:
             received_ns: our clock now [ns].
             process: the sender's name.
         """
-        newest = self._processes.get(process, {}).get(publisher)
+        incarnations = self._processes.get(process)
+        newest = incarnations.get(publisher) if incarnations is not None else None
         if newest is not None and newest.outdates(sequence, stamp_ns):
             return Judgement.REPEATED
         # What is repeated says nothing about clocks.
         age = self._clocks.age_ns(publisher, stamp_ns, received_ns)
-        if age < -(FUTURE_TOLERANCE_NS if self._clocks.shared_with(publisher) else NEAR_NS):
+        if age < -FUTURE_TOLERANCE_NS and (age < -NEAR_NS or self._clocks.shared_with(publisher)):
             return Judgement.FUTURE
         if self._stale_after_ns is not None and age > self._stale_after_ns:
             return Judgement.STALE

@@ -15,10 +15,10 @@ class Schedule:
 
     def due(self, topic: Topic[Any], now_ns: int) -> bool:
         """Whether to publish the topic now; then it is due again one period later, without making up for any."""
-        period = round(1e9 / topic.rate_hz)
         due_ns = self._next_ns.setdefault(topic.name, now_ns)
         if now_ns < due_ns:
             return False
+        period = round(1e9 / topic.rate_hz)
         behind = (now_ns - due_ns) // period
         self._next_ns[topic.name] = due_ns + (behind + 1) * period
         return True

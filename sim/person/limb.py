@@ -79,5 +79,5 @@ class Limb:
 
 
 def _shortened(vector: Array, length: float) -> Array:
-    norm = float(np.linalg.norm(vector))
+    norm = math.sqrt(vector @ vector)
     return vector if norm <= length else np.asarray(vector * (length / norm), dtype=np.float64)
