@@ -27,7 +27,7 @@ class Done(msgspec.Struct, frozen=True, tag="done"):
 
     Attributes:
         finding: what it found.
-        seconds: that it took.
+        seconds: of a processor that it took; by the clock it is longer where others want the same processor [s].
     """
 
     finding: Finding

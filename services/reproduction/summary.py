@@ -110,7 +110,7 @@ class Summary:
         figures: of the first run.
         notes: of the first run.
         people: in all; none where none takes part.
-        seconds: of work.
+        seconds: of work, on one processor [s].
     """
 
     judgements: tuple[Judgement, ...]

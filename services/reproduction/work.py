@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import time
 from collections.abc import Iterator, Sequence
 from contextlib import closing
 from typing import NamedTuple, Protocol
@@ -10,7 +11,6 @@ from typing import NamedTuple, Protocol
 from threadpoolctl import threadpool_limits
 
 from services.offline.pool import ProcessDied, Progress, each
-from services.process.clock import SystemClock
 from services.reproduction.analysis import Analysis, Context
 from services.reproduction.store import Done, Failed, Record, Run, Store
 
@@ -88,8 +88,7 @@ def _kept(piece: Piece, record: Record, store: Store) -> tuple[Piece, Record]:
 
 
 def _record(piece: Piece, progress: Progress) -> Record:
-    clock = SystemClock()
-    began_ns = clock.now_ns()
+    began = time.process_time()
     last = 0.0
 
     def advance(share: float) -> None:
@@ -107,4 +106,4 @@ def _record(piece: Piece, progress: Progress) -> Record:
         log.debug("traceback", exc_info=True)
         said = " ".join(str(error).split())
         return Failed(f"{type(error).__name__}: {said}" if said else type(error).__name__)
-    return Done(finding, (clock.now_ns() - began_ns) / 1e9)
+    return Done(finding, time.process_time() - began)

@@ -6,13 +6,14 @@ import pytest
 from lfd.motion.trajectory import Trajectory
 from protocol import messages
 from protocol.messages import Mode, Verdict
-from protocol.topics import OBJECT_POSE, WORLD_STATE
+from protocol.topics import MASTER_STATE, OBJECT_POSE, ROBOT_STATE, WORLD_STATE
 from services.bus.arrays import to_wire, vector3
 from services.bus.memory import MemoryNetwork
 from services.offline.eyes import DEVIATION, MEDIAN_ERROR, Eyes
 from services.offline.first_demonstrations import first_demonstrations
 from services.offline.rehearsal import Plan, rehearse
 from services.offline.result import Arrangement, Attempt, Course
+from services.offline.stage import Stage
 from services.process.clock import ManualClock
 from sim.tasks import DISHWASHER
 from sim.tasks.particle import PARTICLE
@@ -132,3 +133,31 @@ def test_a_condition_of_the_scenes_own_is_taught_in_the_same_way(hurried):
     assert taught.updates == 1
     assert taught.success
     assert taught.attempts[-1].miss == 0.0
+
+
+@pytest.mark.sim
+@pytest.mark.parametrize("refinements_allowed", [0, 1])
+def test_the_master_speaks_only_where_something_is_taught(refinements_allowed, tmp_path):
+    stage = Stage(Plan("particle", "adaptive", (), ()).configuration(tmp_path / "model.sqlite"))
+    robot, master = (stage.bus().subscribe(topic) for topic in (ROBOT_STATE, MASTER_STATE))
+    arrangement = Arrangement("free", condition=(0.0, 0.0))
+    stage.teach(arrangement.reset(), refinements_allowed, lambda: robot.latest() is not None and seconds(robot) > 1.0)
+    stage.close()
+    assert (master.latest() is not None) == (refinements_allowed > 0)
+
+
+def seconds(robot):
+    """That the robot was heard, at one state a control period [s]."""
+    return 0.01 * robot.latest().message.sequence
+
+
+@pytest.mark.sim
+def test_a_prediction_is_executed_in_the_same_way_with_and_without_a_master():
+    """What was demonstrated succeeds at once, so that both rounds execute the same prediction."""
+    arrangement = Arrangement("free", condition=tuple(PARTICLE.training_positions[0].tolist()))
+    plan = Plan("particle", "adaptive", tuple(first_demonstrations(PARTICLE)), (arrangement,), (arrangement,))
+    rehearsed = rehearse(plan)
+    (taught,), (again,) = rehearsed.first, rehearsed.second
+    (with_one,), (without,) = taught.attempts, again.attempts
+    np.testing.assert_array_equal(without.prediction.positions, with_one.prediction.positions)
+    np.testing.assert_array_equal(without.measured.positions, with_one.measured.positions)

@@ -70,6 +70,13 @@ def test_the_start_is_far_from_self_collision(place: ReachingScene, kinematics: 
     assert kinematics.self_distance(place.posture) > 0.1
 
 
+def test_the_distance_to_itself_is_that_of_its_nearest_parts(kinematics: Kinematics) -> None:
+    rng = np.random.default_rng(1)
+    for _ in range(200):
+        distance = kinematics.self_distance(rng.uniform(kinematics.lower, kinematics.upper))
+        assert distance == min(pair.min_distance for pair in kinematics._geometry_data.distanceResults)
+
+
 def test_some_configurations_meet_the_trunk_and_some_do_not(kinematics: Kinematics) -> None:
     rng = np.random.default_rng(0)
     distances = [kinematics.self_distance(rng.uniform(kinematics.lower, kinematics.upper)) for _ in range(200)]
