@@ -35,8 +35,8 @@ default model, and writes one HTML report. Each analysis states what the thesis
 and Retouch claim as conditions on its figures, and says which hold.
 
 Where a simulated person takes part, --people of them do, each with a seed of
-their own: 20 take hours, and --people 1 minutes; how long is said at the
-beginning. What is done is kept, run by run, and done again only where the code
+their own: one takes ten minutes of a core, 20 three hours, which all cores
+share; how long is said at the beginning. What is done is kept, run by run, and done again only where the code
 has changed: after Ctrl-C the same command goes on.
 
 A claim that does not hold is a result, not a failure: the summary counts and

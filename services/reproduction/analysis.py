@@ -163,7 +163,7 @@ class Analysis:
         about: the question, in one line.
         claim: what the thesis found, in a sentence or two.
         run: makes it once. Depends on nothing but its argument, and draws with `services.reproduction.style`.
-        seconds: that a run takes on one core, roughly [s].
+        seconds: of a processor that a run takes, roughly [s].
         person: a simulated person takes part, and every seed is another one; else one run says it all.
     """
 

@@ -155,5 +155,5 @@ DYNAMIC_MOVEMENT_PRIMITIVES = Analysis(
     " it can be extracted by an object detection module, but this always requires the object to be completely known,"
     " and DMP will fail otherwise.",
     run=_dmp,
-    seconds=40.0,
+    seconds=35.0,
 )

@@ -127,6 +127,6 @@ FACTOR_TEN = Analysis(
     claim="Multiplying the input by 10 was experienced to have better prediction results. When it is not done, the"
     " predictions are not correct, as they should be further apart; when it is, they are.",
     run=_factor_ten,
-    seconds=2.0,
+    seconds=0.2,
     person=False,
 )

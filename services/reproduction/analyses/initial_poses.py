@@ -71,5 +71,5 @@ INITIAL_POSES = Analysis(
     claim="Of six new initial poses, only for the first two refinements were needed. After that the model was able to"
     " generalize towards the other four, and in a second iteration each of the twelve passes the success criteria.",
     run=_initial_poses,
-    seconds=200.0,
+    seconds=85.0,
 )

@@ -202,7 +202,7 @@ LINEAR = Analysis(
     claim="When we generalize towards s = 1, it is expected that the output will be of the form y = x + 1, being a"
     " linear function starting at 1 and ending at 2. It can be seen that this is indeed the case.",
     run=_linear,
-    seconds=6.0,
+    seconds=0.5,
     person=False,
 )
 LINEAR_3D_CONTEXT = Analysis(
@@ -211,7 +211,7 @@ LINEAR_3D_CONTEXT = Analysis(
     about="Are linear functions predicted from a condition of three equal numbers?",
     claim="When generalizing towards s = [1.0, 1.0, 1.0] it can be seen that the correct trajectory is generated.",
     run=_linear_3d_context,
-    seconds=6.0,
+    seconds=0.5,
     person=False,
 )
 LINEAR_3D_OUTPUT = Analysis(
@@ -220,6 +220,6 @@ LINEAR_3D_OUTPUT = Analysis(
     about="Are three outputs predicted from one condition?",
     claim="Each of the demonstrated outputs is correctly generalized at s = 1.0.",
     run=_linear_3d_output,
-    seconds=6.0,
+    seconds=0.5,
     person=False,
 )

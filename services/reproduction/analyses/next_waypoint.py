@@ -292,6 +292,6 @@ NEXT_WAYPOINT = Analysis(
     claim="It was empirically confirmed that adapting the position of future time steps results in less overshoot and"
     " thus more stable behaviour.",
     run=_next_waypoint,
-    seconds=20.0,
+    seconds=8.0,
     person=False,
 )

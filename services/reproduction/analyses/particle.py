@@ -273,7 +273,7 @@ VIA_POINTS = Analysis(
     claim="After observing and adapting the prediction of four conditions, the MSE was zero for all the upcoming"
     " conditions. The conditions from -20 to +20 and -5 to +5 show that the viapoints are successfully reached.",
     run=_via_points,
-    seconds=200.0,
+    seconds=75.0,
 )
 
 OBSTACLE_2D = Analysis(
@@ -283,5 +283,5 @@ OBSTACLE_2D = Analysis(
     claim="With an obstacle each of the nine conditions needs to be adapted; after that each of them avoids it. Of the"
     " generalizations towards -20 to 20 and -5 to 5 all but two avoid it while reaching the viapoints.",
     run=_obstacle,
-    seconds=250.0,
+    seconds=95.0,
 )

@@ -232,5 +232,5 @@ PLANES = Analysis(
     " generalization towards different object positions in different planes is illustrated, in addition to different"
     " initial end effector poses.",
     run=_planes,
-    seconds=4.0,
+    seconds=1.2,
 )

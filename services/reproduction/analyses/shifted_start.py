@@ -174,5 +174,5 @@ SHIFTED_START = Analysis(
     " initial position of the prediction is shifted. This is prevented by using enough initial demonstrations for"
     " different conditions.",
     run=_shifted_start,
-    seconds=5.0,
+    seconds=1.0,
 )

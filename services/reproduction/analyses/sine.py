@@ -151,6 +151,6 @@ SINE = Analysis(
     claim="y = sin(10x + b) with b = 1 to 5 as the condition: when generalizing towards s = 1.0, it can be seen that"
     " the correct sine function is predicted.",
     run=_sine,
-    seconds=8.0,
+    seconds=0.6,
     person=False,
 )

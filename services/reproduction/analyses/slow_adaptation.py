@@ -223,5 +223,5 @@ SLOW_ADAPTATION = Analysis(
     claim="When an initial model is trained with more trajectories, the model needs to be updated ≈ 11 times with the"
     " same refined trajectory in order to change the prediction to avoid the obstacle.",
     run=_slow_adaptation,
-    seconds=120.0,
+    seconds=50.0,
 )

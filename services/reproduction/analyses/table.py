@@ -62,5 +62,5 @@ TABLE_OBJECTS = Analysis(
     claim="Of six new object positions, refinements were needed for two, as the object was kicked over and not reached."
     " In a second iteration across all nine object positions each prediction was successful.",
     run=_table,
-    seconds=150.0,
+    seconds=70.0,
 )

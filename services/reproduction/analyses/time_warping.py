@@ -244,5 +244,5 @@ TIME_WARPING = Analysis(
     " demonstrations are not well aligned; when instead DTW is used they are better aligned. Prediction and refinement"
     " have successfully been aligned.",
     run=_time_warping,
-    seconds=5.0,
+    seconds=3.5,
 )
