@@ -73,7 +73,7 @@ class Encoding:
         outputs[:, POSITION:] = self._rotation_vectors(orientations)
         if self.anchor:
             outputs -= self.anchor.at(outputs[0], phases)
-        w = _solver(self.basis, phases.tobytes(), self.anchored) @ outputs
+        w = self.solver(phases) @ outputs
         return np.concatenate([w.ravel(), [math.log(demonstration.trajectory.duration)]])
 
     def decode(self, x: Array, situation: Situation, n: int) -> Trajectory:
@@ -136,6 +136,10 @@ class Encoding:
     def rows(self, phases: Array) -> Array:
         """The basis at phases (T,), shape (T, N); if anchored, with the value at phase 0 blended out to zero."""
         return _rows(self.basis, phases.tobytes(), self.anchored)
+
+    def solver(self, phases: Array) -> Array:
+        """From what outputs are at phases (T,) to the weights that come nearest to it, shape (N, T): equation (3)."""
+        return _solver(self.basis, phases.tobytes(), self.anchored)
 
     def _rotation_vectors(self, orientations: Array) -> Array:
         relative = orientations @ self._turned_back

@@ -20,6 +20,7 @@ from lfd.arrays import Array, frozen
 from lfd.exceptions import LfdError, StorageError
 from lfd.models.adaptive.adaptation import AdaptiveOptions, AdaptiveProMP
 from lfd.models.adaptive.correction import Correction
+from lfd.models.adaptive.kinds import PHASES
 from lfd.models.adaptive.regression import Regression
 from lfd.models.adaptive.scale import ConditionScale
 from lfd.models.anchor import Anchor
@@ -28,7 +29,7 @@ from lfd.models.gaussian import JointGaussian
 from lfd.models.promp import ConditionedProMP, PrompOptions
 from lfd.motion.alignment import Selection
 
-FORMAT = "retouch-model/3"
+FORMAT = "retouch-model/4"
 
 _HEADER = "header"
 
@@ -113,16 +114,21 @@ def _taught(model: AdaptiveProMP) -> dict[str, Array]:
 
 def _listed(name: str, corrections: Sequence[Correction], regression: Regression) -> dict[str, Array]:
     c, D = regression.conditions.shape[1], regression.vectors.shape[1]
+    unknown = np.full((PHASES, 3), np.nan)
     return {
         f"{name}_conditions": np.array([correction.s for correction in corrections]).reshape(-1, c),
         f"{name}_vectors": np.array([correction.x for correction in corrections]).reshape(-1, D),
+        f"{name}_led": np.array([unknown if x.led is None else x.led for x in corrections]).reshape(-1, PHASES, 3),
         f"{name}_times": np.array([np.nan if x.at_s is None else x.at_s for x in corrections], dtype=np.float64),
     }
 
 
 def _corrections(name: str, arrays: dict[str, Array]) -> list[Correction]:
-    columns = (arrays[f"{name}_conditions"], arrays[f"{name}_vectors"], arrays[f"{name}_times"].tolist())
-    return [Correction(s, x, None if math.isnan(at_s) else at_s) for s, x, at_s in zip(*columns, strict=True)]
+    columns = (arrays[f"{name}_{of}"] for of in ("conditions", "vectors", "times", "led"))
+    return [
+        Correction(s, x, None if math.isnan(at_s) else float(at_s), None if np.isnan(led).any() else led)
+        for s, x, at_s, led in zip(*columns, strict=True)
+    ]
 
 
 def _adaptive(header: dict[str, Any], arrays: dict[str, Array]) -> AdaptiveProMP:

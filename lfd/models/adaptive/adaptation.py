@@ -16,8 +16,9 @@ from lfd.arrays import Array, frozen
 from lfd.bounds import NOT_NEGATIVE, at_least, check_options
 from lfd.exceptions import NothingToTakeBack
 from lfd.models.adaptive.condensation import condensed
-from lfd.models.adaptive.correction import Correction, CorrectionOptions, Corrections, Effect
-from lfd.models.adaptive.kinds import Kinds
+from lfd.models.adaptive.correction import Correction, CorrectionOptions, Corrections
+from lfd.models.adaptive.effect import Effect
+from lfd.models.adaptive.kinds import PHASES, Kinds
 from lfd.models.adaptive.regression import Expectation, Regression, RegressionOptions
 from lfd.models.adaptive.relevance import RelevanceOptions, relevant
 from lfd.models.adaptive.scale import ConditionScale
@@ -25,10 +26,10 @@ from lfd.models.adaptive.spread import Spread, SpreadPrior, spread_of
 from lfd.models.anchor import Anchor
 from lfd.models.basis import GaussianBasis
 from lfd.models.distribution import MotionDistribution
-from lfd.models.encoding import Encoding, reference_rotation
+from lfd.models.encoding import POSITION, Encoding, reference_rotation
 from lfd.models.model import Prediction, completed, in_part
 from lfd.motion.demonstration import Demonstration, Situation, check_demonstrations, check_dimension
-from lfd.motion.trajectory import PREDICTION_POINTS
+from lfd.motion.trajectory import PREDICTION_POINTS, equal_phases
 
 _FINE_BASIS = GaussianBasis(count=40, width=0.0256)  # finer than the thesis', to follow a correction closely
 
@@ -150,17 +151,19 @@ class AdaptiveProMP:
         """
         self._check(demonstration.condition)
         believed = in_part(self, completed(self, demonstration))
-        return self.corrected(believed.condition, self.encoding.encode(believed), believed.provenance.at_s)
+        return self.corrected(believed.situation, self.encoding.encode(believed), believed.provenance.at_s)
 
-    def corrected(self, s: Array, x: Array, at_s: float | None = None) -> Self:
-        """The model that has also learnt that the vector x (D,) is right at the condition s (c,).
+    def corrected(self, situation: Situation, x: Array, at_s: float | None = None) -> Self:
+        """The model that has also learnt that the vector x (D,) is right in a situation.
 
         Args:
-            s: The condition.
+            situation: Where it is.
             x: See `Encoding.encode`.
             at_s: When that was so, in seconds since 1970-01-01 UTC, where it is known.
         """
-        return replace(self, corrections=self.corrections.added(Correction(frozen(s), frozen(x), at_s)))
+        led = frozen(self._led(self._regression.at(situation.condition), situation))
+        correction = Correction(situation.condition, frozen(x), at_s, led)
+        return replace(self, corrections=self.corrections.added(correction))
 
     def undone(self) -> Self:
         """The model as it was before its newest correction.
@@ -176,7 +179,7 @@ class AdaptiveProMP:
         """See `MovementModel.predict`; the prediction begins exactly at the start pose."""
         self._check(situation.condition)
         expected = self._regression.at(situation.condition)
-        effect = self.corrections.effect(expected)
+        effect = self._effect(expected, situation)
         trajectory = self.encoding.decode(expected.mean + effect.change, situation, n)
         taught, changed = self._variances(expected, effect)
         covariances = taught * self.spread.positions(n)
@@ -197,7 +200,7 @@ class AdaptiveProMP:
         """See `MovementModel.distribution`."""
         self._check(situation.condition)
         expected = self._regression.at(situation.condition)
-        effect = self.corrections.effect(expected)
+        effect = self._effect(expected, situation)
         taught, changed = self._variances(expected, effect)
         covariance = taught * self.spread.covariance
         for scatter, differences in self._differences(effect, changed):
@@ -208,6 +211,14 @@ class AdaptiveProMP:
     @property
     def _regression(self) -> Regression:
         return self.corrections.regression
+
+    def _effect(self, expected: Expectation, situation: Situation) -> Effect:
+        return self.corrections.effect(expected, self._led(expected, situation) if len(self.corrections) else None)
+
+    def _led(self, expected: Expectation, situation: Situation) -> Array:
+        """Where the demonstrations alone lead at equal phases, base frame, shape (P, 3) [m]."""
+        outputs = self.encoding.outputs(expected.mean, situation, equal_phases(PHASES))
+        return np.asarray(outputs[:, :POSITION] + situation.origin, dtype=np.float64)
 
     def _check(self, s: Array) -> None:
         check_dimension(s, self._regression.conditions.shape[1])

@@ -10,6 +10,8 @@ The change at s, given the changes y_j that the corrections made at s_j, is C(s,
    what exceeds that scatter is taken elsewhere, of each coordinate at each phase (Wiener's filter): a detour is, by
    how far a hand was off its aim is not.
 
+A motion that passes elsewhere what was led round needs less of it (`lfd.models.adaptive.detour`).
+
 All three fade to nothing far away, and no prediction departs further from the demonstrations than the largest
 correction did: the weights of the corrections never add up to more than what the nearest of them has in part 3.
 """
@@ -25,12 +27,14 @@ from lfd.arrays import Array
 from lfd.bounds import NOT_NEGATIVE, POSITIVE, at_least, check_number, check_options
 from lfd.distances import squared_distances
 from lfd.models.adaptive.covariance import CovarianceOptions, Nearness, Solved, levy
+from lfd.models.adaptive.detour import Detours, Needed
+from lfd.models.adaptive.effect import Effect
 from lfd.models.adaptive.kinds import POSITION
 from lfd.models.adaptive.regression import Expectation, Regression
 from lfd.models.adaptive.scale import ConditionScale
 from lfd.models.adaptive.ways import contradictions, probabilities, sort_into_ways
 from lfd.models.adaptive.worlds import WorldOptions, Worlds, find_worlds
-from lfd.models.model import ONLY_WAY, Way
+from lfd.models.model import Way
 from lfd.motion.alignment import group_by_condition
 
 
@@ -75,32 +79,19 @@ class CorrectionOptions:
 
 @dataclass(frozen=True, eq=False)
 class Correction:
-    """One of them: at the condition s (c,) the vector x (D,) was right, at a time [s since 1970 UTC], if known."""
+    """One of them.
+
+    Attributes:
+        s: The condition, shape (c,).
+        x: The vector that was right there, shape (D,).
+        at_s: When that was so, in seconds since 1970-01-01 UTC, where it is known.
+        led: Where the demonstrations alone led there, see `Detours`, shape (P, 3) [m]; where it is known.
+    """
 
     s: Array
     x: Array
     at_s: float | None = None
-
-
-@dataclass(frozen=True, eq=False)
-class Effect:
-    """What corrections do at a place.
-
-    Attributes:
-        change: Of the vector, shape (D,).
-        open_share: The share of the variance of positions that they have left: 1 far from all, nearly 0 at the newest.
-        surprise: Mean square of what else might have changed there [m^2].
-        evidence: How many corrections speak for it, at least 1.
-        way: Which of the ways it is.
-        others: How probable each other way is, and by what it differs (D,).
-    """
-
-    change: Array
-    open_share: float = 1.0
-    surprise: float = 0.0
-    evidence: float = 1.0
-    way: Way = ONLY_WAY
-    others: tuple[tuple[float, Array], ...] = ()
+    led: Array | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,8 +133,13 @@ class Corrections:
         before = (*self.held[:index], correction, *self.held[index:])[:-1]
         return replace(self, held=before, aside=self.aside[:-1])
 
-    def effect(self, expected: Expectation) -> Effect:
-        """What the corrections change at a place."""
+    def effect(self, expected: Expectation, led: Array | None = None) -> Effect:
+        """What the corrections change at a place.
+
+        Args:
+            expected: The place.
+            led: Where the demonstrations alone lead there, see `Detours.paths`, shape (P, 3) [m]; where it is known.
+        """
         if not self.held:
             return Effect(np.zeros(self.regression.vectors.shape[1]))
         z, outside = expected.z, expected.outside
@@ -151,14 +147,15 @@ class Corrections:
             z = outside = self._scale.standard(expected.s)
         distances = np.sqrt(squared_distances(z[None], self._z))
         beyond = float(np.sqrt(outside @ outside))
+        needed = None if led is None else self._detours.needed(led, shown=len(self._solved) > 1)
         place = Nearness.of(distances, levy(outside[None], self._outside), self.options.covariance)
         if len(self._solved) == 1:
-            return self._of_way(0, place, beyond)
+            return self._of_way(0, place, beyond, needed)
         likely = probabilities(distances[0], self._ways, self.options.gate)
         chosen = int(likely.argmax())
-        effect = self._of_way(chosen, place, beyond)
+        effect = self._of_way(chosen, place, beyond, needed)
         others = [way for way in range(len(likely)) if way != chosen and likely[way] > _IMPROBABLE]
-        differences = [self._of_way(way, place, beyond).change - effect.change for way in others]
+        differences = [self._of_way(way, place, beyond, needed).change - effect.change for way in others]
         way = Way(chosen, len(likely), float(likely[chosen]))
         return replace(effect, way=way, others=tuple(zip(likely[others].tolist(), differences, strict=True)))
 
@@ -180,9 +177,7 @@ class Corrections:
         The rest is what Wiener's filter keeps of a change among departures of variance v; in no kind more than all.
         """
         kinds = self.regression.kinds
-        variances = (self.options.covariance.value_std * self._units[kinds.of_column]) ** 2
-        squares = kinds.values(self.changes) ** 2
-        kept = self.changes * (squares / (squares + variances))
+        kept = kinds.filtered(self.changes, (self.options.covariance.value_std * self._units) ** 2)
         most = np.sqrt(self._sizes / np.maximum(kinds.sizes(kept), np.maximum(self._sizes, _TINY)))
         return np.asarray(self.changes - most[kinds.of_column].T * kept, dtype=np.float64)
 
@@ -191,12 +186,20 @@ class Corrections:
         """Of the corrections' positions [m^2]."""
         return float(self._products[POSITION].trace() / len(self))
 
-    def _of_way(self, way: int, place: Nearness, beyond: float) -> Effect:
+    def _of_way(self, way: int, place: Nearness, beyond: float, needed: Needed | None) -> Effect:
         applied = self._solved[way].at(place, beyond)
-        changes = applied.weights @ self.changes - applied.carried @ self._details
+        changes, details = self.changes, self._details
+        if needed is not None:
+            changes, details = needed.of(changes), needed.of(details)
+        changes = applied.weights @ changes - applied.carried @ details
         change = self.regression.kinds.each_from_its_own(changes)
         evidence, left, surprise = (float(of[POSITION]) for of in (applied.evidence, applied.left, applied.surprise))
         return Effect(change, left, surprise, evidence)
+
+    @cached_property
+    def _detours(self) -> Detours:
+        scatter = self.options.covariance.value_std * self.extent
+        return Detours.of([c.led for c in self.held], self.regression.kinds.paths(self.changes), scatter)
 
     @cached_property
     def _solved(self) -> tuple[Solved, ...]:

@@ -98,7 +98,8 @@ class Applied:
 
     Attributes:
         weights: How much of each change, of all together at most as much as is near, shape (3, J).
-        carried: How much of that is there because of part 3 alone, where no other correction says as much, (3, J).
+        carried: How much of that, at most all, is there because of part 3 alone, where no other correction says as
+            much, shape (3, J).
         evidence: How many corrections speak for it, at least 1, shape (3,).
         left: The share of the variance, shape (3,).
         surprise: Mean square of what might be a surprise there, shape (3,).
@@ -191,6 +192,7 @@ class Solved:
         # What is a detail of one place is not known where another correction says as much: their mean tells then.
         evidence = _evidence(weights)
         alone = np.maximum(2.0 / evidence - 1.0, 0.0)[:, None]
+        carried = carried.clip(np.minimum(weights, 0.0), np.maximum(weights, 0.0))
         return Applied(weights * limit, carried * (limit * alone), evidence, left, surprise)
 
 

@@ -15,7 +15,7 @@ from lfd.motion.trajectory import equal_phases
 POSITION, ORIENTATION, DURATION = range(3)
 KINDS = 3
 
-_PHASES = 25  # at which motions are compared
+PHASES = 25  # at which motions are compared
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,22 +28,31 @@ class Kinds:
     Attributes:
         rows: The basis at equal phases over the root of their number, shape (P, N): squares of P values add up to a
             mean.
-        centres: The basis at the centres of its functions, whatever is blended out at the start, shape (N, N).
+        drawn: The basis at as many equal phases as motions are encoded at, shape (T, N).
+        fitted: From values there to weights, shape (N, T).
     """
 
     rows: Array
-    centres: Array
+    drawn: Array
+    fitted: Array
 
     @classmethod
     def of(cls, encoding: Encoding) -> Self:
         """Those of an encoding's vectors."""
-        rows = encoding.rows(equal_phases(_PHASES)) / np.sqrt(_PHASES)
-        return cls(frozen(rows), frozen(encoding.basis.matrix(equal_phases(encoding.basis.count))))
+        rows = encoding.rows(equal_phases(PHASES)) / np.sqrt(PHASES)
+        phases = equal_phases(encoding.samples)
+        return cls(frozen(rows), encoding.rows(phases), encoding.solver(phases))
 
-    def values(self, X: Array) -> Array:
-        """What vectors (m, D) say where the function is centred that each entry belongs to, shape (m, D)."""
-        outputs = self.centres @ X[:, :-1].reshape(len(X), -1, OUTPUTS)
-        return np.concatenate([outputs.reshape(len(X), -1), X[:, -1:]], axis=1)
+    def filtered(self, X: Array, variances: Array) -> Array:
+        """What Wiener's filter keeps of vectors (m, D) among departures of variances (3,): y^3 / (y^2 + v), by value.
+
+        Values are coordinates of positions and rotation vectors at a phase, and the duration.
+        """
+        outputs = self.drawn @ X[:, :-1].reshape(len(X), -1, OUTPUTS)
+        v = np.repeat(variances[:DURATION], [POSITIONS, OUTPUTS - POSITIONS])
+        kept = self.fitted @ (outputs * _trusted(outputs, v))
+        duration = X[:, -1:]
+        return np.concatenate([kept.reshape(len(X), -1), duration * _trusted(duration, variances[DURATION])], axis=1)
 
     def measured(self, X: Array) -> tuple[Array, Array, Array]:
         """What is compared of vectors (m, D), kind by kind: shapes (m, 3 P), (m, 3 P) and (m, 1)."""
@@ -51,6 +60,11 @@ class Kinds:
         outputs = self.rows @ X[:, :-1].reshape(m, -1, OUTPUTS)
         positions, rotations = outputs[..., :POSITIONS], outputs[..., POSITIONS:]
         return positions.reshape(m, -1), rotations.reshape(m, -1), X[:, -1:]
+
+    def paths(self, X: Array) -> Array:
+        """What vectors (m, D) say about positions at the phases at which motions are compared, shape (m, P, 3)."""
+        outputs = self.rows @ X[:, :-1].reshape(len(X), -1, OUTPUTS)
+        return np.asarray(outputs[..., :POSITIONS] * np.sqrt(PHASES), dtype=np.float64)
 
     def sizes(self, X: Array) -> Array:
         """Squared sizes of vectors (m, D) in each kind, shape (3, m)."""
@@ -84,3 +98,8 @@ class Kinds:
     def columns(self) -> tuple[NDArray[np.intp], ...]:
         """The entries of a vector that belong to each kind."""
         return tuple(np.flatnonzero(self.of_column == kind) for kind in range(KINDS))
+
+
+def _trusted(values: Array, variances: Array) -> Array:
+    squares = values**2
+    return np.asarray(squares / (squares + variances), dtype=np.float64)

@@ -1,6 +1,7 @@
 """One correction is enough, and acts where it should."""
 
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
@@ -43,28 +44,46 @@ def test_the_newest_of_contradicting_corrections_wins(model, reach):
     assert gap(model, reach(MIDDLE, bend=bends[-1])) < 0.02
 
 
-def sideways(model, corrected, reach, offset):
-    """By how much a correction moves the prediction for an object further to the right by `offset` [m]."""
-    elsewhere = reach(np.add(LEFT, [0.0, -offset, 0.0]))
-    change = predict(corrected, elsewhere).trajectory.positions - predict(model, elsewhere).trajectory.positions
-    return np.abs(change).max()
+def moved(model, corrected, elsewhere):
+    """By how much a correction moves the prediction of another motion at most, on any axis [m]."""
+    return np.abs(path(corrected, elsewhere) - path(model, elsewhere)).max()
 
 
 def test_a_correction_fades_with_distance_and_leaves_far_places_alone(model, reach):
     corrected = model.updated(reach(LEFT, bend=0.25))
-    moved = [sideways(model, corrected, reach, offset) for offset in (0.0, 0.03, 0.06, 0.1, 0.2, 0.4, 0.8, 2.0, 4.0)]
-    assert (np.diff(moved) < 0.0).all()
-    assert moved[-1] < 0.1 * moved[0]
+    offsets = (0.0, 0.03, 0.06, 0.1, 0.2, 0.4, 0.8, 2.0, 4.0)
+    changes = [moved(model, corrected, reach(np.add(LEFT, [offset, 0.0, 0.0]))) for offset in offsets]
+    assert (np.diff(changes) < 0.0).all()
+    assert changes[-1] < 0.1 * changes[0]
 
 
 def test_a_correction_acts_wider_the_more_it_surprises(model, reach):
     """A small one is a detail of its place; a large one says that the world has changed."""
     shares = []
+    here, nearer = reach(LEFT), reach(np.add(LEFT, [-0.2, 0.0, 0.0]))
     for bend in (0.01, 0.05, 0.25):
         corrected = model.updated(reach(LEFT, bend=bend))
-        shares.append(sideways(model, corrected, reach, 0.2) / sideways(model, corrected, reach, 0.0))
+        shares.append(moved(model, corrected, nearer) / moved(model, corrected, here))
     assert (np.diff(shares) > 0.0).all()
     assert shares[-1] > 0.75
+
+
+@pytest.mark.parametrize("bend", [0.25, -0.25])
+def test_what_a_correction_led_round_is_passed_with_room_from_every_start_to_every_object(model, reach, bend):
+    corrected = model.updated(reach(MIDDLE, bend=bend))
+    for y, start in product(np.linspace(-0.3, 0.3, 13), (-0.05, 0.0, 0.05)):
+        wanted = reach([0.9, y, 0.6], start=(0.5, start, 0.5))
+        middle = path(corrected, wanted)[wanted.trajectory.n_points // 2]
+        assert abs(middle[1]) > 0.6 * abs(bend)
+
+
+def test_how_the_hand_arrives_is_taken_to_objects_at_its_side(model, reach):
+    """An object is to be reached for 3 cm beside where it is seen: so it is 10 cm further on."""
+    arrived = reach(np.add(MIDDLE, [0.0, 0.03, 0.0]))
+    corrected = model.updated(replace(arrived, origin=np.array(MIDDLE), condition=reach(MIDDLE).condition))
+    for y in (-0.1, 0.1):
+        wanted = reach(np.add(MIDDLE, [0.0, y, 0.0]))
+        assert moved(model, corrected, wanted) > 0.5 * moved(model, corrected, reach(MIDDLE))
 
 
 def test_where_the_demonstrations_left_a_trend_open_a_correction_teaches_it_and_keeps_what_was_taught(reach):

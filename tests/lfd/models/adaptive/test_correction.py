@@ -55,19 +55,18 @@ def test_a_great_surprise_fades_as_the_matern_kernel_of_its_kind_s_reach(taught,
 
 
 def values(*entries):
-    """A change of positions whose values along the three axes are these at all phases."""
+    """A change of positions by weights that are these along the three axes."""
     return np.append(np.tile([*entries, 0.0, 0.0, 0.0], 3), 0.0)
 
 
 @pytest.mark.parametrize("y", [(0.3, 0.02, 0.0), (0.02, -0.2, 0.05)], ids=["to a side", "down"])
-def test_a_value_is_carried_on_as_far_as_it_is_larger_than_motions_differ_anyway(none, y):
-    """Where the world is as changed as there: a value y as y^3 / (y^2 + v), and at its own place as it is."""
+def test_a_correction_is_carried_on_as_far_as_it_is_larger_than_motions_differ_anyway(none, y):
+    """Where the world is as changed as there: what the filter keeps, and at its own place all of it."""
     options = CovarianceOptions(value_std=0.05, near_std=1e-4, near=1e-3, reach=(1e6,) * 3)
     corrected = correct(corrections(none.regression, covariance=options), HERE, values(*y))
-    kept = np.array(y) ** 3 / (np.array(y) ** 2 + 0.05**2)
+    kept = KINDS.filtered(values(*y)[None], np.full(3, 0.05**2))[0]
     np.testing.assert_allclose(change(corrected, HERE) * (1.0 + OPTIONS.noise), values(*y), rtol=1e-6, atol=1e-12)
-    elsewhere = change(corrected, HERE + 0.5) * (1.0 + OPTIONS.noise)
-    np.testing.assert_allclose(elsewhere, values(*kept), rtol=1e-4, atol=1e-7)
+    np.testing.assert_allclose(change(corrected, HERE + 0.5) * (1.0 + OPTIONS.noise), kept, rtol=1e-4, atol=1e-7)
 
 
 def test_halfway_between_two_corrections_that_agree_nothing_of_them_is_a_detail():
@@ -75,7 +74,7 @@ def test_halfway_between_two_corrections_that_agree_nothing_of_them_is_a_detail(
     y = values(0.01, 0.0, 0.4)
     one = correct(corrections(regression([[0.0, 0.0]], np.zeros((1, D)))), [-0.2, 0.0], y)
     both = correct(one, [0.2, 0.0], y)
-    at_one, halfway = (change(held, [0.0, 0.0]) for held in (one, both))
+    at_one, halfway = (KINDS.paths(change(held, [0.0, 0.0])[None])[0, 10] for held in (one, both))
     assert halfway[0] / halfway[2] == pytest.approx(0.01 / 0.4, rel=1e-6)
     assert at_one[0] / at_one[2] < 0.8 * 0.01 / 0.4
 
@@ -189,11 +188,12 @@ def test_together_corrections_do_no_more_than_the_nearest_could_alone(J, seed, k
     held = corrections(regression(conditions, rng.normal(size=(len(conditions), D))))
     for s in rng.uniform(-0.5, 0.5, size=(J, 2)):
         held = correct(held, s, sized(kind, 10.0 ** rng.uniform(-2.0, 1.0) * rng.choice([-1.0, 1.0])))
-    most = np.abs(held.changes).max(axis=0)
+    most = KINDS.sizes(held.changes).max(axis=1)
     for s in [*rng.uniform(-1.0, 1.0, size=(5, 2)), *rng.uniform(-10.0, 10.0, size=(5, 2))]:
         nearest = min(np.linalg.norm(c.s - s) for c in held.held)
         r = np.sqrt(3.0) * nearest / OPTIONS.covariance.reach[kind]
-        assert (np.abs(change(held, s)) <= most * (1.0 + r) * np.exp(-r) * (1.0 + 1e-9) + 1e-12).all()
+        size = KINDS.sizes(change(held, s)[None])[:, 0]
+        assert (size <= most * ((1.0 + r) * np.exp(-r) * (1.0 + 1e-9)) ** 2 + 1e-12).all()
 
 
 def sequence(rng, count):

@@ -6,7 +6,7 @@ import pytest
 from lfd.models.adaptive.correction import CorrectionOptions
 from lfd.models.adaptive.kinds import ORIENTATION, POSITION
 from lfd.models.model import ONLY_WAY
-from tests.lfd.models.adaptive.vectors import KINDS, correct, effect, sized
+from tests.lfd.models.adaptive.vectors import KINDS, along, correct, effect, sized
 
 OPTIONS = CorrectionOptions()
 HERE = np.array([0.05, 0.1])
@@ -22,7 +22,7 @@ def round_a_thing(none):
 def test_left_and_right_are_two_ways_and_never_the_middle(round_a_thing):
     for x in np.linspace(-0.1, 0.1, 41):
         told = effect(round_a_thing, [x, 0.0])
-        size = told.change[0] / sized(POSITION, 1.0)[0]
+        size = along(told.change, POSITION)
         assert min(abs(size - 0.3) / 0.3, abs(size + 0.25) / 0.25) < 0.25
         assert told.way.index == int(size < 0.0)
         assert told.way.count == 2

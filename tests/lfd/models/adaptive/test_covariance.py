@@ -60,9 +60,10 @@ class Reference:
         return self.fixed(a, b, beyond_a, beyond_b) + self.changed(a, b)
 
     def details(self):
-        """What of each change is one of its place; all values of one are the same."""
-        variance = (OPTIONS.value_std * UNITS[self.kind]) ** 2
-        return self.changes * variance / (self.changes**2 + variance)
+        """What of each change is one of its place; the rest is no larger than the change."""
+        kept = KINDS.filtered(self.changes, (OPTIONS.value_std * np.array(UNITS)) ** 2)
+        sizes = np.sqrt(KINDS.sizes(kept)[self.kind])
+        return self.changes - (np.minimum(np.sqrt(self.sizes) / sizes, 1.0) * kept.T).T
 
     def effect(self, s, beyond):
         pairs = list(zip(self.places, self.beyond, strict=True))
@@ -72,6 +73,7 @@ class Reference:
         noisy = C + CorrectionOptions().noise * np.diag(np.diag(C))
         weights, carried = np.linalg.solve(noisy, c), np.linalg.solve(noisy, elsewhere)
         left = 1.0 - weights @ c / self.covariance(s, s, beyond, beyond)
+        carried = np.sign(weights) * np.clip(np.sign(weights) * carried, 0.0, np.abs(weights))
         most = max(self.matern(s, a) for a in self.places)
         evidence = np.abs(weights).sum() ** 2 / (weights @ weights)
         change = weights @ self.changes - max(2.0 / evidence - 1.0, 0.0) * carried @ self.details()

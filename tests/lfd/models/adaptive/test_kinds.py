@@ -1,6 +1,10 @@
 import numpy as np
+import pytest
 
-from lfd.models.adaptive.kinds import DURATION, ORIENTATION, POSITION
+from lfd.models.adaptive.kinds import DURATION, ORIENTATION, POSITION, Kinds
+from lfd.models.anchor import Anchor
+from lfd.models.basis import GaussianBasis
+from lfd.models.encoding import Encoding
 from tests.lfd.models.adaptive.vectors import ENCODING, KINDS, D
 
 
@@ -40,3 +44,16 @@ def test_each_entry_of_positions_belongs_to_one_coordinate_and_changes_no_other(
     for column, axis in enumerate(KINDS.axis_of_column):
         path = ENCODING.positions(np.eye(D)[[column]], 25)[0]
         assert np.flatnonzero(np.abs(path).max(axis=0) > 0.0).tolist() == ([axis] if axis >= 0 else [])
+
+
+def test_of_each_coordinate_at_each_phase_what_is_larger_than_departures_are_is_kept():
+    """Wiener's y^3 / (y^2 + v), whatever the weights are that draw it."""
+    t = np.linspace(0.0, 1.0, 75)
+    encoding = Encoding(GaussianBasis(count=40, width=0.0256), 75, np.array([1.0, 0.0, 0.0, 0.0]), Anchor.straight())
+    bump = np.sin(np.pi * t)[:, None] * [0.2, 0.02, -0.005, 0.3, 0.0, -0.04]
+    x = np.append((encoding.solver(t) @ bump).ravel(), 0.1)
+    v = np.array([0.02, 0.1, 0.05]) ** 2
+    kept = Kinds.of(encoding).filtered(x[None], v)[0]
+    of_output = np.repeat(v[:2], 3)
+    np.testing.assert_allclose(encoding.rows(t) @ kept[:-1].reshape(40, 6), bump**3 / (bump**2 + of_output), atol=5e-4)
+    assert kept[-1] == pytest.approx(0.1**3 / (0.1**2 + v[2]))

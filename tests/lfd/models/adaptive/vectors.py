@@ -46,3 +46,9 @@ def correct(held, s, change, at_s=None):
 
 def effect(held, s):
     return held.effect(held.regression.at(np.asarray(s, float)))
+
+
+def along(change, kind):
+    """How much of `sized(kind, 1.0)` a change is, its sign included."""
+    told, unit = (KINDS.measured(x[None])[kind][0] for x in (change, sized(kind, 1.0)))
+    return told @ unit
