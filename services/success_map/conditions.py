@@ -99,6 +99,12 @@ class SuccessMap(msgspec.Struct, frozen=True):
         """Conditions at which a motion can succeed."""
         return len(self.conditions) - self.count(-1, Ending.UNREACHABLE)
 
+    @property
+    def worse(self) -> int:
+        """Conditions that succeeded at the earlier stage and do not at the later one."""
+        ends = [(one.trials[0].outcome, one.trials[-1].outcome) for one in self.conditions]
+        return sum(before is Ending.REACHED and after is not Ending.REACHED for before, after in ends)
+
     def summary(self) -> str:
         """What came out, in a line."""
         reachable = self.reachable
@@ -107,8 +113,9 @@ class SuccessMap(msgspec.Struct, frozen=True):
         if len(reached) == 1:
             return f"{stage_name(self.corrections[0])}: {said}"
         before = f"{reached[0]} ({Proportion(reached[0], reachable)})"
+        worse = f", of which {self.worse} fail now" if self.worse else ""
         after = stage_name(self.corrections[-1]) + (f" by each of {self.people} people" if self.people > 1 else "")
-        return f"{after}: {said}; {stage_name(self.corrections[0], before=True)}: {before}"
+        return f"{after}: {said}; {stage_name(self.corrections[0], before=True)}: {before}{worse}"
 
 
 def stage_name(corrections: int, *, before: bool = False) -> str:

@@ -113,6 +113,12 @@ def test_a_summary_counts_among_what_is_reachable():
         assert sum(found.count(stage, outcome) for outcome in Ending) == len(found.conditions)
 
 
+def test_what_got_worse_is_said():
+    found = mapped((R, C), (R, Ending.KICKED_OVER), (R, R), (C, R))
+    assert found.worse == 2
+    assert found.summary().endswith("before: 3 (75.0 %, 95 % interval 30 to 95 %), of which 2 fail now")
+
+
 def test_a_summary_of_one_stage_and_of_nothing():
     found = mapped((R,), (C,), corrections=(0,))
     assert (
