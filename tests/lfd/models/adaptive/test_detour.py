@@ -99,6 +99,14 @@ def test_what_is_no_larger_than_motions_differ_is_no_detour(share):
     np.testing.assert_allclose(outputs, 1.0, atol=0.01)
 
 
+def test_how_far_a_change_is_a_detour_goes_by_the_squares_of_what_it_is_and_is_not():
+    """Its mean square against its square at the end and that of the scatter."""
+    bent, scatter = LEFT + np.outer(np.linspace(0.0, 0.7 * SIZE, P), [0.0, 1.0, 0.0]), 0.9 * SIZE
+    size, rest = np.mean(bent[:, 1] ** 2), bent[-1, 1] ** 2 + scatter**2
+    _, duration = change(detours(bent, scatter=scatter).needed(WAY + bent), np.ones(6))
+    assert duration == pytest.approx(0.3 * rest**2 / (size**2 + rest**2))
+
+
 @given(st.floats(-9.0, 0.0))
 def test_where_both_ways_round_were_shown_none_is_made_up(share):
     needed = detours(LEFT).needed(beside(share), shown=True)
