@@ -13,6 +13,7 @@ from urllib.parse import urlsplit
 import msgspec
 import pytest
 
+from protocol import messages
 from protocol.messages import Light
 from services.process.clock import SystemClock
 from services.process.config import StationSection
@@ -40,19 +41,56 @@ def test_loads_without_a_fault_and_asks_nobody_else(tab, filmed):
     assert tab.faults == []
 
 
-@pytest.mark.parametrize("size", [(1600, 900), (1280, 720)])
-def test_everything_fits_without_scrolling(tab, size):
+SIZES = [(1920, 1080), (1600, 900), (1366, 768), (1280, 720)]
+
+
+def overflowing(tab, size):
+    """What is cut or sticks out of its region in a window of this size."""
     tab.page.set_viewport_size({"width": size[0], "height": size[1]})
     tab.page.wait_for_function("([width, height]) => innerWidth === width && innerHeight === height", arg=list(size))
-    overflowing = tab.page.evaluate(
-        """() => [...document.querySelectorAll(".panel, .chip, .header, .stop, .action, .light-words")]
-        .filter((e) => e.scrollWidth > e.clientWidth + 1 || e.scrollHeight > e.clientHeight + 1)
-        .map((e) => e.className)"""
+    return tab.page.evaluate(
+        """() => {
+            const parts = ".panel, .chip, .header, .stop, .stop *, .action, .light-words, .verdict *";
+            const regions = ".stop, .verdict, .status, .controls, .header, .scene, .cameras, body";
+            const seen = [...document.querySelectorAll(parts)].filter((e) => e.checkVisibility());
+            const cut = seen.filter((e) => e.scrollWidth > e.clientWidth + 1 || e.scrollHeight > e.clientHeight + 1);
+            const out = seen.filter((e) => {
+                const [own, region] = [e, e.parentElement.closest(regions)].map((of) => of.getBoundingClientRect());
+                return own.left < region.left - 1 || own.right > region.right + 1
+                    || own.top < region.top - 1 || own.bottom > region.bottom + 1;
+            });
+            return [...cut, ...out].filter((e) => e.namespaceURI.endsWith("xhtml")).map((e) => e.className);
+        }"""
     )
-    assert overflowing == []
-    box = tab.page.locator(".stop").bounding_box()
-    assert box["x"] + box["width"] <= size[0]
-    assert box["y"] + box["height"] <= size[1]
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_everything_fits_without_scrolling(tab, size):
+    assert overflowing(tab, size) == []
+
+
+@pytest.mark.parametrize(
+    ("stop", "shown"),
+    [
+        ({"released_by": "annamaria", "standing": True}, ".stop-released:has-text('annamaria')"),
+        (
+            {"emergency_stop": True, "by": "annamaria", "reason": "pressed at station-9b7a", "standing": True},
+            ".stopped",
+        ),
+        ({"emergency_stop": True, "by": "annamaria", "reason": "pressed at station-9b7a"}, ".unconfirmed"),
+    ],
+    ids=["released", "stopped", "unconfirmed"],
+)
+@pytest.mark.parametrize("size", SIZES)
+def test_a_stop_and_what_was_touched_are_said_in_full(tab, station, size, stop, shown):
+    _, feed = station
+    safety = messages.SafetyState(**{"emergency_stop": False, "at": "2026-11-25T22:00:05Z", **stop})
+    touched = {"collision": True, "collision_position": (0.55, -0.12, 0.56), "collision_force": 112.4}
+    verdict = msgspec.structs.replace(feed.view.verdict, object_displacement=(0.412, 0.0, 0.0), **touched)
+    feed.view = replace(feed.view, safety=safety, verdict=verdict)
+    tab.wait(f"{shown}:visible")
+    tab.wait("[data-value=collision-evidence]:has-text('112.4 N')")
+    assert overflowing(tab, size) == []
 
 
 @pytest.mark.parametrize(
@@ -118,11 +156,13 @@ def test_a_camera_that_falls_silent_is_shown_as_stale(tab, filmed):
 
 
 def test_a_port_in_use_is_one_line_that_names_port_and_setting():
+    from harness import described
+
     from services.station.page.page import Page
 
     with socket.create_server(("127.0.0.1", 0)) as other:
         port = other.getsockname()[1]
-        page = Page(StationSection(port=port), "robot1", SystemClock())
+        page = Page(StationSection(port=port), "robot1", SystemClock(), described())
         with pytest.raises(PortInUse, match=rf"127\.0\.0\.1:{port}.*\[station\] port") as caught:
             page.start()
     assert "\n" not in str(caught.value)

@@ -82,5 +82,5 @@ def _contact(verdict: Verdict) -> str:
         return "no contact"
     if verdict.collision_position is None:
         return f"{verdict.collision_force:.1f} N"
-    place = ", ".join(f"{axis} {c:.2f}" for axis, c in zip("xyz", verdict.collision_position, strict=True))
-    return f"{verdict.collision_force:.1f} N at {place} m"
+    place = ", ".join(f"{c:.2f}" for c in verdict.collision_position)
+    return f"{verdict.collision_force:.1f} N at {place}\N{NO-BREAK SPACE}m"

@@ -64,7 +64,7 @@ def test_a_collision_says_where_and_how_hard():
     verdict = Verdict(
         reached=False, kicked_over=False, collision=True, collision_position=(0.5, 0.1, 0.25), collision_force=4.2
     )
-    assert criteria(Shown(PageView(verdict=verdict), 0.0))[2] == (False, "4.2 N at x 0.50, y 0.10, z 0.25 m")
+    assert criteria(Shown(PageView(verdict=verdict), 0.0))[2] == (False, "4.2 N at 0.50, 0.10, 0.25\N{NO-BREAK SPACE}m")
 
 
 def test_a_hold_that_comes_and_goes_is_shown_for_a_moment_longer():
