@@ -29,6 +29,8 @@ CHROMIUM_FLAGS = (
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",
+    # Draws in three dimensions without a graphics card; all else is drawn as browsers draw it without one.
+    "--enable-unsafe-swiftshader",
 )
 
 

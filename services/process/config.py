@@ -167,7 +167,7 @@ FOLDER_SETTING = "[viewer] folder"
 
 
 class ViewerSection(_Section, frozen=True):
-    """The viewer process: where it serves the live view, and the folder for recordings."""
+    """The viewer process: where it serves its page, and the folder for recordings."""
 
     host: str = "127.0.0.1"
     web_port: Port = 9090

@@ -7,6 +7,7 @@ from typing import TypeVar
 from protocol import messages, topics
 from protocol.messages import Message
 from services.bus.bus import Bus
+from services.bus.predictions import Predictions
 from services.bus.subscription import Received, Subscription
 from services.station.page.view import Picture
 
@@ -30,6 +31,9 @@ class Ears:
         self.results = bus.subscribe(topics.EPISODE_RESULT)
         self.verdict = bus.subscribe(topics.VERDICT)
         self.recording = bus.subscribe(topics.RECORDING)
+        self.master = bus.subscribe(topics.MASTER_STATE)
+        self.execution = bus.subscribe(topics.EXECUTION)
+        self.predictions = Predictions(bus)
         self.head = bus.subscribe(topics.HEAD_IMAGE)
         self.wrist = bus.subscribe(topics.WRIST_IMAGE)
 

@@ -20,6 +20,7 @@ from services.process.clock import Clock
 from services.process.config import Configuration, StationSection
 from services.process.schedule import Schedule
 from services.station.ears import Ears, came_s, message, picture, young
+from services.station.live_view.stage import Stage
 from services.station.page.presses import STOP
 from services.station.page.view import PageView
 from services.station.stop import StopButton
@@ -45,15 +46,16 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> StationServic
         PortInUse: the page cannot be served.
     """
     section = configuration.station
-    page = None if section.scripted else _open_page(section, configuration.name, clock)
+    page = None if section.scripted else _open_page(configuration, clock)
     return StationService(bus, settings(section, configuration.operator), page, configuration.seed)
 
 
-def _open_page(section: StationSection, robot: str, clock: Clock) -> Page:
+def _open_page(configuration: Configuration, clock: Clock) -> Page:
     # A scripted station starts without the page's packages, which take a second to load.
+    from services.station.live_view.description import describe  # noqa: PLC0415
     from services.station.page.page import Page  # noqa: PLC0415
 
-    page = Page(section, robot, clock)
+    page = Page(configuration.station, configuration.name, clock, describe(configuration.robot.scene))
     page.start()
     return page
 
@@ -95,6 +97,7 @@ class StationService:
         self._random = np.random.default_rng(seed)
         self._ears = Ears(bus)
         self._stop = StopButton(bus, self._ears.safety, workflow_settings.operator, workflow_settings.holder)
+        self._stage = Stage(self._ears)
         self._workflow = Workflow()
         self._asked: tuple[int, Pending[Any]] | None = None
         self._drawn: Place | None = None
@@ -206,6 +209,8 @@ class StationService:
             model=view.model,
             prediction=_of(workflow.prediction, view.model),
             object_pose=message(ears.seen.latest()),
+            drawing=self._stage.drawing(now_ns),
+            force=self._stage.force(now_ns),
             recording=message(ears.recording.latest()),
             head=picture(ears.head, now_ns),
             wrist=picture(ears.wrist, now_ns),

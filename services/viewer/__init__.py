@@ -1,1 +1,1 @@
-"""The viewer process: the only Rerun logger; live view and .rrd recording."""
+"""The viewer process: the only Rerun logger; its page, to inspect everything on, and .rrd recordings."""

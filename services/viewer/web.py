@@ -1,10 +1,9 @@
-"""The live view's page: the Rerun web viewer without its surroundings, and without a word to any other host."""
+"""The page to inspect everything on: the Rerun web viewer without its surroundings, and without a word to others."""
 
 from __future__ import annotations
 
 import logging
 import re
-import socket
 import threading
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -31,14 +30,10 @@ _TYPES = {
 }
 
 _HEADERS = {
-    "Cross-Origin-Resource-Policy": "cross-origin",
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
     "Cache-Control": "no-cache",
 }
-
-# A policy has no way to write an IPv6 address.
-_LOOPBACK_SOURCES = frozenset(name for name in LOOPBACK_NAMES if family(name) is not socket.AF_INET6)
 
 # It stops listening within this time.
 _POLL_S = 0.05
@@ -80,10 +75,10 @@ class WebServer:
             self._server = Server((section.host, section.web_port), Handler)
         except OSError as error:
             reason = error.strerror or ""
-            raise PortInUse("the live view", section.host, section.web_port, "[viewer] web_port", reason) from None
+            raise PortInUse("the viewer's page", section.host, section.web_port, "[viewer] web_port", reason) from None
         self.url = f"http://{in_url(section.host)}:{section.web_port}/"
         self._thread = threading.Thread(
-            target=self._server.serve_forever, args=(_POLL_S,), name="live view's page", daemon=True
+            target=self._server.serve_forever, args=(_POLL_S,), name="viewer's page", daemon=True
         )
         self._thread.start()
 
@@ -103,7 +98,7 @@ class _Server(ThreadingHTTPServer):
 
     def handle_error(self, request: object, client_address: object) -> None:
         """A browser that goes away in the middle of an answer is no fault of anybody's."""
-        log.debug("the live view's page lost %s", client_address)
+        log.debug("the viewer's page lost %s", client_address)
 
 
 class _Handler(BaseHTTPRequestHandler):
@@ -126,9 +121,7 @@ class _Handler(BaseHTTPRequestHandler):
         self.send_header("Content-Length", str(len(file.content)))
         if file.gzipped:
             self.send_header("Content-Encoding", "gzip")
-        # The operator's page may be known by another name than the view: only its own machine's are known here.
-        frames = _LOOPBACK_SOURCES if self.here_only else frozenset({"*"})
-        self.send_header("Content-Security-Policy", _policy(name, self.stream_port, frames))
+        self.send_header("Content-Security-Policy", _policy(name, self.stream_port))
         for header, value in _HEADERS.items():
             self.send_header(header, value)
         self.end_headers()
@@ -158,14 +151,14 @@ def _contents(files: Path, stream_port: int) -> dict[str, _File]:
     return contents
 
 
-def _policy(name: str, stream_port: int, frames: frozenset[str]) -> str:
-    """What the page may load, its own files and the stream, nothing else; and whose pages may hold it in a frame.
+def _policy(name: str, stream_port: int) -> str:
+    """What the page may load, its own files and the stream, nothing else; and that it is nobody's part.
 
     Args:
         name: by which the browser knows this host.
         stream_port: of the stream.
-        frames: names of the hosts whose pages may.
     """
+    # A policy has no way to write an IPv6 address.
     stream = "*" if name.startswith("[") else name
     return "; ".join(
         (
@@ -174,6 +167,6 @@ def _policy(name: str, stream_port: int, frames: frozenset[str]) -> str:
             "style-src 'self' 'unsafe-inline'",
             "img-src 'self' data: blob:",
             f"connect-src 'self' http://{stream}:{stream_port}",
-            f"frame-ancestors {' '.join(f'http://{host}:*' for host in sorted(frames))}",
+            "frame-ancestors 'none'",
         )
     )

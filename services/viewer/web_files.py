@@ -43,7 +43,7 @@ def web_files(cache: Path | None = None) -> Path:
 
 def _make(scratch: Path, target: Path) -> None:
     del target
-    log.info("preparing the live view, once: some seconds")
+    log.info("preparing the page for inspection, once: some seconds")
     scratch.mkdir()
     for name, content in _take().items():
         (scratch / f"{name}.gz").write_bytes(gzip.compress(content, _LEVEL))

@@ -35,13 +35,13 @@ def eventually():
 def station():
     """A page that is served, and its feed."""
     pytest.importorskip("uvicorn")
-    from harness import Feed, working_view
+    from harness import Feed, described, working_view
 
     from services.process.clock import SystemClock
     from services.process.config import StationSection
     from services.station.page.page import Page
 
-    page = Page(StationSection(port=free_port()), "robot1", SystemClock())
+    page = Page(StationSection(port=free_port()), "robot1", SystemClock(), described())
     page.start()
     feed = Feed(page, working_view())
     feed.start()
@@ -107,7 +107,7 @@ class Tab:
 @pytest.fixture(scope="session")
 def window(browser):
     """Where the first tab of every test opens: a profile of its own takes as long to make as the page to load."""
-    context = browser.new_context(viewport=SIZE)
+    context = browser.new_context(viewport=SIZE, color_scheme="dark")
     yield context
     context.close()
 

@@ -9,18 +9,46 @@ import threading
 from dataclasses import replace
 
 import cv2
+import msgspec
 import numpy as np
 
 from protocol import messages
-from protocol.messages import Figure, Light, Phase, Pose
+from protocol.messages import Box, Figure, Light, Phase, Pose
 from services.bus.arrays import motion_to_wire, to_wire
 from services.process.clock import SystemClock
 from services.process.config import StationSection
+from services.station.live_view.description import describe
+from services.station.live_view.drawing import Criteria, Curve, Drawing
 from services.station.page.page import Page
 from services.station.page.view import PageView, Picture
+from sim.robots.description import CONTROLLED_JOINTS
+from sim.tasks import DISHWASHER
 
 FEED_PERIOD_S = 0.02
-POSE = Pose((0.6, 0.1, 0.5), (1.0, 0.0, 0.0, 0.0))
+GRASP = Pose(tuple(DISHWASHER.start.position), tuple(DISHWASHER.start.orientation))
+OBJECT = Pose((0.86, 0.07, 0.553), (1.0, 0.0, 0.0, 0.0))
+SWING = 0.3  # [rad] of the arm that moves
+
+
+def described():
+    """What the live view shows."""
+    return describe(DISHWASHER.name)
+
+
+def drawing() -> Drawing:
+    """The dishwasher, a prediction in its tube and the half of it that was corrected."""
+    predicted, corrected = (
+        tuple(map(tuple, DISHWASHER.corridor(variant, np.array(OBJECT.position)).positions.tolist()))
+        for variant in DISHWASHER.variants
+    )
+    boxes = DISHWASHER.boxes(DISHWASHER.variants[1])
+    return Drawing(
+        boxes=tuple(Box(box.name, box.centre, box.half_sizes, box.quaternion, box.rgba) for box in boxes),
+        size=DISHWASHER.object_size,
+        prediction=Curve(predicted, tuple((0.03, 0.05, 0.02) for _ in predicted)),
+        way=corrected[: len(corrected) // 2],
+        criteria=Criteria(DISHWASHER.tolerances),
+    )
 
 
 def picture(label: str, width: int = 320, height: int = 240) -> bytes:
@@ -44,7 +72,15 @@ def working_view() -> PageView:
             updates_allowed=8,
             actions=("finish", "undo"),
         ),
-        robot=messages.RobotState(measured=POSE, reference=POSE, phase=Phase.EXECUTE, progress=0.4),
+        robot=messages.RobotState(
+            joint_names=CONTROLLED_JOINTS,
+            q=tuple(DISHWASHER.posture.tolist()),
+            measured=GRASP,
+            reference=GRASP,
+            phase=Phase.EXECUTE,
+            progress=0.4,
+            offset=(0.0, 0.02, 0.05),
+        ),
         robot_age_s=0.008,
         verdict=messages.Verdict(
             reached=False,
@@ -62,11 +98,13 @@ def working_view() -> PageView:
             motion=motion_to_wire([[0.5, 0.0, 0.4], [0.8, 0.1, 0.5]], [[1.0, 0.0, 0.0, 0.0]] * 2, 10.0),
             deviations=to_wire([[0.01] * 3] * 2),
             model_version=7,
-            object_position=POSE.position,
+            object_position=OBJECT.position,
             known=0.6,
             way=messages.Way(1, 2, 0.8),
         ),
-        object_pose=messages.ObjectPose(pose=POSE, tag=582, error=0.0021, pictures=9),
+        object_pose=messages.ObjectPose(pose=OBJECT, tag=582, error=0.0021, pictures=9),
+        drawing=drawing(),
+        force=(0.0, 0.0, 2.5),
         head=Picture(picture("head"), 0.02),
         wrist=Picture(picture("wrist"), 0.02),
         latencies=(Figure("hand_to_robot", 0.024, "s"),),
@@ -84,6 +122,7 @@ class Feed:
     def __init__(self, page: Page, view: PageView) -> None:
         self.view = view
         self.moving_pictures = False
+        self.moving_robot = False
         self._page = page
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name="feed", daemon=True)
@@ -106,7 +145,15 @@ class Feed:
                     head=Picture(picture(f"head {label}"), 0.0),
                     wrist=Picture(picture(f"wrist {label}"), 0.0),
                 )
+            if self.moving_robot:
+                self.view = replace(self.view, robot=swinging(self.view.robot, tick * FEED_PERIOD_S))
             self._page.show(self.view)
+
+
+def swinging(robot, time_s):
+    """The robot's state, its arm somewhere on its way from side to side."""
+    torso, shoulder, *others = DISHWASHER.posture.tolist()
+    return msgspec.structs.replace(robot, q=(torso, shoulder + SWING * np.sin(2.0 * time_s), *others))
 
 
 def main() -> None:
@@ -114,10 +161,10 @@ def main() -> None:
     stop = threading.Event()
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: stop.set())
-    page = Page(StationSection(port=int(sys.argv[1])), "robot1", SystemClock())
+    page = Page(StationSection(port=int(sys.argv[1])), "robot1", SystemClock(), described())
     page.start()
     feed = Feed(page, working_view())
-    feed.moving_pictures = True
+    feed.moving_pictures = feed.moving_robot = True
     feed.start()
     sys.stdout.write("ready\n")
     sys.stdout.flush()

@@ -1,124 +1,219 @@
-"""The live view's frame on the operator's page: where it is, what its keys do, and that nothing starts it anew."""
+"""The page's own 3-D view: what a person sees in it, what it costs, and what is said where it cannot be."""
 
 from dataclasses import replace
-from urllib.parse import urlsplit
 
+import cv2
 import msgspec
+import numpy as np
 import pytest
-from frame import Frame
 
-from protocol.messages import Recording
-from services.process.clock import SystemClock
-from tests.ports import free_port
+from services.station.live_view.drawing import Drawing
 
 pytestmark = pytest.mark.browser
 
-
-@pytest.fixture
-def serve_frame(tmp_path):
-    """A function that serves a live view on an address of this machine."""
-    served = []
-
-    def serve(host):
-        served.append(Frame(tmp_path, host, free_port()))
-        return served[-1]
-
-    yield serve
-    for frame in served:
-        frame.close()
+PREDICTED, REFINED = (230, 159, 0), (86, 180, 233)
+NO_WEBGL = """
+    const get = HTMLCanvasElement.prototype.getContext;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+        return kind.startsWith("webgl") ? null : get.call(this, kind, ...rest);
+    };
+"""
 
 
 @pytest.fixture
-def frame(serve_frame):
-    """A live view that is served to its own machine."""
-    return serve_frame("127.0.0.1")
+def seen(tab):
+    """A function that gives the live view's picture as it is now, shape (height, width, 3), red first."""
+    tab.wait(".scene[data-view=live]")
+    tab.page.evaluate("document.querySelector('.legend').style.visibility = 'hidden'")  # it has these colours too
+
+    def look():
+        picture = cv2.imdecode(np.frombuffer(tab.page.locator(".view").screenshot(), np.uint8), cv2.IMREAD_COLOR)
+        return cv2.cvtColor(picture, cv2.COLOR_BGR2RGB).astype(int)
+
+    return look
 
 
 @pytest.fixture
-def recording(frame):
-    return Recording(path="a.rrd", viewer_url=frame.url, recording_id="first")
+def becomes(tab, eventually):
+    """A function that waits until a condition holds, and lets the browser live meanwhile."""
+    return lambda condition: eventually(lambda: condition() or tab.page.wait_for_timeout(50))
 
 
-@pytest.fixture
-def view(tab, station, recording):
-    """The frame's content, loaded."""
+def share(picture, colour):
+    """Share of the picture that has a colour."""
+    return np.mean(np.all(np.abs(picture - np.array(colour)) < 12, axis=2))
+
+
+def test_prediction_and_refinement_are_seen_in_their_colours_and_go_when_there_are_none(seen, station, becomes):
     _, feed = station
-    feed.view = replace(feed.view, recording=recording)
-    return loaded(tab)
+    becomes(lambda: share(seen(), PREDICTED) > 1e-4 and share(seen(), REFINED) > 1e-4)
+    feed.view = replace(feed.view, drawing=msgspec.structs.replace(feed.view.drawing, prediction=None, way=()))
+    becomes(lambda: share(seen(), PREDICTED) == 0.0)
 
 
-def loaded(tab):
-    """The content of a tab's frame, once its script listens."""
-    content = tab.page.wait_for_selector("iframe.viewer").content_frame()
-    content.wait_for_selector("#view")
-    content.wait_for_load_state("domcontentloaded")
-    return content
+def test_the_robot_is_where_its_joints_are(seen, station, becomes):
+    _, feed = station
+    becomes(lambda: share(seen(), PREDICTED) > 1e-4)
+    before = seen()
+    torso, shoulder, *others = feed.view.robot.q
+    feed.view = replace(feed.view, robot=msgspec.structs.replace(feed.view.robot, q=(torso, shoulder + 0.6, *others)))
+    becomes(lambda: np.mean(np.any(np.abs(seen() - before) > 30, axis=2)) > 0.01)
 
 
-def say_key(view, kind, **fields):
-    view.evaluate(
-        "([kind, fields]) => document.body.dispatchEvent(new KeyboardEvent(kind, {bubbles: true, ...fields}))",
-        [kind, fields],
+def test_an_empty_room_is_drawn_too(seen, station, becomes):
+    _, feed = station
+    feed.view = replace(feed.view, robot=None, object_pose=None, drawing=Drawing())
+    becomes(lambda: share(seen(), PREDICTED) == share(seen(), REFINED) == 0.0)
+    assert seen().std() > 5.0
+
+
+def test_it_turns_with_the_pointer_and_back_and_the_keys_stay_the_operators(tab, seen, hand, becomes):
+    becomes(lambda: share(seen(), PREDICTED) > 1e-4)
+    before = seen()
+    box = tab.page.locator(".view").bounding_box()
+    tab.page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    tab.page.mouse.down()
+    tab.page.mouse.move(box["x"] + box["width"] / 2 + 150, box["y"] + box["height"] / 2 + 40, steps=4)
+    tab.page.mouse.up()
+    becomes(lambda: np.mean(np.abs(seen() - before)) > 3.0)
+    hand.hold("KeyW")
+    hand.let_go()
+    tab.page.click(".scene-home")
+    becomes(lambda: np.mean(np.abs(seen() - before)) < 1.0)
+    hand.hold("KeyE")
+    hand.let_go()
+
+
+def test_the_links_are_where_pinocchio_has_them(tab):
+    pinocchio = pytest.importorskip("pinocchio")
+    from sim.robots.description import prepare
+
+    model = pinocchio.buildModelFromUrdf(str(prepare().urdf))
+    q = np.random.default_rng(7).uniform(model.lowerPositionLimit, model.upperPositionLimit)
+    data = model.createData()
+    pinocchio.framesForwardKinematics(model, data, q)
+    values = {model.names[i]: q[model.joints[i].idx_q] for i in range(1, model.njoints)}
+    matrices = tab.page.evaluate(
+        """async (values) => {
+            const { Robot } = await import("/assets/js/drawing/robot.js");
+            const words = new URL(document.querySelector(".view").dataset.description, location);
+            const description = await (await fetch(words)).json();
+            const shapes = await (await fetch(new URL("shapes.bin", words))).arrayBuffer();
+            const robot = new Robot(description, shapes);
+            robot.move(description.joints.map((joint) => values[joint]));
+            robot.root.updateMatrixWorld(true);
+            return Object.fromEntries(robot.links.map(({ name, matrixWorld }) => [name, matrixWorld.elements]));
+        }""",
+        values,
     )
+    assert len(matrices) > 40
+    for name, elements in matrices.items():
+        frame = data.oMf[model.getFrameId(name, pinocchio.BODY)]
+        np.testing.assert_allclose(np.reshape(elements, (4, 4)).T, frame.homogeneous, atol=1e-6)
 
 
-def test_it_has_another_name_than_the_page_on_the_same_machine(view):
-    assert urlsplit(view.url).hostname == "localhost"
-
-
-def test_its_keys_steer_and_those_of_strangers_do_not(tab, view):
-    tab.page.evaluate("window.postMessage({kind: 'key', code: 'KeyW', key: 'w', down: true}, '*')")
-    say_key(view, "keydown", code="KeyD", key="d")
-    tab.wait("[data-key=KeyD][data-held]")
-    assert tab.page.locator("[data-key=KeyW][data-held]").count() == 0
-    say_key(view, "keyup", code="KeyD", key="d")
-    tab.wait(".station:not(:has([data-held]))")
-
-
-@pytest.mark.parametrize(
-    "event",
-    [
-        {"code": "Escape", "key": "Escape"},
-        {"code": "Escape", "key": "Escape", "ctrlKey": True, "altKey": True, "shiftKey": True, "metaKey": True},
-        {"code": "", "key": "Escape"},
-        {"code": "", "key": "Unidentified", "keyCode": 27},
-        {"code": "Escape", "key": "Escape", "repeat": True},
-    ],
-)
-def test_escape_in_it_stops(view, pressed, event):
-    say_key(view, "keydown", **event)
-    assert pressed() == ["stop"]
-
-
-def test_escape_stops_where_it_has_the_focus(view, pressed):
-    view.focus("#view")
-    view.page.keyboard.press("Control+Escape")
-    assert pressed() == ["stop"]
-
-
-def test_another_recording_loads_it_anew(tab, view, station, recording):
-    _, feed = station
-    feed.view = replace(feed.view, recording=msgspec.structs.replace(recording, recording_id="second"))
-    tab.wait("iframe[data-recording=second]")
-    assert tab.page.locator("iframe").count() == 1
-    feed.view = replace(feed.view, recording=None)
-    tab.wait(".scene-empty:visible")
-
-
-def test_what_is_no_address_is_not_loaded(tab, station, recording):
-    _, feed = station
-    feed.view = replace(
-        feed.view, recording=msgspec.structs.replace(recording, viewer_url="javascript:alert(1)"), notice="it came"
+def test_a_tube_is_as_wide_in_every_direction_as_the_ellipsoid_there(tab):
+    positions = tab.page.evaluate(
+        """async () => {
+            const { ellipsoid, sweep } = await import("/assets/js/drawing/sweep.js");
+            const points = [[0, 0, 0], [0, 0, 0], [1, 0, 0], [2, 0, 0]];
+            return sweep(points, (i, direction) => ellipsoid([0.1, 0.2, 0.4], direction), 16).positions;
+        }"""
     )
-    tab.wait(".notice:text-is('it came')")
-    assert tab.page.locator("iframe").count() == 0
+    rings = np.reshape(positions, (-1, 16, 3))
+    assert len(rings) == 3  # a point that is said twice is one
+    np.testing.assert_allclose(rings.max(axis=1) - rings.mean(axis=1), [[0.0, 0.2, 0.4]] * 3, atol=1e-9)
 
 
-def test_a_lost_link_neither_loads_the_page_anew_nor_the_view(open_seated, station, recording, cable):
+def test_it_rests_twice_as_long_as_a_picture_took_and_draws_coarser_where_it_is_slow(tab):
+    waits, finenesses = tab.page.evaluate(
+        """async () => {
+            const { Pace } = await import("/assets/js/drawing/pace.js");
+            const [fast, slow] = [new Pace(), new Pace()];
+            fast.begin(1000);
+            fast.done(1004);
+            const finenesses = [];
+            for (let now = 0; now < 12000; now += 1000) {
+                slow.begin(now);
+                slow.done(now + 200);
+                finenesses.push(slow.fineness);
+            }
+            return [[fast.wait(1004), slow.wait(11200)], finenesses];
+        }"""
+    )
+    assert waits == pytest.approx([1000 / 30 - 4, 400.0])
+    assert (finenesses[0], finenesses[-1]) == (1, 0.5)
+
+
+def test_nothing_is_drawn_where_nothing_changes(tab, seen, station, becomes):
+    """A picture is drawn once all is there, and then no more."""
+    tab.page.wait_for_timeout(500)
+    drawn = "performance.getEntriesByName('drawn').length"
+    tab.page.evaluate(
+        """() => {
+            const draw = WebGL2RenderingContext.prototype.fenceSync;
+            WebGL2RenderingContext.prototype.fenceSync = function (...rest) {
+                performance.mark("drawn");
+                return draw.apply(this, rest);
+            };
+        }"""
+    )
+    tab.page.wait_for_timeout(500)
+    assert tab.page.evaluate(drawn) == 0
+    station[1].moving_robot = True
+    becomes(lambda: tab.page.evaluate(drawn) > 3)
+    station[1].moving_robot = False
+
+
+def test_the_page_loads_less_than_three_megabytes_and_nothing_of_the_viewers(open_tab, station):
+    loaded = {}
+
+    def note(response):
+        loaded[response.url] = response.request.sizes()["responseBodySize"]
+
+    tab = open_tab("about:blank")
+    tab.page.on("response", note)
+    tab.page.goto(station[0].url)
+    tab.wait(".scene[data-view=live]")
+    assert any("three.core" in url for url in loaded)
+    assert sum(loaded.values()) < 0.6e6
+    assert {url.split("/")[2] for url in loaded} == {station[0].url.split("/")[2]}
+
+
+def test_a_browser_that_cannot_draw_says_so_and_all_else_goes_on(open_seated, station):
+    tab = open_seated(script=NO_WEBGL)
+    tab.wait(".scene-empty:visible:has-text('WebGL 2')")
+    tab.wait("[data-camera=head][data-state=live], [data-camera=head][data-state=stale]")
+    tab.page.keyboard.down("KeyW")
+    tab.wait("[data-key=KeyW][data-held]")
+    tab.page.keyboard.up("KeyW")
+    assert tab.faults == []
+
+
+def test_where_its_files_do_not_come_it_says_so_and_all_else_goes_on(open_tab, calm_station):
+    tab = open_tab("about:blank")
+    tab.page.route("**/view/**", lambda route: route.abort())
+    tab.page.goto(calm_station[0].url)
+    tab.wait(".scene-empty:visible:has-text('Load the page anew')")
+    tab.wait("body:not([data-link=offline])")
+
+
+def test_a_drawing_that_the_browser_takes_away_is_said_to_be_gone_and_comes_back(tab, seen, becomes):
+    becomes(lambda: share(seen(), PREDICTED) > 1e-4)
+    tab.page.evaluate("""() => {
+        window.taken = document.querySelector(".view").getContext("webgl2").getExtension("WEBGL_lose_context");
+        window.taken.loseContext();
+    }""")
+    tab.wait(".scene-empty:visible:has-text('taken the drawing away')")
+    tab.page.evaluate("window.taken.restoreContext()")
+    tab.wait(".scene[data-view=live]")
+    becomes(lambda: share(seen(), PREDICTED) > 1e-4)
+
+
+def test_a_lost_link_loads_nothing_anew(open_seated, station, cable):
     _, feed = station
     tab = open_seated(cable.url)
-    feed.view = replace(feed.view, recording=recording)
-    loaded(tab)
+    tab.wait(".scene[data-view=live]")
     tab.page.evaluate("window.loadedOnce = true")
     for lost in (True, False):
         cable.cut()
@@ -128,53 +223,4 @@ def test_a_lost_link_neither_loads_the_page_anew_nor_the_view(open_seated, stati
     feed.view = replace(feed.view, notice="the link is back")
     tab.wait(".notice:text-is('the link is back')")
     assert tab.page.evaluate("window.loadedOnce")
-    assert sum(url.endswith("/re_viewer.js") for url in tab.requests) == 1
-
-
-@pytest.fixture
-def open_station():
-    """A station that listens on every address: its port and its feed."""
-    from harness import Feed, working_view
-
-    from services.process.config import StationSection
-    from services.station.page.page import Page
-
-    port = free_port()
-    page = Page(StationSection(host="0.0.0.0", port=port), "robot1", SystemClock())
-    page.start()
-    feed = Feed(page, working_view())
-    feed.start()
-    yield port, feed
-    feed.close()
-    page.close()
-
-
-@pytest.mark.parametrize("name", ["127.0.0.2", "tablet.localhost"])
-def test_it_is_seen_from_another_machine_by_the_name_that_its_browser_uses(open_station, open_tab, serve_frame, name):
-    port, feed = open_station
-    recording = Recording(path="a.rrd", viewer_url=serve_frame("0.0.0.0").url, recording_id="first")
-    feed.view = replace(feed.view, recording=recording)
-    tab = open_tab(f"http://{name}:{port}/")
-    content = loaded(tab)
-    assert urlsplit(content.url).hostname == name
-    assert tab.faults == []
-    say_key(content, "keydown", code="KeyD", key="d")
-    tab.wait("[data-key=KeyD][data-held]")
-
-
-def test_it_is_seen_under_the_address_on_which_alone_it_is_served(open_station, open_tab, serve_frame):
-    port, feed = open_station
-    recording = Recording(path="a.rrd", viewer_url=serve_frame("127.0.0.2").url, recording_id="first")
-    feed.view = replace(feed.view, recording=recording)
-    tab = open_tab(f"http://tablet.localhost:{port}/")
-    content = loaded(tab)
-    assert urlsplit(content.url).hostname == "127.0.0.2"
-    assert tab.faults == []
-
-
-def test_where_only_its_own_computer_can_see_it_the_page_says_so(open_station, open_tab, recording):
-    port, feed = open_station
-    feed.view = replace(feed.view, recording=recording)
-    tab = open_tab(f"http://tablet.localhost:{port}/")
-    tab.wait(".scene-empty-text:visible:has-text('[viewer] host')")
-    assert tab.page.locator("iframe").count() == 0
+    assert sum("three.module" in url for url in tab.requests) == 1

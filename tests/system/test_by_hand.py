@@ -106,8 +106,6 @@ def test_one_correction_by_keyboard_is_learnt(tmp_path, page):
     endpoint = free_endpoint()
     configuration = configured(tmp_path, endpoint)
     station = load(configuration).station
-    # Without a graphics card the 3-D view alone takes both cores; the tests of the viewer look at it.
-    page.route(lambda url: url.startswith("http://localhost:"), lambda route: route.abort())
     with (
         Command("up", "--fresh", "--no-browser", "--config", configuration, folder=tmp_path) as up,
         Witness(endpoint) as witness,

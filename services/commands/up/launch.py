@@ -166,7 +166,7 @@ def check_ports(configuration: Configuration, options: Launch) -> None:
     if "station" in options.processes:
         check_port("the operator's page", station.host, station.port, "[station] port")
     if "viewer" in options.processes:
-        check_port("the live view", viewer.host, viewer.web_port, "[viewer] web_port")
+        check_port("the viewer's page", viewer.host, viewer.web_port, "[viewer] web_port")
         check_port("the live stream", viewer.host, viewer.stream_port, "[viewer] stream_port")
 
 

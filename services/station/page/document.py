@@ -13,21 +13,23 @@ from services.station.page.panels import CHIPS, COUNTERS, CRITERIA
 HERE = Path(__file__).parent
 ASSETS = HERE / "assets"
 
-_SHEETS = ("base", "header", "cameras", "scene", "status", "keys", "actions", "stop", "banners", "compact")
+_SHEETS = ("base", "light", "header", "cameras", "scene", "status", "keys", "actions", "stop", "banners", "compact")
 _SYMBOLS = {"retouch": "brand", "view": "", "red": "lamp", "amber": "lamp", "hold": "lamp", "green": "lamp", "stop": ""}
 """Those that stand in page.html, and the class by which the style sheet sizes them."""
 
 _CAMERAS = (("head", "Head camera"), ("wrist", "Wrist camera"))
 
 
-def document(robot: str) -> str:
+def document(robot: str, description: str) -> str:
     """The page's HTML.
 
     Args:
         robot: its name.
+        description: address of what the live view is told once.
     """
     parts = {
         "robot": escape(robot),
+        "description": escape(description),
         "sheets": "\n".join(f'    <link rel="stylesheet" href="/assets/css/{name}.css" />' for name in _SHEETS),
         "chips": "".join(_chip(name, title) for name, title in CHIPS),
         "cameras": "".join(_camera(name, title) for name, title in _CAMERAS),
@@ -93,7 +95,8 @@ def _keyboard(rows: tuple[tuple[Key, ...], ...]) -> str:
 def _key(key: Key) -> str:
     return (
         f'<div class="key" data-key="{key.code}" data-cap="{key.cap}"><div class="key-cap">{key.cap}</div>'
-        f'<div class="key-axis">{key.axis}</div><div class="key-direction">{key.direction}</div></div>'
+        f'<div class="key-axis" data-axis="{key.axis[-1]}">{key.axis}</div>'
+        f'<div class="key-direction">{key.direction}</div></div>'
     )
 
 

@@ -14,13 +14,12 @@ CONTENT_POLICY = "; ".join(
     (
         "default-src 'self'",
         "connect-src 'self' ws: wss:",  # not every browser counts the own server's WebSocket as 'self'
-        "frame-src http: https:",  # the viewer has an address of its own
         "frame-ancestors 'none'",
         "object-src 'none'",
         "base-uri 'none'",
     )
 )
-"""The page asks nobody but its own server and the viewer."""
+"""The page asks nobody but its own server, and is nobody's part."""
 
 
 class Guard:

@@ -6,24 +6,31 @@ import asyncio
 import contextlib
 import itertools
 import struct
+from collections.abc import Mapping
+from typing import Any
 
 import msgspec
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from services.process.clock import Clock
+from services.station.live_view.drawing import Point, has_moved, moment, packed
 from services.station.page.input import Desk
 from services.station.page.layout import values
 from services.station.page.said import Held
 from services.station.page.values import Sent, Values
-from services.station.page.view import Board
+from services.station.page.view import Board, Picture, Shown
 
 SEND_PERIOD_S = 0.02
 TICKS_PER_NEWS = 5
-PICTURES_IN_FLIGHT = 2
-"""As many pictures may be under way to a browser; a thin link then gets fewer pictures, not older ones."""
+MOMENT_PERIOD_NS = round(1e9 / 30.0)
+FRAMES_IN_FLIGHT = 2
+"""As many pictures may be under way to a browser, and moments; a thin link, or a browser that draws slowly, then gets
+fewer of them, not older ones."""
 
-PICTURE_HEADER = struct.Struct("<BxxxIf")
-"""Before the JPEG: camera (0 head, 1 wrist), number of the picture, its age [s]."""
+FRAME_HEADER = struct.Struct("<BxxxIf")
+"""Before a JPEG or a moment: what it is (0 head camera, 1 wrist camera, 2 moment), its number, its age [s]."""
+
+MOMENT = 2
 
 TABS_AT_MOST = 8
 TRY_AGAIN_LATER = 1013
@@ -39,6 +46,7 @@ class _News(msgspec.Struct, frozen=True):
         accepted: numbers of presses that were passed on.
         refused: numbers of presses that were not.
         values: to show, as far as they are new.
+        drawing: parts of what the live view draws, as far as they are new.
     """
 
     version: str
@@ -47,6 +55,7 @@ class _News(msgspec.Struct, frozen=True):
     accepted: tuple[int, ...]
     refused: tuple[int, ...]
     values: Values
+    drawing: Mapping[str, Any]
 
 
 class _Tab:
@@ -60,18 +69,33 @@ class _Tab:
     def __init__(self, number: int, socket: WebSocket) -> None:
         self.number = number
         self.socket = socket
-        self.drawn = (0, 0)
-        self.sent = Sent()
-        self._pictures = [0, 0]
+        self.drawn = (0, 0, 0)
+        self.values: Sent[str | bool] = Sent()
+        self.drawing: Sent[Any] = Sent()
+        self.moment_due_ns = 0
+        self._numbers = [0, 0, 0]
         self._last: list[bytes | None] = [None, None]
+        self._moment: Point = ()
 
-    async def send_picture(self, camera: int, jpeg: bytes, age_s: float) -> None:
-        """Send a picture that the tab does not have, unless too many are under way."""
-        if jpeg is self._last[camera] or self._pictures[camera] - self.drawn[camera] >= PICTURES_IN_FLIGHT:
+    async def send_picture(self, camera: int, picture: Picture | None, elapsed_s: float) -> None:
+        """Send a picture that the tab does not have; one that looks the same is a newer one all the same."""
+        if picture is None or picture.jpeg is self._last[camera]:
             return
-        self._last[camera] = jpeg
-        self._pictures[camera] += 1
-        await self.socket.send_bytes(PICTURE_HEADER.pack(camera, self._pictures[camera], age_s) + jpeg)
+        if await self._send(camera, picture.jpeg, picture.age_s + elapsed_s):
+            self._last[camera] = picture.jpeg
+
+    async def send_moment(self, values: Point, age_s: float) -> None:
+        """Send what moves, where it has moved."""
+        if has_moved(values, self._moment) and await self._send(MOMENT, packed(values), age_s):
+            self._moment = values
+
+    async def _send(self, kind: int, content: bytes, age_s: float) -> bool:
+        """Whether it was sent: not where too many are under way."""
+        if self._numbers[kind] - self.drawn[kind] >= FRAMES_IN_FLIGHT:
+            return False
+        self._numbers[kind] += 1
+        await self.socket.send_bytes(FRAME_HEADER.pack(kind, self._numbers[kind], age_s) + content)
+        return True
 
 
 class Link:
@@ -82,13 +106,15 @@ class Link:
         board: that the pictures come from.
         clock: that the input ages by.
         version: of the page's files.
+        joints: names of what moves in the live view.
     """
 
-    def __init__(self, desk: Desk, board: Board, clock: Clock, version: str) -> None:
+    def __init__(self, desk: Desk, board: Board, clock: Clock, version: str, joints: tuple[str, ...]) -> None:
         self._desk = desk
         self._board = board
         self._clock = clock
         self._version = version
+        self._joints = joints
         self._numbers = itertools.count(1)
         self.tabs = 0
 
@@ -123,9 +149,18 @@ class Link:
                     await tab.socket.send_text(self._news(tab))
                 shown = self._board.newest()
                 for camera, picture in enumerate((shown.view.head, shown.view.wrist)):
-                    if picture is not None:
-                        await tab.send_picture(camera, picture.jpeg, picture.age_s + shown.elapsed_s)
+                    await tab.send_picture(camera, picture, shown.elapsed_s)
+                await self._send_moment(tab, shown)
                 await asyncio.sleep(SEND_PERIOD_S)
+
+    async def _send_moment(self, tab: _Tab, shown: Shown) -> None:
+        now_ns = self._clock.now_ns()
+        if now_ns < tab.moment_due_ns:
+            return
+        tab.moment_due_ns = max(tab.moment_due_ns + MOMENT_PERIOD_NS, now_ns)
+        view = shown.view
+        values = moment(view.robot, view.object_pose, view.force, self._joints)
+        await tab.send_moment(values, shown.robot_age_s)
 
     def _news(self, tab: _Tab) -> str:
         standing = self._desk.standing(tab.number, self._clock.now_ns())
@@ -136,6 +171,7 @@ class Link:
             standing.let_go,
             standing.accepted,
             standing.refused,
-            tab.sent.news(values(shown, standing)),
+            tab.values.news(values(shown, standing)),
+            tab.drawing.news(shown.view.drawing.parts()),
         )
         return msgspec.json.encode(news).decode()

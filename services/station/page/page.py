@@ -18,6 +18,8 @@ from services.process.addresses import family, in_url
 from services.process.clock import Clock
 from services.process.config import StationSection
 from services.process.exceptions import PortInUse
+from services.station.live_view.description import Description
+from services.station.live_view.files import Files
 from services.station.page.controls import is_confirmed
 from services.station.page.document import ASSETS, document, version
 from services.station.page.guard import Guard
@@ -42,15 +44,17 @@ class Page:
         station: where to listen.
         robot: its name, to show.
         clock: that input and data age by.
+        description: of what the live view shows.
     """
 
-    def __init__(self, station: StationSection, robot: str, clock: Clock) -> None:
+    def __init__(self, station: StationSection, robot: str, clock: Clock, description: Description) -> None:
         self._station = station
-        self._robot = robot
         self._clock = clock
+        self._files = Files(description)
+        self._document = document(robot, self._files.description_address)
         self._board = Board(clock)
         self._desk = Desk()
-        self._link = Link(self._desk, self._board, clock, version())
+        self._link = Link(self._desk, self._board, clock, version(), description.joints)
         self._server: uvicorn.Server | None = None
         self._thread: threading.Thread | None = None
 
@@ -115,7 +119,7 @@ class Page:
             raise PortInUse(PAGE, host, port, SETTING, error.strerror or "") from None
 
     def _server_configuration(self) -> uvicorn.Config:
-        page = HTMLResponse(document(self._robot))
+        page = HTMLResponse(self._document)
 
         async def serve(request: Request) -> HTMLResponse:
             del request
@@ -124,6 +128,7 @@ class Page:
         routes = [
             Route("/", serve),
             WebSocketRoute("/link", self._link.serve),
+            Route("/view/{path:path}", self._files.serve),
             Mount("/assets", StaticFiles(directory=ASSETS)),
         ]
         app = Starlette(routes=routes)

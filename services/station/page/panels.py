@@ -52,13 +52,12 @@ def _sureness(prediction: Prediction | None) -> str:
 
 
 def scene(shown: Shown) -> Values:
-    """Where the viewer's live view is, and whether its data is old."""
+    """Where all there is can be inspected, and whether the data is old."""
     recording, stale = shown.view.recording, is_stale(shown)
     never = shown.view.robot is None
     age = "has not come yet" if never else f"is {span(shown.robot_age_s)} old"
     return {
-        "scene@data-address": "" if recording is None else recording.viewer_url,
-        "scene@data-recording": "" if recording is None else recording.recording_id,
+        "inspect@data-address": "" if recording is None else recording.viewer_url,
         "scene@data-stale": "yes" if stale else "no",
         "recording-fault": "" if recording is None else recording.fault,
         "stale": f"Robot data {age}" if stale else "",

@@ -46,7 +46,7 @@ class Held(_FromBrowser, frozen=True, tag="held"):
         visible: a person can see the tab.
         focused: it has the focus as well.
         axes: of the gamepad.
-        drawn: number of the newest picture that was drawn, by camera.
+        drawn: number of the newest picture that was drawn, by camera, and of the newest moment in the live view.
     """
 
     sequence: Count
@@ -55,7 +55,7 @@ class Held(_FromBrowser, frozen=True, tag="held"):
     visible: bool
     focused: bool
     axes: Annotated[tuple[Axis, ...], msgspec.Meta(max_length=16)]
-    drawn: tuple[Count, Count]
+    drawn: tuple[Count, Count, Count]
 
 
 class Pressed(_FromBrowser, frozen=True, tag="pressed"):

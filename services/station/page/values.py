@@ -7,18 +7,23 @@ a style property that begins with "--".
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Generic, TypeVar
+
+V = TypeVar("V")
 
 Values = Mapping[str, str | bool]
 
 
-class Sent:
-    """What a tab has been sent: it is told only what is new to it."""
+class Sent(Generic[V]):
+    """What a tab has been sent, by name: it is told only what is new to it."""
 
     def __init__(self) -> None:
-        self._values: dict[str, str | bool] = {}
+        self._values: dict[str, V] = {}
 
-    def news(self, values: Values) -> Values:
+    def news(self, values: Mapping[str, V]) -> Mapping[str, V]:
         """The values that the tab does not show yet; from now on it does."""
-        news = {name: value for name, value in values.items() if self._values.get(name) != value}
+        news = {
+            name: value for name, value in values.items() if name not in self._values or self._values[name] != value
+        }
         self._values.update(news)
         return news

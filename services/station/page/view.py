@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import msgspec
 
@@ -18,9 +18,11 @@ from protocol.messages import (
     RobotState,
     SafetyState,
     TeachingState,
+    Vector3,
     Verdict,
 )
 from services.process.clock import Clock
+from services.station.live_view.drawing import Drawing
 
 HOLD_SHOWN_NS = 600_000_000
 """For how long a hold that is over is still shown."""
@@ -46,6 +48,8 @@ class PageView:
     Attributes:
         robot_age_s: age of the robot's state [s]; infinite where there is none.
         prediction: of the model as it is now.
+        drawing: what the live view shows.
+        force: that the operator feels [N].
         authority_is_mine: this station holds the authority.
         latencies: measured delays worth showing, in seconds.
         notice: one line about what went wrong last; empty where nothing did.
@@ -61,6 +65,8 @@ class PageView:
     model: ModelState | None = None
     prediction: Prediction | None = None
     object_pose: ObjectPose | None = None
+    drawing: Drawing = field(default_factory=Drawing)
+    force: Vector3 = (0.0, 0.0, 0.0)
     recording: Recording | None = None
     head: Picture | None = None
     wrist: Picture | None = None

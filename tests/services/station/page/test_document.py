@@ -10,7 +10,7 @@ from services.station.page.layout import values
 from services.station.page.seating import seating
 from services.station.page.values import Sent
 
-PAGE = document("robot1")
+PAGE = document("robot1", "/view/abc/description.json")
 
 
 def test_every_value_has_one_element_that_shows_it():
@@ -20,7 +20,7 @@ def test_every_value_has_one_element_that_shows_it():
 
 
 def test_a_name_stands_in_it_as_text():
-    assert "<title>Retouch: &lt;b&gt;</title>" in document("<b>")
+    assert "<title>Retouch: &lt;b&gt;</title>" in document("<b>", "")
 
 
 def test_nothing_in_it_is_run_or_styled_from_within():
@@ -36,6 +36,7 @@ def test_a_tab_is_told_what_is_new_to_it():
     assert sent.news({"a": "1", "b": True}) == {"a": "1", "b": True}
     assert sent.news({"a": "1", "b": False}) == {"b": False}
     assert sent.news({"a": "2"}) == {"a": "2"}
+    assert sent.news({"c": None}) == {"c": None}
 
 
 def test_a_tab_says_why_its_keys_do_not_count():

@@ -53,4 +53,5 @@ def test_no_other_server_and_no_frame_has_a_part_in_the_page():
     policy = ask("localhost")[b"content-security-policy"].decode()
     assert "default-src 'self'" in policy
     assert "frame-ancestors 'none'" in policy
+    assert "frame-src" not in policy
     assert "unsafe" not in policy

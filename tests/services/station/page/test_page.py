@@ -7,7 +7,11 @@ import pytest
 
 from services.process.clock import SystemClock
 from services.process.config import StationSection
+from services.station.live_view.description import described
 from services.station.page.page import Page
+from sim.tasks.scene import Eye
+
+NOTHING = described((), {}, Eye(), None)
 
 
 def free_port(host):
@@ -19,7 +23,7 @@ def free_port(host):
 
 
 def test_it_can_be_opened_under_an_address_of_version_6():
-    page = Page(StationSection(host="::1", port=free_port("::1")), "robot1", SystemClock())
+    page = Page(StationSection(host="::1", port=free_port("::1")), "robot1", SystemClock(), NOTHING)
     page.start()
     try:
         assert page.url.startswith("http://[::1]:")

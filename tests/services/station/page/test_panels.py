@@ -86,10 +86,10 @@ def test_without_a_prediction_nothing_is_said_of_it():
     assert (values["chip-prediction-text"], values["chip-prediction@data-tone"]) == ("none", "none")
 
 
-def test_the_live_view_is_told_with_its_recording_and_what_is_wrong_with_it():
+def test_it_is_told_where_everything_can_be_inspected_and_what_is_wrong_with_the_recording():
     recording = Recording(path="a", viewer_url="http://0.0.0.0:9/", recording_id="r", fault="The disk is full.")
     values = scene(shown(recording=recording, robot_age_s=9.0))
-    assert (values["scene@data-address"], values["scene@data-recording"]) == ("http://0.0.0.0:9/", "r")
+    assert values["inspect@data-address"] == "http://0.0.0.0:9/"
     assert values["recording-fault"] == "The disk is full."
     assert (values["scene@data-stale"], values["stale"]) == ("yes", "Robot data has not come yet")
 

@@ -15,8 +15,8 @@ const CONNECT_TIMES = 4;
 const CONNECT_SHARE = 0.1;
 
 export class Link {
-  constructor(tab, { onOpen, onNews, onPicture, onSilence }) {
-    Object.assign(this, { tab, onOpen, onNews, onPicture, onSilence });
+  constructor(tab, { onOpen, onNews, onFrame, onSilence }) {
+    Object.assign(this, { tab, onOpen, onNews, onFrame, onSilence });
     this.watched = this.openUntil = performance.now();
     this.opening = CONNECT_MOST_MS;
     this.connect();
@@ -52,7 +52,7 @@ export class Link {
 
   received(data) {
     this.since = this.openUntil = performance.now();
-    if (typeof data !== "string") return this.onPicture(data);
+    if (typeof data !== "string") return this.onFrame(data);
     this.told = true;
     return this.onNews(JSON.parse(data));
   }

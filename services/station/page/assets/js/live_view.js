@@ -1,58 +1,90 @@
-// The viewer's page in a frame. Its address is made here: only the browser knows by which name it reaches this machine.
+// The page's own 3-D view. What cannot draw here takes nothing else away: the page says so, and goes on without it.
 
-const LOOPBACK = new Set(["localhost", "127.0.0.1", "[::1]"]);
-const EVERYWHERE = new Set(["0.0.0.0", "[::]"]);
-const ELSEWHERE = "It can be seen on its own computer only; [viewer] host in the configuration opens it to others.";
+import { contextOf } from "/assets/js/drawing/context.js";
+
+const HEADER_BYTES = 12;
+const GOES_ON = "Cameras, keys and the stop go on.";
+const NO_WEBGL = `This browser cannot draw it: WebGL 2 is missing or switched off. ${GOES_ON} Switch graphics acceleration
+ on in its settings, or use another browser.`;
+const NOT_LOADED = `Its files did not come. ${GOES_ON} Load the page anew, or set Retouch up anew.`;
+const TAKEN_AWAY = `The browser has taken the drawing away. ${GOES_ON} Load the page anew.`;
+
+export const MOMENT = 2;
 
 export class LiveView {
-  constructor(onKey) {
-    this.scene = document.querySelector(".scene");
-    this.waiting = document.querySelector(".scene-empty-text").textContent;
-    this.loaded = "";
-    window.addEventListener("message", (event) => {
-      const { kind, ...key } = event.data ?? {};
-      if (kind === "key" && this.isFrom(event)) onKey(key);
+  constructor() {
+    this.panel = document.querySelector(".scene");
+    this.parts = {};
+    this.drawn = 0;
+    this.connection = {};
+    document.querySelector(".scene-home").addEventListener("click", ({ currentTarget }) => {
+      this.drawing?.look();
+      currentTarget.blur();
     });
+    this.load();
   }
 
-  get frame() {
-    return this.scene.querySelector("iframe");
+  // A new connection counts its moments anew.
+  restart() {
+    this.drawn = 0;
+    this.connection = {};
   }
 
-  // Loaded anew for another recording only: what else happens to this page leaves it alone.
-  show() {
-    const { address = "", recording = "" } = this.scene.dataset;
-    if (this.loaded === `${recording} ${address}`) return;
-    this.loaded = `${recording} ${address}`;
-    const here = addressHere(address);
-    this.scene.dataset.view = here ? "live" : "none";
-    this.scene.querySelector(".scene-empty-text").textContent = here === "" ? ELSEWHERE : this.waiting;
-    this.scene.querySelector(".frame").replaceChildren(...(here ? [frameOf(here, recording)] : []));
+  show(parts) {
+    Object.assign(this.parts, parts);
+    if (Object.keys(parts).length > 0) this.drawing?.show(parts);
   }
 
-  isFrom({ source, origin }) {
-    return this.frame !== null && source === this.frame.contentWindow && origin === new URL(this.frame.src).origin;
+  receive(buffer) {
+    const number = new DataView(buffer).getUint32(4, true);
+    const { connection } = this;
+    this.moment = { shown: { number, connection }, values: new Float32Array(buffer, HEADER_BYTES) };
+    this.drawing?.receive(this.moment);
+  }
+
+  async load() {
+    const canvas = document.querySelector(".view");
+    const means = contextOf(canvas);
+    if (!means) return this.fail(NO_WEBGL);
+    canvas.addEventListener("webglcontextlost", () => this.fail(TAKEN_AWAY));
+    canvas.addEventListener("webglcontextrestored", () => {
+      this.succeed();
+      this.drawing?.wish();
+    });
+    try {
+      const words = new URL(canvas.dataset.description, location);
+      const [{ Drawing }, description, shapes] = await Promise.all([
+        import("/assets/js/drawing/drawing.js"),
+        fetched(words).then((answer) => answer.json()),
+        fetched(new URL("shapes.bin", words)).then((answer) => answer.arrayBuffer()),
+      ]);
+      this.drawing = new Drawing(canvas, means, description, shapes, (shown) => this.onDrawn(shown));
+      this.drawing.show(this.parts);
+      if (this.moment) this.drawing.receive(this.moment);
+    } catch (error) {
+      console.warn("the live view is not there:", error);
+      return this.fail(NOT_LOADED);
+    }
+    return this.succeed();
+  }
+
+  onDrawn(shown) {
+    if (shown?.connection === this.connection) this.drawn = Math.max(this.drawn, shown.number);
+  }
+
+  succeed() {
+    this.panel.dataset.view = "live";
+  }
+
+  fail(words) {
+    this.panel.dataset.view = "none";
+    this.panel.querySelector(".scene-empty-title").textContent = "No live view";
+    this.panel.querySelector(".scene-empty-text").textContent = words;
   }
 }
 
-function frameOf(address, recording) {
-  const frame = document.createElement("iframe");
-  Object.assign(frame, { className: "viewer", title: "Live view", src: address });
-  frame.dataset.recording = recording;
-  return frame;
-}
-
-// Null where there is none, empty where it cannot be reached from here. On one machine it has another name than this
-// page: the browser then gives it a process of its own, and its drawing does not delay the keys.
-function addressHere(text) {
-  if (!/^https?:\/\/[^/]/.test(text)) return null;
-  const url = new URL(text);
-  if (LOOPBACK.has(url.hostname) && !isHere(location.hostname)) return "";
-  if (EVERYWHERE.has(url.hostname)) url.hostname = location.hostname;
-  if (LOOPBACK.has(url.hostname)) url.hostname = location.hostname === "localhost" ? "127.0.0.1" : "localhost";
-  return url.href;
-}
-
-function isHere(name) {
-  return LOOPBACK.has(name) || name.startsWith("127.");
+async function fetched(address) {
+  const answer = await fetch(address);
+  if (!answer.ok) throw new Error(`${address}: ${answer.status}`);
+  return answer;
 }

@@ -1,9 +1,10 @@
 // The operator's page in the browser: the input state out at 50 Hz; pictures, and what to show, in.
 
 import { Held } from "/assets/js/held.js";
+import { showInspection } from "/assets/js/inspection.js";
 import { Keyboard, isSpace, isStop } from "/assets/js/keyboard.js";
 import { Link } from "/assets/js/link.js";
-import { LiveView } from "/assets/js/live_view.js";
+import { LiveView, MOMENT } from "/assets/js/live_view.js";
 import { Pictures } from "/assets/js/pictures.js";
 import { Presses } from "/assets/js/presses.js";
 import { Tab } from "/assets/js/tab.js";
@@ -23,8 +24,8 @@ window.addEventListener("pointerdown", stopByHand, { capture: true });
 const pictures = new Pictures();
 const keyboard = new Keyboard();
 const held = new Held(changed);
-const liveView = new LiveView(keyOfLiveView);
-const link = new Link(tab, { onOpen, onNews, onPicture: (buffer) => pictures.receive(buffer), onSilence });
+const liveView = new LiveView();
+const link = new Link(tab, { onOpen, onNews, onFrame, onSilence });
 presses.link = link;
 
 setInterval(say, INPUT_PERIOD_MS);
@@ -35,6 +36,7 @@ document.addEventListener("click", clicked);
 
 function onOpen() {
   pictures.restart();
+  liveView.restart();
   say();
   presses.say();
 }
@@ -42,10 +44,16 @@ function onOpen() {
 function onNews(news) {
   presses.settle(news);
   show(news.values);
-  liveView.show();
+  liveView.show(news.drawing);
+  showInspection();
   document.body.dataset.link = news.armed ? "armed" : "view-only";
   document.body.toggleAttribute("data-let-go", news.armed && news.let_go);
   document.body.toggleAttribute("data-renewed", news.version !== document.body.dataset.version);
+}
+
+function onFrame(buffer) {
+  const drawer = new DataView(buffer).getUint8(0) === MOMENT ? liveView : pictures;
+  drawer.receive(buffer);
 }
 
 function onSilence() {
@@ -53,7 +61,7 @@ function onSilence() {
 }
 
 function say() {
-  link.sayHeld({ ...held.state(), drawn: pictures.drawn });
+  link.sayHeld({ ...held.state(), drawn: [...pictures.drawn, liveView.drawn] });
 }
 
 function changed() {
@@ -85,13 +93,6 @@ function down(event) {
   if (event.repeat) return;
   if (isSpace(event)) pressButton(document.querySelector('[data-action="finish"]'));
   held.press(code);
-}
-
-// A click into the live view gives it the keyboard; the viewer's page posts the keys back.
-function keyOfLiveView(key) {
-  if (!key.down) return held.release(keyboard.placeOf(key));
-  stopByKey(key);
-  return down(key);
 }
 
 function clicked(event) {

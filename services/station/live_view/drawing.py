@@ -1,0 +1,109 @@
+"""What the live view draws that changes now and then, and what moves all the time."""
+
+from __future__ import annotations
+
+import math
+import struct
+from collections.abc import Mapping
+from typing import Any
+
+import msgspec
+
+from protocol.messages import Box, ObjectPose, Pose, RobotState, Vector3
+
+Point = tuple[float, ...]
+
+STILL = 1e-4
+"""What moves by less stands, to whoever looks on [m, rad]."""
+
+_SEEN = 3
+"""Digits of the object's pose: cameras see no more."""
+
+_NOWHERE = Pose((math.nan,) * 3, (math.nan,) * 4)
+
+
+class Curve(msgspec.Struct, frozen=True):
+    """A predicted motion.
+
+    Attributes:
+        points: base frame [m].
+        spread: two standard deviations along each base axis at each point [m]; empty where they are not known.
+    """
+
+    points: tuple[Point, ...]
+    spread: tuple[Point, ...] = ()
+
+
+class Criteria(msgspec.Struct, frozen=True):
+    """By what the motion is judged.
+
+    Attributes:
+        radii: of the ellipsoid about the grasping frame that the object has to come into [m].
+        reached: it has.
+        collision: where the robot first touched something [m]; None where it did not.
+        force: how hard [N].
+    """
+
+    radii: Vector3 = (0.0, 0.0, 0.0)
+    reached: bool = False
+    collision: Vector3 | None = None
+    force: float = 0.0
+
+
+class Drawing(msgspec.Struct, frozen=True):
+    """What changes now and then.
+
+    Attributes:
+        boxes: what stands around the robot.
+        size: of the object, full edge lengths [m]; zero where there is none.
+        prediction: the motion that is or would be executed; None where there is none.
+        way: where the episode's motion has led so far, the correction in it, base frame [m].
+        criteria: by what it is judged.
+    """
+
+    boxes: tuple[Box, ...] = ()
+    size: Vector3 = (0.0, 0.0, 0.0)
+    prediction: Curve | None = None
+    way: tuple[Point, ...] = ()
+    criteria: Criteria = Criteria()
+
+    def parts(self) -> Mapping[str, Any]:
+        """By name."""
+        return {name: getattr(self, name) for name in self.__struct_fields__}
+
+
+def moment(robot: RobotState | None, seen: ObjectPose | None, force: Vector3, joints: tuple[str, ...]) -> Point:
+    """What moves; not a number where nothing is known.
+
+    In order: position and orientation (scalar first) of the grasping frame and of the object as it is seen, the applied
+    correction [m], the force that the operator feels [N], the joints' positions [rad, m].
+
+    Args:
+        robot: as measured.
+        seen: the object.
+        force: that the master renders [N].
+        joints: names of those that are told, in order.
+    """
+    measured = _NOWHERE if robot is None else robot.measured
+    thing = _NOWHERE if seen is None else seen.pose
+    positions = {} if robot is None else dict(zip(robot.joint_names, robot.q, strict=False))
+    return (
+        *measured.position,
+        *measured.orientation,
+        *(round(value, _SEEN) for value in (*thing.position, *thing.orientation)),
+        *(_NOWHERE.position if robot is None else robot.offset),
+        *force,
+        *(positions.get(joint, math.nan) for joint in joints),
+    )
+
+
+def has_moved(now: Point, before: Point) -> bool:
+    """Whether a moment shows another picture than one that was told before."""
+    return len(now) != len(before) or any(
+        abs(a - b) > STILL or math.isnan(a) is not math.isnan(b) for a, b in zip(now, before, strict=True)
+    )
+
+
+def packed(values: Point) -> bytes:
+    """A moment as 32-bit floats, little endian."""
+    return struct.pack(f"<{len(values)}f", *values)

@@ -1,0 +1,79 @@
+"""Puts together what the live view draws, from what the station hears."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from protocol.messages import Prediction, SceneState, Vector3, Verdict
+from services.bus.arrays import Floats, drawable
+from services.bus.trace import Trace
+from services.station.ears import Ears, message
+from services.station.live_view.drawing import Criteria, Curve, Drawing, Point
+
+_POINTS = 80
+"""Of a motion: a line through more looks the same."""
+
+_SIGMAS = 2.0
+_DIGITS = 4
+_NO_FORCE: Vector3 = (0.0, 0.0, 0.0)
+
+
+class Stage:
+    """What is to be seen.
+
+    Args:
+        ears: what the station hears.
+    """
+
+    def __init__(self, ears: Ears) -> None:
+        self._ears = ears
+        self._trace = Trace()
+        self._way: tuple[Point, ...] = ()
+        self._curve: tuple[Prediction | None, Curve | None] = (None, None)
+
+    def drawing(self, now_ns: int) -> Drawing:
+        """What changes now and then, as it is now."""
+        robot = message(self._ears.robot.latest())
+        if robot is not None and self._trace.see(robot):
+            self._way = _told(self._trace.points)
+        scene = message(self._ears.scene.latest())
+        return Drawing(
+            boxes=() if scene is None else scene.boxes,
+            size=_NO_FORCE if scene is None else scene.object_size,
+            prediction=self._predicted(now_ns),
+            way=self._way,
+            criteria=_criteria(scene, message(self._ears.verdict.latest())),
+        )
+
+    def force(self, now_ns: int) -> Vector3:
+        """That the operator feels now [N]."""
+        master = self._ears.master.fresh(now_ns)
+        return _NO_FORCE if master is None else master.force
+
+    def _predicted(self, now_ns: int) -> Curve | None:
+        prediction = self._ears.predictions.shown(self._ears.execution.fresh(now_ns))
+        if prediction is not self._curve[0]:
+            self._curve = prediction, None if prediction is None else _curve(prediction)
+        return self._curve[1]
+
+
+def _criteria(scene: SceneState | None, verdict: Verdict | None) -> Criteria:
+    radii = _NO_FORCE if scene is None else scene.ellipsoid_radii
+    if verdict is None:
+        return Criteria(radii)
+    return Criteria(radii, verdict.reached, verdict.collision_position, verdict.collision_force)
+
+
+def _curve(prediction: Prediction) -> Curve | None:
+    """None of numbers that cannot be drawn."""
+    positions, deviations = drawable(prediction.motion.positions), drawable(prediction.deviations)
+    if positions is None:
+        return None
+    known = deviations is not None and deviations.shape == positions.shape
+    return Curve(_told(positions), _told(_SIGMAS * deviations) if known and deviations is not None else ())
+
+
+def _told(points: Floats) -> tuple[Point, ...]:
+    """As many of the points as can be told apart, to a tenth of a millimetre."""
+    chosen = np.unique(np.linspace(0, len(points) - 1, min(_POINTS, len(points))).round().astype(int))
+    return tuple(map(tuple, points[chosen].round(_DIGITS).tolist()))

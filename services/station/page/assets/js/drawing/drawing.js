@@ -1,0 +1,144 @@
+// The scene on the canvas: drawn anew when something has changed, and never faster than this computer can.
+
+import {
+  DirectionalLight,
+  HemisphereLight,
+  OrbitControls,
+  PerspectiveCamera,
+  Scene,
+  Vector3,
+  WebGLRenderer,
+} from "/assets/js/drawing/three.js";
+import { Marks } from "/assets/js/drawing/marks.js";
+import { Motions } from "/assets/js/drawing/motions.js";
+import { Pace } from "/assets/js/drawing/pace.js";
+import { colourOf } from "/assets/js/drawing/paint.js";
+import { Robot } from "/assets/js/drawing/robot.js";
+import { Surroundings } from "/assets/js/drawing/surroundings.js";
+
+const FIELD_OF_VIEW = 48;
+const POLL_MS = 3;
+const STILL_MS = 300; // what has not changed for so long is drawn once more, as fine as the screen
+const DENSEST = 2;
+
+export class Drawing {
+  // onDrawn: told which moment is the newest on the screen.
+  constructor(canvas, { context, isSlow }, description, shapes, onDrawn) {
+    Object.assign(this, { canvas, context, isSlow, onDrawn, eye: description.eye });
+    this.renderer = new WebGLRenderer({ canvas, context });
+    this.pace = new Pace();
+    this.scene = new Scene();
+    this.camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.05, 30);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    Object.assign(this.controls, { minDistance: 0.1, maxDistance: 8 });
+    this.controls.addEventListener("change", () => this.wish());
+    this.robot = new Robot(description, shapes);
+    this.surroundings = new Surroundings();
+    this.motions = new Motions();
+    this.marks = new Marks();
+    this.scene.background = colourOf("ground");
+    this.scene.add(...lights(), ...[this.surroundings, this.robot, this.motions, this.marks].map(({ root }) => root));
+    this.moment = {};
+    this.look();
+    new ResizeObserver(() => this.fit()).observe(canvas);
+  }
+
+  // From where the operator looks at first.
+  look() {
+    const [position, target] = this.eye;
+    this.camera.position.fromArray(position);
+    this.controls.target.fromArray(target);
+    this.controls.update();
+    this.wish();
+  }
+
+  show({ boxes, size, prediction, way, criteria }) {
+    if (boxes !== undefined) this.surroundings.furnish(boxes);
+    if (size !== undefined) this.surroundings.size(size);
+    if (prediction !== undefined) this.motions.predict(prediction);
+    if (way !== undefined) this.motions.travel(way);
+    if (criteria !== undefined) this.marks.judge(criteria);
+    if (this.last) this.move(this.last);
+    this.wish();
+  }
+
+  receive(moment) {
+    this.moment = moment;
+    this.wish();
+  }
+
+  wish() {
+    this.wished = true;
+    clearTimeout(this.still);
+    if (this.waits || this.isDrawing) return;
+    this.waits = true;
+    setTimeout(() => requestAnimationFrame(() => this.draw()), this.pace.wait(performance.now()));
+  }
+
+  draw(fineness = this.pace.fineness) {
+    this.waits = this.wished = false;
+    this.isDrawing = true;
+    this.refine(fineness);
+    const { shown, values } = this.moment;
+    if (values) this.move(values);
+    this.moment = { shown };
+    this.pace.begin(performance.now());
+    this.renderer.render(this.scene, this.camera);
+    const { context } = this;
+    const fence = context.fenceSync(context.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    context.flush();
+    setTimeout(() => this.watch(fence, shown), POLL_MS);
+  }
+
+  // Asked now and then instead of waited for: nothing holds up the keys.
+  watch(fence, shown) {
+    const { context } = this;
+    if (fence && context.clientWaitSync(fence, 0, 0) === context.TIMEOUT_EXPIRED) {
+      setTimeout(() => this.watch(fence, shown), POLL_MS);
+      return;
+    }
+    context.deleteSync(fence);
+    this.isDrawing = false;
+    this.onDrawn(shown);
+    this.pace.done(performance.now());
+    if (this.wished) this.wish();
+    else if (this.fineness < 1) this.still = setTimeout(() => this.draw(1), STILL_MS);
+  }
+
+  move(values) {
+    this.last = values;
+    const [grasp, object] = [poseOf(values, 0), poseOf(values, 7)];
+    this.surroundings.see(object);
+    this.marks.move(grasp, values.subarray(14, 17), values.subarray(17, 20));
+    if (grasp.isKnown) this.robot.follow(new Vector3().fromArray(grasp.position));
+    this.robot.move(values.subarray(20));
+  }
+
+  // The share of the screen's pixels along each side that is drawn.
+  refine(fineness) {
+    if (this.fineness === fineness) return;
+    this.fineness = fineness;
+    this.renderer.setPixelRatio(fineness * (this.isSlow ? 1 : Math.min(devicePixelRatio, DENSEST)));
+  }
+
+  fit() {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    if (!width || !height) return;
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.wish();
+  }
+}
+
+function poseOf(values, first) {
+  const [position, orientation] = [values.subarray(first, first + 3), values.subarray(first + 3, first + 7)];
+  return { position, orientation, isKnown: Number.isFinite(position[0]) };
+}
+
+function lights() {
+  const sun = new DirectionalLight(0xffffff, 1.9);
+  sun.position.set(-1, -2, 4);
+  return [new HemisphereLight(0xffffff, 0x3a4250, 1.7), sun];
+}

@@ -1,0 +1,49 @@
+// The motion that is predicted, in the tube in which it probably lies, and the way that it has led so far.
+
+import { BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh } from "/assets/js/drawing/three.js";
+import { plain } from "/assets/js/drawing/paint.js";
+import { ball, ellipsoid, sweep } from "/assets/js/drawing/sweep.js";
+
+const PREDICTED_M = 0.0035;
+const REFINED_M = 0.0045;
+const THINNEST_M = 0.001;
+const LINE_SIDES = 6;
+const TUBE_SIDES = 12;
+
+export class Motions {
+  constructor() {
+    this.root = new Group();
+    this.predicted = tube("predicted");
+    this.spread = tube("predicted", 0.22);
+    this.spread.material.side = DoubleSide;
+    this.way = tube("refined");
+    this.root.add(this.predicted, this.way, this.spread);
+  }
+
+  predict(prediction) {
+    const { points = [], spread = [] } = prediction ?? {};
+    fill(this.predicted, sweep(points, (_, direction) => ball(PREDICTED_M, direction), LINE_SIDES));
+    const half = spread.map((deviations) => deviations.map((deviation) => Math.max(deviation, THINNEST_M)));
+    const reach = (i, direction) => ellipsoid(half[i], direction);
+    fill(this.spread, spread.length === 0 ? sweep([]) : sweep(points, reach, TUBE_SIDES));
+  }
+
+  travel(way) {
+    fill(this.way, sweep(way, (_, direction) => ball(REFINED_M, direction), LINE_SIDES));
+  }
+}
+
+function tube(colour, opacity) {
+  const mesh = new Mesh(new BufferGeometry(), plain(colour, opacity));
+  mesh.visible = false;
+  mesh.frustumCulled = false;
+  return mesh;
+}
+
+function fill(mesh, { positions, triangles }) {
+  mesh.geometry.dispose();
+  mesh.geometry = new BufferGeometry();
+  mesh.geometry.setAttribute("position", new BufferAttribute(new Float32Array(positions), 3));
+  mesh.geometry.setIndex(triangles);
+  mesh.visible = triangles.length > 0;
+}

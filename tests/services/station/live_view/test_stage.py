@@ -1,0 +1,131 @@
+"""What the live view shows of what the station hears."""
+
+import numpy as np
+import pytest
+
+from protocol import topics
+from protocol.messages import Box, ExecutionState, MasterState, Mode, Phase, Pose, RobotState, SceneState, Verdict
+from services.bus.arrays import motion_to_wire, to_wire
+from services.bus.memory import MemoryNetwork
+from services.process.clock import ManualClock
+from services.station.ears import Ears
+from services.station.live_view.stage import Stage
+from tests.services.predictions import announce, prediction
+
+UPRIGHT = (1.0, 0.0, 0.0, 0.0)
+POSE = Pose((0.5, 0.0, 0.5), UPRIGHT)
+BOX = Box("table", (0.8, 0.0, 0.3), (0.1, 0.2, 0.3), UPRIGHT, (1.0, 0.5, 0.2, 1.0))
+SCENE = SceneState(
+    name="s",
+    variant="b1",
+    boxes=(BOX,),
+    object_size=(0.05, 0.05, 0.1),
+    ellipsoid_radii=(0.05, 0.06, 0.05),
+    kicked_over_thresholds=(0.1, 0.1, 0.1),
+    start=POSE,
+    object_region=((0.0,) * 3, (1.0,) * 3),
+)
+
+
+class Network:
+    """A station's ears, its stage, and whoever speaks to it."""
+
+    def __init__(self):
+        self.clock = ManualClock()
+        network = MemoryNetwork(self.clock)
+        self.other = network.bus()
+        self.stage = Stage(Ears(network.bus()))
+
+    def seen(self):
+        return self.stage.drawing(self.clock.now_ns())
+
+    def robot(self, x, phase=Phase.EXECUTE):
+        reference = Pose((x, 0.0, 0.5), UPRIGHT)
+        state = RobotState(measured=POSE, reference=reference, phase=phase, episode=1)
+        self.other.publish(topics.ROBOT_STATE, state)
+
+
+def line(x, count=3):
+    return motion_to_wire(np.linspace((x, 0.0, 0.0), (x + 1.0, 0.0, 0.0), count), [UPRIGHT] * count, 1.0)
+
+
+def test_before_anything_is_heard_there_is_nothing_to_draw():
+    network = Network()
+    assert (network.seen().boxes, network.seen().prediction, network.seen().way) == ((), None, ())
+    assert network.stage.force(network.clock.now_ns()) == (0.0, 0.0, 0.0)
+
+
+def test_the_scene_is_drawn_as_the_robot_announces_it():
+    network = Network()
+    network.other.publish(topics.SCENE_STATE, SCENE)
+    assert (network.seen().boxes, network.seen().size) == ((BOX,), SCENE.object_size)
+    assert network.seen().criteria.radii == SCENE.ellipsoid_radii
+
+
+def test_the_criteria_are_the_verdicts():
+    network = Network()
+    touched = {"collision": True, "collision_position": (0.5, 0.1, 0.2), "collision_force": 4.0}
+    network.other.publish(topics.VERDICT, Verdict(reached=True, kicked_over=False, **touched))
+    criteria = network.seen().criteria
+    assert (criteria.reached, criteria.collision, criteria.force) == (True, (0.5, 0.1, 0.2), 4.0)
+
+
+def test_the_newest_prediction_is_drawn_in_the_tube_of_two_standard_deviations():
+    network = Network()
+    told = prediction(line(0.0))
+    network.other.publish(topics.PREDICTION, told)
+    assert network.seen().prediction.points == ((0.0, 0.0, 0.0), (0.5, 0.0, 0.0), (1.0, 0.0, 0.0))
+    assert network.seen().prediction.spread == ((0.0, 0.0, 0.0),) * 3
+    assert network.seen().prediction is network.seen().prediction
+
+
+def test_while_a_motion_is_under_way_it_is_the_one_to_see():
+    network = Network()
+    first = announce(network.other, line(0.0))
+    announce(network.other, line(7.0))
+    assert network.seen().prediction.points[0] == (7.0, 0.0, 0.0)
+    network.other.publish(topics.EXECUTION, ExecutionState(episode=1, mode=Mode.REFINE, prediction=first, progress=0.1))
+    assert network.seen().prediction.points[0] == (0.0, 0.0, 0.0)
+
+
+def test_a_long_motion_is_told_in_no_more_points_than_can_be_told_apart():
+    network = Network()
+    announce(network.other, line(0.0, 2_000))
+    points = network.seen().prediction.points
+    assert len(points) <= 80
+    assert (points[0], points[-1]) == ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("wrong", [np.nan, 1e7])
+def test_what_cannot_be_drawn_is_left_out(wrong):
+    network = Network()
+    network.other.publish(topics.PREDICTION, prediction(motion_to_wire([[wrong] * 3] * 2, [UPRIGHT] * 2, 1.0)))
+    assert network.seen().prediction is None
+
+
+def test_a_tube_that_does_not_fit_its_motion_is_left_out():
+    network = Network()
+    told = prediction(line(0.0))
+    network.other.publish(topics.PREDICTION, type(told)(**{**fields(told), "deviations": to_wire(np.ones((2, 3)))}))
+    assert network.seen().prediction.spread == ()
+
+
+def fields(message):
+    return {name: getattr(message, name) for name in ("id", "motion", "model_version", "object_position")}
+
+
+def test_the_way_is_where_the_motion_has_led_so_far():
+    network = Network()
+    for x in (0.0, 0.1, 0.2):
+        network.robot(x)
+        network.seen()
+    network.robot(0.9, Phase.HOLD)
+    assert network.seen().way == ((0.0, 0.0, 0.5), (0.1, 0.0, 0.5), (0.2, 0.0, 0.5))
+
+
+def test_the_force_is_the_masters_as_long_as_it_is_heard():
+    network = Network()
+    network.other.publish(topics.MASTER_STATE, MasterState(force=(0.0, 1.5, 0.0)))
+    assert network.stage.force(network.clock.now_ns()) == (0.0, 1.5, 0.0)
+    network.clock.advance(5.0)
+    assert network.stage.force(network.clock.now_ns()) == (0.0, 0.0, 0.0)

@@ -1,0 +1,117 @@
+"""The page's link, as a browser has it: what is drawn slowly is sent less often, and nothing piles up."""
+
+import json
+import struct
+import time
+from dataclasses import replace
+
+import msgspec
+import pytest
+from websockets.sync.client import connect
+
+from protocol.messages import Phase, Pose, RobotState
+from services.process.clock import SystemClock
+from services.process.config import StationSection
+from services.station.live_view.description import described
+from services.station.page.page import Page
+from services.station.page.said import Held, Hello
+from services.station.page.view import PageView
+from sim.tasks.scene import Eye
+from tests.ports import free_port
+
+pytestmark = pytest.mark.sim  # in real time
+
+MOMENT = 2
+UPRIGHT = (1.0, 0.0, 0.0, 0.0)
+
+
+class Browser:
+    """A page that is loaded, and says which moments it has drawn.
+
+    Args:
+        socket: to the station.
+    """
+
+    def __init__(self, socket):
+        self._socket = socket
+        self._socket.send(msgspec.json.encode(Hello("seat-0001", "load-0001")).decode())
+        self._said = 0
+        self.drawing = {}
+
+    def hear(self, seconds, *, drawing=True):
+        """The numbers of the moments that come within this time."""
+        numbers, until = [], time.monotonic() + seconds
+        while (left := until - time.monotonic()) > 0.0:
+            try:
+                frame = self._socket.recv(timeout=left)
+            except TimeoutError:
+                break
+            if isinstance(frame, str):
+                self.drawing.update(json.loads(frame)["drawing"])
+                continue
+            kind, number, _ = struct.unpack_from("<BxxxIf", frame)
+            if kind == MOMENT:
+                numbers.append(number)
+                if drawing:
+                    self._say(number)
+        return numbers
+
+    def _say(self, number):
+        self._said += 1
+        held = Held(self._said, time.monotonic() * 1e3, (), True, True, (), (0, 0, number))
+        self._socket.send(msgspec.json.encode(held).decode())
+
+
+@pytest.fixture
+def page():
+    served = Page(StationSection(port=free_port()), "robot1", SystemClock(), described((), {}, Eye(), None))
+    served.start()
+    yield served
+    served.close()
+
+
+@pytest.fixture
+def browser(page):
+    with connect(f"{page.url.replace('http', 'ws')}/link", origin=page.url) as socket:
+        yield Browser(socket)
+
+
+def robot(x):
+    pose = Pose((x, 0.0, 0.5), UPRIGHT)
+    return RobotState(measured=pose, reference=pose, phase=Phase.EXECUTE)
+
+
+def move(page, browser, steps, **options):
+    """Move the robot in steps of 10 ms; the numbers of the moments that came."""
+    came = []
+    for step in range(steps):
+        page.show(PageView(robot=robot(0.001 * step)))
+        came += browser.hear(0.01, **options)
+    return came
+
+
+def test_what_moves_is_told_thirty_times_a_second_at_most(page, browser):
+    began = time.monotonic()
+    came = move(page, browser, 100)
+    assert 3 <= len(came) <= 31 * (time.monotonic() - began) + 1
+
+
+def test_a_browser_that_draws_nothing_gets_two_moments_and_no_more(page, browser):
+    assert move(page, browser, 40, drawing=False) == [1, 2]
+
+
+def test_what_stands_is_told_once(page, browser):
+    page.show(PageView(robot=robot(0.0)))
+    browser.hear(0.3)
+    assert browser.hear(0.5) == []
+
+
+def test_a_part_of_the_drawing_is_told_when_it_changes(page, browser):
+    view = PageView()
+    page.show(view)
+    browser.hear(0.5)
+    assert set(browser.drawing) == {"boxes", "size", "prediction", "way", "criteria"}
+    browser.drawing.clear()
+    page.show(replace(view, drawing=msgspec.structs.replace(view.drawing, way=((0.0, 0.0, 0.0),))))
+    browser.hear(0.5)
+    assert browser.drawing == {"way": [[0.0, 0.0, 0.0]]}
