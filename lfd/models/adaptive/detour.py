@@ -8,8 +8,9 @@ demonstrations say, b_j that of where the correction was given, and c_j the chan
 says how far a motion goes the way of the correction by itself. It still needs 1 - r of it, from nothing to all. Where r
 is less than -1/4 the way round is shorter on the other side: there it needs the mirror image, 1 + r of it, and nothing
 where it has as much room as the correction made. For nobody has said how wide the thing is: it is taken to be as wide
-to either side of b_j, and the side that the person chose is kept where that leaves three quarters of the room. Where
-corrections have led round on either side, none is made up.
+to either side of b_j, and the side that the person chose is kept where that leaves three quarters of the room. Once
+corrections have led round on either side no side is made up; once one has led to the same side as another from where
+the other side would have been nearer, as over a wall, the corrections tell, and nothing of this is assumed.
 
 Where the hand arrives is another matter: that goes with the object. So a change counts as a detour as far as it is
 larger than what is left of it at the end, and than one motion differs from another that is meant alike; and only for
@@ -74,8 +75,10 @@ class Detours:
 
         Args:
             path: Where the demonstrations alone lead there, shape (P, 3) [m].
-            shown: Corrections have led round on either side: none is made up then.
+            shown: Corrections have led round on either side.
         """
+        if self._one_sided:
+            return Needed(np.ones(len(self.paths)))
         aside = path - self.paths
         along = np.vecdot(aside, self.changes)
         further = along.sum(axis=1) / self._squares
@@ -85,6 +88,14 @@ class Detours:
         other = np.flatnonzero((further < _BETWEEN) & (detour > _RATHER)).tolist() if not shown else []
         shares[other] = (1.0 + further[other]).clip(0.0)
         return Needed(shares, tuple((j, _unit(self._weights[j] @ aside[j])) for j in other))
+
+    @cached_property
+    def _one_sided(self) -> bool:
+        """Whether a correction led to the same side as another one from where the other side would have been nearer."""
+        paths, changes = (x.reshape(len(x), -1) for x in (self.paths, self.changes))
+        projected = paths @ changes.T
+        further = (projected - projected.diagonal()) / self._squares
+        return bool(np.any((further < _BETWEEN) & (self._detour > _RATHER) & (changes @ changes.T > 0.0)))
 
     @cached_property
     def _weights(self) -> Array:

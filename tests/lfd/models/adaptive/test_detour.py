@@ -107,6 +107,20 @@ def test_how_far_a_change_is_a_detour_goes_by_the_squares_of_what_it_is_and_is_n
     assert duration == pytest.approx(0.3 * rest**2 / (size**2 + rest**2))
 
 
+@given(st.floats(-0.9, -0.3), sides)
+def test_once_a_correction_led_to_the_farther_side_too_nothing_is_assumed(first, share):
+    """As over a wall: the second led to the same side from where the other side would have been nearer."""
+    over = detours(LEFT, (1.0 - first) * LEFT, paths=(WAY, beside(first))).needed(beside(share))
+    np.testing.assert_array_equal(over.shares, 1.0)
+    assert over.mirrored == ()
+
+
+def test_a_correction_to_the_nearer_side_bears_the_assumption_out():
+    round_it = detours(LEFT, -0.5 * LEFT, paths=(WAY, beside(-0.5))).needed(beside(-0.6))
+    assert [j for j, _ in round_it.mirrored] == [0]
+    assert round_it.shares[0] == pytest.approx(0.4)
+
+
 @given(st.floats(-9.0, 0.0))
 def test_where_both_ways_round_were_shown_none_is_made_up(share):
     needed = detours(LEFT).needed(beside(share), shown=True)
