@@ -1,3 +1,5 @@
+import contextlib
+
 """Real `retouch` commands in folders of their own, and a witness on their network.
 
 Nothing here waits for a fixed time: every wait is for something that is seen, and has a deadline.
@@ -184,7 +186,8 @@ class Command:
                 self.process.kill()
                 self.process.wait()
         for process in self.left():
-            process.kill()
+            with contextlib.suppress(psutil.NoSuchProcess):  # it may have ended since it was seen
+                process.kill()
         return self.process.returncode
 
 
