@@ -1,10 +1,9 @@
-import contextlib
-
 """Real `retouch` commands in folders of their own, and a witness on their network.
 
 Nothing here waits for a fixed time: every wait is for something that is seen, and has a deadline.
 """
 
+import contextlib
 import os
 import secrets
 import signal
