@@ -24,7 +24,7 @@ from services.bus.zenoh import Passing, open_session, watch
 from services.process.clock import SystemClock
 from services.process.isolation import retouch_command
 from sim.tasks import SCENES
-from tests.bench.support.results import Result, write_json
+from tests.bench.support.results import Result, report
 
 RUN_TIMEOUT_S = 300.0
 MEMORY_EVERY_S = 5.0
@@ -183,12 +183,7 @@ def main():
     parser.add_argument("--scene", default="dishwasher", help=f"{', '.join(SCENES)} (default: dishwasher)")
     arguments = parser.parse_args()
     print("bench: one run of the whole loop, about 80 s", file=sys.stderr)
-    results = figures(*run(arguments.scene))
-    width = max(len(r.name) for r in results)
-    for r in results:
-        print(f"{r.name:<{width}} {r.value:10.2f} {r.unit}   {r.verdict}".rstrip())
-    if arguments.json is not None:
-        write_json(arguments.json, results)
+    report(figures(*run(arguments.scene)), arguments.json)
 
 
 if __name__ == "__main__":

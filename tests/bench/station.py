@@ -28,7 +28,7 @@ from services.bus.zenoh import open_session, watch
 from services.process.config import load
 from services.station.page.link import FRAME_HEADER
 from services.station.page.said import Held, Hello
-from tests.bench.support.results import Result, write_json
+from tests.bench.support.results import Result, report
 from tests.conftest import CHROMIUM_FLAGS
 from tests.system.harness import START_S, Command, Witness, configured, free_endpoint
 
@@ -231,12 +231,7 @@ def main():
     parser.add_argument("--scene", default="dishwasher", help="where the robot stands (default: dishwasher)")
     arguments = parser.parse_args()
     print("bench: one refinement at the page, about two minutes", file=sys.stderr)
-    results = run(arguments.scene)
-    width = max(len(r.name) for r in results)
-    for r in results:
-        print(f"{r.name:<{width}} {r.value:10.2f} {r.unit}   {r.verdict}".rstrip())
-    if arguments.json is not None:
-        write_json(arguments.json, results)
+    report(run(arguments.scene), arguments.json)
 
 
 if __name__ == "__main__":

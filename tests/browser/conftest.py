@@ -35,19 +35,10 @@ def eventually():
 def station():
     """A page that is served, and its feed."""
     pytest.importorskip("uvicorn")
-    from harness import Feed, described, working_view
+    from harness import served
 
-    from services.process.clock import SystemClock
-    from services.process.config import StationSection
-    from services.station.page.page import Page
-
-    page = Page(StationSection(port=free_port()), "robot1", SystemClock(), described())
-    page.start()
-    feed = Feed(page, working_view())
-    feed.start()
-    yield page, feed
-    feed.close()
-    page.close()
+    with served(port=free_port()) as (page, feed):
+        yield page, feed
 
 
 class Tab:

@@ -3,10 +3,13 @@
 python tests/browser/harness.py 8080
 """
 
+import contextlib
 import signal
 import sys
 import threading
+from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 import cv2
 import msgspec
@@ -156,21 +159,32 @@ def swinging(robot, time_s):
     return msgspec.structs.replace(robot, q=(torso, shoulder + SWING * np.sin(2.0 * time_s), *others))
 
 
+@contextlib.contextmanager
+def served(**section: Any) -> Iterator[tuple[Page, Feed]]:
+    """A page that is served, and its feed.
+
+    Args:
+        section: of the station's configuration.
+    """
+    page = Page(StationSection(**section), "robot1", SystemClock(), described())
+    page.start()
+    feed = Feed(page, working_view())
+    feed.start()
+    yield page, feed
+    feed.close()
+    page.close()
+
+
 def main() -> None:
     """Serve until SIGTERM or SIGINT."""
     stop = threading.Event()
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: stop.set())
-    page = Page(StationSection(port=int(sys.argv[1])), "robot1", SystemClock(), described())
-    page.start()
-    feed = Feed(page, working_view())
-    feed.moving_pictures = feed.moving_robot = True
-    feed.start()
-    sys.stdout.write("ready\n")
-    sys.stdout.flush()
-    stop.wait()
-    feed.close()
-    page.close()
+    with served(port=int(sys.argv[1])) as (_, feed):
+        feed.moving_pictures = feed.moving_robot = True
+        sys.stdout.write("ready\n")
+        sys.stdout.flush()
+        stop.wait()
 
 
 if __name__ == "__main__":

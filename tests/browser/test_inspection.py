@@ -6,7 +6,6 @@ from urllib.parse import urlsplit
 import pytest
 
 from protocol.messages import Recording
-from services.process.clock import SystemClock
 from tests.ports import free_port
 
 pytestmark = pytest.mark.browser
@@ -27,19 +26,11 @@ def address(tab):
 @pytest.fixture
 def open_station():
     """A station that listens on every address: its port and its feed."""
-    from harness import Feed, described, working_view
-
-    from services.process.config import StationSection
-    from services.station.page.page import Page
+    from harness import served
 
     port = free_port()
-    page = Page(StationSection(host="0.0.0.0", port=port), "robot1", SystemClock(), described())
-    page.start()
-    feed = Feed(page, working_view())
-    feed.start()
-    yield port, feed
-    feed.close()
-    page.close()
+    with served(host="0.0.0.0", port=port) as (_, feed):
+        yield port, feed
 
 
 def test_without_a_viewer_there_is_no_way_to_it(tab, station):

@@ -82,7 +82,8 @@ class Detours:
         aside = path - self.paths
         along = np.vecdot(aside, self.changes)
         further = along.sum(axis=1) / self._squares
-        detour = self._detour * _certainly(np.vecdot(along, along), np.vecdot(self._weights, np.vecdot(aside, aside)))
+        lies = np.vecdot(along, along)
+        detour = self._detour * _certainly(lies, np.vecdot(self._weights, np.vecdot(aside, aside)) - lies)
         shares = np.where(np.isnan(further), 1.0, 1.0 - detour * further.clip(0.0, 1.0))
         # Between the two sides stands the thing: the side is another one altogether, or it is not.
         other = np.flatnonzero((further < _BETWEEN) & (detour > _RATHER)).tolist() if not shown else []
@@ -110,18 +111,16 @@ class Detours:
     @cached_property
     def _detour(self) -> Array:
         """How far each change is a detour, from 0 to 1, shape (J,)."""
-        size, rest = self._weights.mean(axis=1), self._weights[:, -1] + self.scatter**2
-        return _certainly(size, size + rest)
+        return _certainly(self._weights.mean(axis=1), self._weights[:, -1] + self.scatter**2)
 
 
 def _unit(v: Array) -> Array:
     return np.asarray(v / np.sqrt(v @ v), dtype=np.float64)
 
 
-def _certainly(part: Array, whole: Array) -> Array:
-    """How far the part is most of the whole, from 0 to 1: squares, as between yes and no there is little."""
-    yes, no = part**2, (whole - part) ** 2
-    return np.asarray(yes / np.maximum(yes + no, _TINY), dtype=np.float64)
+def _certainly(yes: Array, no: Array) -> Array:
+    """How far it is rather the one than the other, from 0 to 1: squares, as between yes and no there is little."""
+    return np.asarray(yes**2 / np.maximum(yes**2 + no**2, _TINY), dtype=np.float64)
 
 
 _BETWEEN = -0.25  # r, from which on the other side is taken

@@ -63,8 +63,8 @@ class Kinds:
 
     def paths(self, X: Array) -> Array:
         """What vectors (m, D) say about positions at the phases at which motions are compared, shape (m, P, 3)."""
-        outputs = self.rows @ X[:, :-1].reshape(len(X), -1, OUTPUTS)
-        return np.asarray(outputs[..., :POSITIONS] * np.sqrt(PHASES), dtype=np.float64)
+        positions, _, _ = self.measured(X)
+        return np.asarray(np.sqrt(PHASES) * positions.reshape(len(X), PHASES, POSITIONS), dtype=np.float64)
 
     def sizes(self, X: Array) -> Array:
         """Squared sizes of vectors (m, D) in each kind, shape (3, m)."""

@@ -182,7 +182,10 @@ def _grid(solid: meshes.Shaded) -> tuple[meshes.Triangles, meshes.Triangles]:
 
 
 def _shapes(solids: list[meshes.Shaded]) -> bytes:
-    vertices = [((solid.vertices - _grid(solid)[0]) / _grid(solid)[1]).round().astype("<u2") for solid in solids]
+    grids = [_grid(solid) for solid in solids]
+    vertices = [
+        ((solid.vertices - low) / step).round().astype("<u2") for solid, (low, step) in zip(solids, grids, strict=True)
+    ]
     triangles = [solid.triangles.astype("<u2") for solid in solids]
     normals = [(127.0 * solid.normals).round().astype("<i1") for solid in solids]
     return b"".join(numbers.tobytes() for numbers in (*vertices, *triangles, *normals))

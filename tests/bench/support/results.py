@@ -24,3 +24,12 @@ class Result:
 
 def write_json(path, results):
     path.write_text(json.dumps([{**asdict(r), "met": r.met} for r in results], indent=2) + "\n")
+
+
+def report(results, path):
+    """Print each figure beside its goal, and write them as JSON where a file is named."""
+    width = max(len(r.name) for r in results)
+    for r in results:
+        print(f"{r.name:<{width}} {r.value:10.2f} {r.unit}   {r.verdict}".rstrip())
+    if path is not None:
+        write_json(path, results)
