@@ -21,8 +21,8 @@ from services.process.config import Configuration, StationSection
 from services.process.schedule import Schedule
 from services.station.ears import Ears, came_s, message, picture, young
 from services.station.live_view.stage import Stage
-from services.station.page.presses import STOP
 from services.station.page.view import PageView
+from services.station.press import STOP, Press
 from services.station.stop import StopButton
 from services.station.workflow.state import Action, Phase, Place, Settings, Workflow
 from services.station.workflow.view import Answer, Ask, View
@@ -35,8 +35,6 @@ if TYPE_CHECKING:
 log = logging.getLogger(__name__)
 
 QUERY_TIMEOUT_S = 5.0
-
-_ACTIONS = {action.value: action for action in Action}
 
 
 def build(bus: Bus, clock: Clock, configuration: Configuration) -> StationService:
@@ -105,7 +103,7 @@ class StationService:
 
     def step(self, now_ns: int) -> None:
         """A stop before all; then look, advance the workflow, ask, tell."""
-        pressed = self._page.take_actions() if self._page is not None else []
+        pressed = self._page.take_presses() if self._page is not None else []
         self._press_stop(now_ns, pressed)
         held = self._page.take_input() if self._page is not None else OperatorInput(present=True)
         view = self._view(now_ns, pressed, held)
@@ -137,14 +135,15 @@ class StationService:
         if self._page is not None:
             self._page.close()
 
-    def _press_stop(self, now_ns: int, pressed: list[str]) -> None:
-        if Action.RELEASE_STOP.value in pressed:
+    def _press_stop(self, now_ns: int, pressed: list[Press]) -> None:
+        actions = {press.action for press in pressed}
+        if Action.RELEASE_STOP.value in actions:
             self._stop.let_go(now_ns)
-        if STOP in pressed:
+        if STOP in actions:
             self._stop.press(now_ns)
         self._stop.step(now_ns)
 
-    def _view(self, now_ns: int, pressed: list[str], held: OperatorInput) -> View:
+    def _view(self, now_ns: int, pressed: list[Press], held: OperatorInput) -> View:
         ears = self._ears
         arrangement = ears.scene.latest()
         scene = message(arrangement)
@@ -165,7 +164,7 @@ class StationService:
             seen_s=came_s(ears.seen.latest()),
             result=message(ears.results.latest()),
             answer=self._answer(),
-            actions=frozenset(_ACTIONS[name] for name in pressed if name in _ACTIONS),
+            presses=tuple(pressed),
             drawn=self._draw(scene),
         )
 

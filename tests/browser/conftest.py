@@ -126,7 +126,7 @@ def calm_station(station, eventually):
     page, feed = station
     eventually(lambda: page.figures()[0].value == 0)
     feed.view = confirmed_view()
-    eventually(lambda: not page.take_actions())
+    eventually(lambda: not page.take_presses())
     page.show(feed.view)
     feed.view = working_view()
     return station
@@ -165,7 +165,7 @@ def pressed(station, eventually):
 
     def wait():
         taken = []
-        eventually(lambda: taken.extend(station[0].take_actions()) or taken)
+        eventually(lambda: taken.extend(press.action for press in station[0].take_presses()) or taken)
         return taken
 
     return wait

@@ -18,6 +18,7 @@ from protocol.messages import Light
 from services.process.clock import SystemClock
 from services.process.config import StationSection
 from services.process.exceptions import PortInUse
+from services.station.press import Press
 from tests.ports import free_port
 
 pytestmark = pytest.mark.browser
@@ -116,8 +117,8 @@ def test_an_allowed_button_arrives_and_another_cannot_be_pressed(tab, station, e
     tab.page.locator("[data-action=execute]").click(force=True)
     tab.page.click("[data-action=undo]")
     taken = []
-    eventually(lambda: taken.extend(page.take_actions()) or taken)
-    assert taken == ["undo"]
+    eventually(lambda: taken.extend(page.take_presses()) or taken)
+    assert taken == [Press("undo")]
 
 
 def test_where_little_is_known_it_is_said_and_what_is_recommended_stands_out(tab, station):

@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 from protocol.messages import SafetyState
+from services.station.press import Press
 
 pytestmark = pytest.mark.browser
 
@@ -125,7 +126,7 @@ def test_a_stop_in_an_outage_is_shown_kept_and_delivered(open_seated, station, c
     tab.wait("body[data-link=offline] .banner-offline:visible")
     tab.page.keyboard.press("Escape")
     tab.wait(".unconfirmed:visible:has-text('Not delivered yet')")
-    assert page.take_actions() == []
+    assert page.take_presses() == []
     cable.mend(lost=lost)
     assert pressed() == ["stop"]
     tab.wait("body:not([data-stop-waits])")
@@ -166,8 +167,8 @@ def test_a_press_of_a_second_ago_is_not_done_and_said_not_to_be(open_seated, sta
 
     def finished():
         tab.page.click("[data-action=finish]")
-        taken.extend(page.take_actions())
+        taken.extend(page.take_presses())
         return taken
 
     eventually(finished)
-    assert set(taken) == {"finish"}
+    assert set(taken) == {Press("finish")}

@@ -16,9 +16,10 @@ from protocol.exceptions import ProtocolError
 from protocol.keys import STEERING
 from protocol.messages import OperatorInput
 from services.bus.freshness import Freshness, Judgement
-from services.station.page.presses import STOP, Presses
+from services.station.page.presses import Presses
 from services.station.page.said import Held, Hello, Pressed, read
 from services.station.page.seat import Seat
+from services.station.press import STOP, Press
 
 DEAD_MAN_NS = 150_000_000
 """Age at which the input state counts as zero."""
@@ -143,7 +144,7 @@ class Desk:
                 return OperatorInput(present=present)
             return OperatorInput(present=present, keys=held.keys, focused=True, axes=held.axes)
 
-    def take_actions(self) -> list[str]:
+    def take_presses(self) -> list[Press]:
         """The buttons pressed since the last call, in order, a stop first."""
         with self._lock:
             return self._presses.take()
@@ -234,7 +235,7 @@ class Desk:
         """Whether the press counts: a stop does at any time, from any tab, before it has said who it is as well."""
         if message.action == STOP:
             self._stop_pressed = True
-            return self._presses.add(STOP)
+            return self._presses.add(Press(STOP))
         if known is None or not known.has_sent_in_time(message, now_ns):
             self.late += 1
             return False
@@ -242,18 +243,18 @@ class Desk:
             if self._seat.ask(tab, known.hello.seat, now_ns):
                 self._sit(now_ns)
             return True
-        return self._command(tab, message.action, now_ns)
+        return self._command(tab, Press(message.action, message.argument), now_ns)
 
-    def _command(self, tab: int, action: str, now_ns: int) -> bool:
+    def _command(self, tab: int, press: Press, now_ns: int) -> bool:
         """What only the tab may that has the seat."""
         if tab != self._seat.tab:
             self.dropped += 1
             return False
-        if action == KEEP:
+        if press.action == KEEP:
             self._seat.keep()
-        elif action == GIVE:
+        elif press.action == GIVE:
             if self._seat.give():
                 self._sit(now_ns)
         else:
-            return self._presses.add(action)
+            return self._presses.add(press)
         return True

@@ -26,6 +26,7 @@ from services.station.page.guard import Guard
 from services.station.page.input import Desk
 from services.station.page.link import Link
 from services.station.page.view import Board, PageView
+from services.station.press import Press
 
 log = logging.getLogger(__name__)
 
@@ -90,9 +91,9 @@ class Page:
         """The FULL input state; nothing is held where it is older than 150 ms, unfocused or gone."""
         return self._desk.take_input(self._clock.now_ns())
 
-    def take_actions(self) -> list[str]:
-        """The buttons pressed since the last call, by name."""
-        return self._desk.take_actions()
+    def take_presses(self) -> list[Press]:
+        """The buttons pressed since the last call."""
+        return self._desk.take_presses()
 
     def figures(self) -> tuple[Figure, ...]:
         """Open tabs, and what was thrown away so far."""

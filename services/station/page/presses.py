@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Mapping
 
-STOP = "stop"
+from services.station.press import STOP, Press
 
-ACTIONS_KEPT = 64
+PRESSES_KEPT = 64
 LOADS_REMEMBERED = 32
 NUMBERS_REMEMBERED = 64
 
@@ -20,7 +20,7 @@ class Presses:
     """
 
     def __init__(self) -> None:
-        self._waiting: list[str] = []
+        self._waiting: list[Press] = []
         self._heard: OrderedDict[str, OrderedDict[int, bool]] = OrderedDict()
 
     def is_new(self, load: str, number: int) -> bool:
@@ -42,18 +42,18 @@ class Presses:
         numbers: Mapping[int, bool] = self._heard.get(load, {})
         return {fate: tuple(number for number, is_so in numbers.items() if is_so is fate) for fate in (True, False)}
 
-    def add(self, action: str) -> bool:
-        """Keep an action for the next step, a stop before all others; whether there was room."""
-        if action == STOP:
-            if STOP not in self._waiting:
-                self._waiting.insert(0, STOP)
+    def add(self, press: Press) -> bool:
+        """Keep a press for the next step, a stop before all others; whether there was room."""
+        if press.action == STOP:
+            if press not in self._waiting:
+                self._waiting.insert(0, press)
             return True
-        if len(self._waiting) >= ACTIONS_KEPT:
+        if len(self._waiting) >= PRESSES_KEPT:
             return False
-        self._waiting.append(action)
+        self._waiting.append(press)
         return True
 
-    def take(self) -> list[str]:
-        """The actions since the last call."""
+    def take(self) -> list[Press]:
+        """The presses since the last call."""
         taken, self._waiting = self._waiting, []
         return taken

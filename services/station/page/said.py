@@ -15,6 +15,7 @@ _SUBJECT = "the operator's page"
 
 KeyCode = Annotated[str, msgspec.Meta(pattern="^[A-Za-z0-9]{1,32}$")]
 ActionName = Annotated[str, msgspec.Meta(pattern="^[a-z_]{1,32}$")]
+Argument = Annotated[str, msgspec.Meta(max_length=64)]
 Token = Annotated[str, msgspec.Meta(pattern="^[A-Za-z0-9-]{8,64}$")]
 Milliseconds = Annotated[float, msgspec.Meta(ge=0.0, le=1e12)]
 Axis = Annotated[float, msgspec.Meta(ge=-1.0, le=1.0)]
@@ -66,12 +67,14 @@ class Pressed(_FromBrowser, frozen=True, tag="pressed"):
         stamp_ms: of the press, by the tab's monotonic clock [ms].
         number: of the press, within the loaded page.
         action: the button's name.
+        argument: what it is about; empty where the button says it all.
     """
 
     sequence: Count
     stamp_ms: Milliseconds
     number: Count
     action: ActionName
+    argument: Argument = ""
 
 
 _DECODER: msgspec.json.Decoder[Hello | Held | Pressed] = msgspec.json.Decoder(Hello | Held | Pressed)

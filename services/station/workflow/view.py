@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import msgspec
@@ -10,7 +11,10 @@ import msgspec
 from protocol import messages
 from protocol.messages import EpisodeResult, ModelState, ObjectPose
 from protocol.queries import Query
+from services.station.press import Press
 from services.station.workflow.state import Action, Place, Workflow
+
+_ACTIONS = {action.value: action for action in Action}
 
 
 @dataclass(frozen=True)
@@ -51,7 +55,7 @@ class View:
         seen_s: when that came [s].
         result: of the newest episode.
         answer: to the question asked last.
-        actions: what the operator pressed since the last step.
+        presses: of the operator since the last step, in order.
         drawn: where the target may stand next, for when a place is needed.
     """
 
@@ -71,8 +75,18 @@ class View:
     seen_s: float = 0.0
     result: EpisodeResult | None = None
     answer: Answer | None = None
-    actions: frozenset[Action] = frozenset()
+    presses: tuple[Press, ...] = ()
     drawn: Place | None = None
+
+    @cached_property
+    def actions(self) -> frozenset[Action]:
+        """What was pressed, as far as it is of this workflow."""
+        return frozenset(_ACTIONS[press.action] for press in self.presses if press.action in _ACTIONS)
+
+    def argument(self, action: Action) -> str:
+        """What the newest press of an action is about; empty where it was not pressed."""
+        arguments = (press.argument for press in reversed(self.presses) if press.action == action.value)
+        return next(arguments, "")
 
     @property
     def latched(self) -> bool:

@@ -9,6 +9,7 @@ from services.bus.arrays import motion_to_wire, vector3
 from services.offline.first_demonstrations import first_demonstrations
 from services.offline.stage import Stage
 from services.process.config import Configuration, ModelSection, RobotSection, StationSection
+from services.station.press import Press
 from services.station.service import StationService, settings
 from services.station.workflow.episode import UNSEEN_AFTER_RESET_S
 from sim.tasks.particle import PARTICLE
@@ -25,9 +26,9 @@ class Tab:
     def __init__(self):
         self.pressed, self.present = [], True
 
-    def take_actions(self):
+    def take_presses(self):
         taken, self.pressed = self.pressed, []
-        return taken
+        return [Press(action) for action in taken]
 
     def take_input(self):
         return OperatorInput(present=self.present, focused=True)

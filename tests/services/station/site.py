@@ -18,6 +18,7 @@ from protocol.messages import (
 )
 from services.bus.memory import MemoryNetwork
 from services.process.clock import ManualClock
+from services.station.press import Press
 from services.station.service import StationService
 from tests.services.station.workflow import site as workflow
 
@@ -36,9 +37,9 @@ class Tab:
         self.shown = None
         self.closed = False
 
-    def take_actions(self):
+    def take_presses(self):
         taken, self.pressed = self.pressed, []
-        return taken
+        return [Press(action) for action in taken]
 
     def take_input(self):
         return self.held

@@ -33,11 +33,11 @@ class BrowserTab:
         for _ in range(round(seconds * 1_000 / PERIOD_MS)):
             self.hold(*keys, **state)
 
-    def press(self, action, *, number=None, age_ms=0):
+    def press(self, action, *, argument="", number=None, age_ms=0):
         self.number += 1
         self.sequence += 1
         number = self.number if number is None else number
-        self.send(Pressed(self.sequence, float(self.now_ms - age_ms), number, action))
+        self.send(Pressed(self.sequence, float(self.now_ms - age_ms), number, action, argument))
 
     def input(self, later_ms=0):
         return self.desk.take_input((self.now_ms + later_ms) * MS)

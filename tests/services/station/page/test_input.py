@@ -208,7 +208,7 @@ def test_garbage_is_dropped_and_counted_and_changes_nothing(browser, payload):
     assert browser.desk.receive(1, payload, browser.now_ms * MS) is None
     assert browser.desk.dropped == 1
     assert browser.input().keys == ("KeyE",)
-    assert browser.desk.take_actions() == []
+    assert browser.desk.take_presses() == []
 
 
 @given(st.binary(max_size=300))

@@ -5,9 +5,10 @@ from browser_tab import BrowserTab
 
 from services.station.page.input import Desk
 from services.station.page.presses import Presses
+from services.station.press import Press
 
 LATE_PRESS_MS = 1_000
-ACTIONS_KEPT = 64
+PRESSES_KEPT = 64
 
 
 @pytest.fixture
@@ -21,14 +22,22 @@ def browser():
 def test_buttons_arrive_once_and_in_order(browser):
     for action in ("execute", "undo"):
         browser.press(action)
-    assert browser.desk.take_actions() == ["execute", "undo"]
-    assert browser.desk.take_actions() == []
+    assert browser.desk.take_presses() == [Press("execute"), Press("undo")]
+    assert browser.desk.take_presses() == []
+
+
+def test_two_presses_of_one_button_about_two_things_are_two():
+    tab = BrowserTab(Desk())
+    tab.hold()
+    tab.press("remove", argument="3")
+    tab.press("remove", argument="2")
+    assert tab.desk.take_presses() == [Press("remove", "3"), Press("remove", "2")]
 
 
 def test_a_press_that_is_said_twice_is_done_once_and_acknowledged(browser):
     browser.press("execute", number=7)
     browser.press("execute", number=7)
-    assert browser.desk.take_actions() == ["execute"]
+    assert browser.desk.take_presses() == [Press("execute")]
     assert browser.standing().accepted == (7,)
 
 
@@ -38,7 +47,7 @@ def test_a_press_is_known_again_on_another_connection(browser):
     again = BrowserTab(browser.desk, tab=2, now_ms=browser.now_ms, token="seat-0001", load=browser.load)
     again.hold()
     again.press("execute", number=7)
-    assert browser.desk.take_actions() == ["execute"]
+    assert browser.desk.take_presses() == [Press("execute")]
     assert again.standing().accepted == (7,)
 
 
@@ -47,7 +56,7 @@ def test_a_tab_that_has_gone_is_forgotten(browser):
     browser.leave()
     assert browser.standing().accepted == ()
     browser.press("undo")
-    assert browser.desk.take_actions() == ["execute"]
+    assert browser.desk.take_presses() == [Press("execute")]
 
 
 def test_the_presses_of_a_page_that_was_loaded_anew_are_new_ones(browser):
@@ -56,14 +65,14 @@ def test_the_presses_of_a_page_that_was_loaded_anew_are_new_ones(browser):
     again = BrowserTab(browser.desk, tab=2, now_ms=browser.now_ms, token="seat-0001")
     again.hold()
     again.press("execute", number=1)
-    assert browser.desk.take_actions() == ["execute", "execute"]
+    assert browser.desk.take_presses() == [Press("execute"), Press("execute")]
 
 
 def test_a_press_that_comes_late_is_refused_and_said_to_be(browser):
     browser.keep_on(2.0)
     browser.press("execute", age_ms=LATE_PRESS_MS)
     browser.press("refine", age_ms=LATE_PRESS_MS + 1)
-    assert browser.desk.take_actions() == ["execute"]
+    assert browser.desk.take_presses() == [Press("execute")]
     assert (browser.standing().accepted, browser.standing().refused) == ((1,), (2,))
     assert browser.desk.late == 1
 
@@ -72,22 +81,22 @@ def test_a_stop_is_never_late_and_comes_before_everything_else(browser):
     browser.keep_on(2.0)
     browser.press("execute")
     browser.press("stop", age_ms=2_500)
-    assert browser.desk.take_actions() == ["stop", "execute"]
+    assert browser.desk.take_presses() == [Press("stop"), Press("execute")]
     assert browser.standing().accepted == (1, 2)
 
 
 def test_a_stop_counts_even_before_the_tab_said_who_it_is():
     desk = Desk()
     desk.receive(9, b'{"kind":"pressed","sequence":1,"stamp_ms":9,"number":1,"action":"stop"}', 0)
-    assert desk.take_actions() == ["stop"]
+    assert desk.take_presses() == [Press("stop")]
 
 
 def test_a_stop_gets_through_where_too_many_buttons_wait(browser):
-    for _ in range(ACTIONS_KEPT + 1):
+    for _ in range(PRESSES_KEPT + 1):
         browser.press("execute")
     browser.press("stop")
-    assert browser.standing().refused == (ACTIONS_KEPT + 1,)
-    assert browser.desk.take_actions() == ["stop"] + ["execute"] * ACTIONS_KEPT
+    assert browser.standing().refused == (PRESSES_KEPT + 1,)
+    assert browser.desk.take_presses() == [Press("stop")] + [Press("execute")] * PRESSES_KEPT
 
 
 def test_a_stop_is_unconfirmed_in_every_tab_until_the_robot_confirms_it(browser):

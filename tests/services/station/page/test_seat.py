@@ -8,6 +8,7 @@ from browser_tab import MS, BrowserTab
 from protocol.messages import OperatorInput
 from services.station.page.input import Desk
 from services.station.page.seat import Seat
+from services.station.press import Press
 
 ASKED_MS = 10_000
 RESERVED_MS = 30_000
@@ -49,7 +50,7 @@ def test_one_tab_commands_and_the_others_look_on(first, second):
 def test_a_tab_that_looks_on_may_stop_the_robot_and_nothing_else(first, second):
     for action in ("execute", "stop", "give_input"):
         second.press(action)
-    assert first.desk.take_actions() == ["stop"]
+    assert first.desk.take_presses() == [Press("stop")]
     assert second.standing().refused == (1, 3)
     assert first.desk.dropped == 2
     assert first.standing().armed
@@ -88,7 +89,7 @@ def test_who_sits_is_asked_before_another_takes_the_input(first, second):
     assert first.standing().asked_s == pytest.approx(ASKED_MS / 1e3, abs=0.05)
     assert second.standing().asking_s == pytest.approx(ASKED_MS / 1e3, abs=0.05)
     assert second.standing().asked_s == first.standing().asking_s == 0.0
-    assert first.desk.take_actions() == []
+    assert first.desk.take_presses() == []
 
 
 def test_whoever_keeps_the_input_is_asked_no_more_and_the_other_is_told(first, second):

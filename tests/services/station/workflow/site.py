@@ -9,6 +9,7 @@ from protocol import messages, queries
 from protocol.messages import EpisodeResult, Mode, Outcome, Verdict
 from services.bus.arrays import motion_to_wire, to_wire
 from services.bus.bus import Failed
+from services.station.press import Press
 from services.station.workflow.state import Phase, Place, Settings, Workflow
 from services.station.workflow.view import Answer, View
 from services.station.workflow.workflow import advance
@@ -82,7 +83,8 @@ class Site:
         self.numbers += 1
         before = self.state.phase
         now = {"now_s": self.now_s, "seen_s": self.now_s, "scene_s": self.now_s, "number": self.numbers}
-        step = advance(self.state, replace(self.view, actions=frozenset(actions), **(now | seen)), self.settings)
+        presses = tuple(Press(action.value) for action in actions)
+        step = advance(self.state, replace(self.view, presses=presses, **(now | seen)), self.settings)
         self.state = step.state
         if step.ask is not None:
             self.asked.append(step.ask)

@@ -92,8 +92,8 @@ export class Link {
     if (this.isOpen && this.socket.bufferedAmount <= BACKLOG_BYTES) this.say("held", performance.now(), state);
   }
 
-  sayPressed({ at, number, action }) {
-    this.say("pressed", at, { number, action });
+  sayPressed({ at, number, action, argument }) {
+    this.say("pressed", at, { number, action, argument });
   }
 
   say(kind, stamp, content) {

@@ -18,10 +18,10 @@ export class Presses {
     return this.waiting.some(({ action }) => action === STOP);
   }
 
-  press(action) {
+  press(action, argument = "") {
     if (action === STOP && this.stopWaits) return;
     this.number += 1;
-    const press = { number: this.number, action, at: performance.now(), date: Date.now(), saidTo: null };
+    const press = { number: this.number, action, argument, at: performance.now(), date: Date.now(), saidTo: null };
     if (action === STOP) this.waiting.unshift(press);
     else this.waiting.push(press);
     this.say();

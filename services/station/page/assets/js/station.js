@@ -105,7 +105,7 @@ function clicked(event) {
 }
 
 function pressButton(button) {
-  if (button && !button.disabled) presses.press(button.dataset.action);
+  if (button && !button.disabled) presses.press(button.dataset.action, button.dataset.argument);
 }
 
 function showAges() {
