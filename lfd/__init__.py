@@ -25,8 +25,9 @@ if TYPE_CHECKING:
     from lfd.models.via_point import ViaPoint
     from lfd.motion.alignment import Selection, align
     from lfd.motion.demonstration import Demonstration, Situation
+    from lfd.motion.departure import Departure
     from lfd.motion.dtw import Alignment, dtw
-    from lfd.motion.provenance import Provenance
+    from lfd.motion.provenance import Method, Provenance
     from lfd.motion.recording import (
         demonstration_from_arrays,
         demonstrations_from_arrays,
@@ -36,9 +37,10 @@ if TYPE_CHECKING:
     from lfd.motion.resampling import Interpolation, from_samples, resample
     from lfd.motion.trajectory import Trajectory
     from lfd.motion.waypoints import through_waypoints
-    from lfd.store.database import Binding, DemonstrationStore, Purpose, StoredDemonstration
+    from lfd.store.database import DemonstrationStore
     from lfd.store.model_file import load, save
     from lfd.store.recording_file import Recording, read_demonstration, read_recording
+    from lfd.store.stored import Binding, Purpose, StoredDemonstration, Turn
 
 _MODULES = {
     "exceptions": ("LfdError",),
@@ -51,16 +53,18 @@ _MODULES = {
     "models.via_point": ("ViaPoint",),
     "motion.alignment": ("Selection", "align"),
     "motion.demonstration": ("Demonstration", "Situation"),
+    "motion.departure": ("Departure",),
     "motion.dtw": ("Alignment", "dtw"),
-    "motion.provenance": ("Provenance",),
+    "motion.provenance": ("Method", "Provenance"),
     "motion.recording": ("demonstration_from_arrays", "demonstrations_from_arrays", "situation_from_arrays"),
     "motion.refinement": ("joined", "refine"),
     "motion.resampling": ("Interpolation", "from_samples", "resample"),
     "motion.trajectory": ("Trajectory",),
     "motion.waypoints": ("through_waypoints",),
-    "store.database": ("Binding", "DemonstrationStore", "Purpose", "StoredDemonstration"),
+    "store.database": ("DemonstrationStore",),
     "store.model_file": ("load", "save"),
     "store.recording_file": ("Recording", "read_demonstration", "read_recording"),
+    "store.stored": ("Binding", "Purpose", "StoredDemonstration", "Turn"),
 }
 _HOMES = {name: module for module, names in _MODULES.items() for name in names}
 
@@ -73,10 +77,12 @@ __all__ = [
     "ConditionedProMP",
     "Demonstration",
     "DemonstrationStore",
+    "Departure",
     "DmpOptions",
     "GaussianBasis",
     "Interpolation",
     "LfdError",
+    "Method",
     "MotionDistribution",
     "MovementModel",
     "Prediction",
@@ -89,6 +95,7 @@ __all__ = [
     "Situation",
     "StoredDemonstration",
     "Trajectory",
+    "Turn",
     "ViaPoint",
     "Way",
     "align",

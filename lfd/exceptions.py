@@ -19,7 +19,8 @@ LfdError
 └── StorageError            the store's file cannot be used
     ├── StorageUnavailable  it cannot be opened or written now, through no fault of its own
     ├── BoundElsewhere      what it holds was learnt for another scene or robot
-    └── NothingToUndo       it holds no active demonstration of a kind
+    ├── NothingToUndo       it holds no such demonstration in use
+    └── NothingToRedo       it holds no such demonstration that was taken back
 """
 
 import math
@@ -228,8 +229,24 @@ class BoundElsewhere(StorageError):
 
 
 class NothingToUndo(StorageError):
-    """The store holds no active demonstration of one purpose."""
+    """The store holds no such demonstration, or it was taken back already.
 
-    def __init__(self, path: Path, purpose: str) -> None:
-        self.purpose = purpose
-        super().__init__(path, f"no active {purpose} demonstration to take back", "add one first")
+    Attributes:
+        version: That the demonstration made.
+    """
+
+    def __init__(self, path: Path, version: int) -> None:
+        self.version = version
+        super().__init__(path, f"no demonstration {version} is in use", "choose one that is")
+
+
+class NothingToRedo(StorageError):
+    """The store holds no such demonstration, or it is in use already.
+
+    Attributes:
+        version: That the demonstration made.
+    """
+
+    def __init__(self, path: Path, version: int) -> None:
+        self.version = version
+        super().__init__(path, f"no demonstration {version} was taken back", "choose one that was")

@@ -74,7 +74,7 @@ class Connection:
 
     def use_log(self) -> None:
         """Write ahead, and fully synchronised, so that a committed change outlives a power cut; raises as `rows`."""
-        for statement in ("journal_mode = WAL", "synchronous = FULL", "foreign_keys = ON"):
+        for statement in ("journal_mode = WAL", "synchronous = FULL"):
             self.rows(f"PRAGMA {statement}")
 
     @contextmanager

@@ -5,9 +5,10 @@ import numpy as np
 from lfd.exceptions import StorageError
 from lfd.store.connection import Connection
 
-SCHEMA_VERSION = 5
+SCHEMA_VERSION = 6
 """1 had no conditions: they were the object relative to the start. 2 knew neither robots nor requests, 3 no authors,
-times and confidences: its motions were stored as far as they were believed. 4 knew whole motions only."""
+times and confidences: its motions were stored as far as they were believed. 4 knew whole motions only. 5 took back
+the newest only and for ever, and knew no methods."""
 
 APPLICATION_ID = 0x52544348  # "RTCH" in the file's header tells our files from others
 DTYPE = "<f8"
@@ -15,7 +16,6 @@ DTYPE = "<f8"
 _DEMONSTRATIONS = """
 CREATE TABLE demonstrations (
     added INTEGER PRIMARY KEY,
-    undone INTEGER UNIQUE,
     kind TEXT NOT NULL CHECK (kind IN ('initial', 'update')),
     scene TEXT NOT NULL,
     duration REAL NOT NULL,
@@ -24,7 +24,19 @@ CREATE TABLE demonstrations (
     at_s REAL,
     confidence REAL NOT NULL DEFAULT 1.0 CHECK (confidence BETWEEN 0.0 AND 1.0),
     part_first REAL NOT NULL DEFAULT 0.0 CHECK (part_first BETWEEN 0.0 AND 1.0),
-    part_last REAL NOT NULL DEFAULT 1.0 CHECK (part_last BETWEEN 0.0 AND 1.0)
+    part_last REAL NOT NULL DEFAULT 1.0 CHECK (part_last BETWEEN 0.0 AND 1.0),
+    method TEXT NOT NULL DEFAULT '',
+    departure_mean REAL,
+    departure_most REAL
+) STRICT
+"""
+_CHANGES = """
+CREATE TABLE changes (
+    version INTEGER PRIMARY KEY,
+    demonstration INTEGER NOT NULL REFERENCES demonstrations (added),
+    in_use INTEGER NOT NULL CHECK (in_use IN (0, 1)),
+    turned_by TEXT NOT NULL DEFAULT '',
+    turned_at_s REAL
 ) STRICT
 """
 _ARRAYS = """
@@ -63,6 +75,7 @@ def prepare(connection: Connection) -> None:
         _make(connection)
     elif schema < SCHEMA_VERSION:
         _upgrade(connection, schema)
+    connection.rows("PRAGMA foreign_keys = ON")  # only now: a table that others refer to may have been made anew
     damage = value("PRAGMA quick_check(1)")
     if damage != "ok":
         raise StorageError(path, f"the file is damaged ({damage})", "restore it from a copy")
@@ -72,7 +85,7 @@ def _make(connection: Connection) -> None:
     with connection.transaction():
         # Another process may have made them since this one looked.
         if connection.value("SELECT count(*) FROM sqlite_schema") == 0:
-            for statement in (_DEMONSTRATIONS, _ARRAYS, _REQUESTS):
+            for statement in (_DEMONSTRATIONS, _ARRAYS, _CHANGES, _REQUESTS):
                 connection.rows(statement)
             connection.rows(f"PRAGMA application_id = {APPLICATION_ID}")
             connection.rows(f"PRAGMA user_version = {SCHEMA_VERSION}")
@@ -123,5 +136,30 @@ def _add_parts(connection: Connection) -> None:
         connection.rows(f"ALTER TABLE demonstrations ADD COLUMN {column}")
 
 
-_UPGRADES = ((2, _add_conditions), (3, _add_robots_and_requests), (4, _add_provenance), (5, _add_parts))
+def _add_changes(connection: Connection) -> None:
+    """Every version says which demonstration came into use or out of it; one of schema 5 went out once at most."""
+    kept = "added, kind, scene, duration, robot, author, at_s, confidence, part_first, part_last"
+    connection.rows(_CHANGES)
+    connection.rows(
+        "INSERT INTO changes (version, demonstration, in_use, turned_by, turned_at_s)"
+        " SELECT added, added, 1, author, at_s FROM demonstrations"
+    )
+    connection.rows(
+        "INSERT INTO changes (version, demonstration, in_use)"
+        " SELECT undone, added, 0 FROM demonstrations WHERE undone IS NOT NULL"
+    )
+    # A column that is UNIQUE cannot be dropped: the table is made anew, and takes the name that others refer to.
+    connection.rows(_DEMONSTRATIONS.replace("demonstrations", "anew", 1))
+    connection.rows(f"INSERT INTO anew ({kept}) SELECT {kept} FROM demonstrations")
+    connection.rows("DROP TABLE demonstrations")
+    connection.rows("ALTER TABLE anew RENAME TO demonstrations")
+
+
+_UPGRADES = (
+    (2, _add_conditions),
+    (3, _add_robots_and_requests),
+    (4, _add_provenance),
+    (5, _add_parts),
+    (6, _add_changes),
+)
 """In order, each with the schema that it leads to."""

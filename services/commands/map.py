@@ -14,7 +14,8 @@ import numpy as np
 from rich.console import Console
 
 from lfd.models.model import MovementModel
-from lfd.store.database import DemonstrationStore, Purpose, StoredDemonstration
+from lfd.store.database import DemonstrationStore
+from lfd.store.stored import Purpose, StoredDemonstration
 from services.commands.arguments import add_debug, place, whole, within
 from services.commands.progress import bar
 from services.commands.terminal import Terminal

@@ -8,7 +8,7 @@ from lfd.models.adaptive.adaptation import AdaptiveProMP
 from lfd.models.model import MovementModel
 from lfd.models.promp import ConditionedProMP
 from lfd.motion.demonstration import Demonstration
-from lfd.store.database import Purpose, StoredDemonstration
+from lfd.store.stored import Purpose, StoredDemonstration
 
 Fit = Callable[[Sequence[Demonstration]], MovementModel]
 """Makes a model of its first demonstrations."""

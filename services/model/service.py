@@ -15,7 +15,8 @@ from lfd.models.model import MovementModel
 from lfd.motion.demonstration import Demonstration, Situation
 from lfd.motion.provenance import Provenance
 from lfd.motion.trajectory import Trajectory
-from lfd.store.database import Counts, DemonstrationStore, Purpose, StoredDemonstration
+from lfd.store.database import DemonstrationStore
+from lfd.store.stored import Counts, Purpose, StoredDemonstration
 from protocol import messages, queries, topics
 from protocol.queries import AddDemonstration, Learnt, Predict, Predicted, Refused, Undo
 from services.bus.arrays import motion_from_wire, motion_to_wire, to_wire
@@ -188,7 +189,7 @@ class ModelService:
             return Refused(f"there is no {known} to take back")
         left = [one for one in self._stored if one is not newest]
         model = learn_all(self._kind, left, self._models)
-        return self._changed(model, left, self._store.undo(purpose, request.request))
+        return self._changed(model, left, self._store.undo(newest.version, request.request))
 
     def _changed(self, model: MovementModel | None, stored: list[StoredDemonstration], version: int) -> Learnt:
         """Take over what is on disk by now; nothing here can fail."""

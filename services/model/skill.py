@@ -9,7 +9,8 @@ import numpy as np
 from lfd.exceptions import BoundElsewhere, OutOfRange, StorageError
 from lfd.motion.demonstration import Demonstration, Situation, check_dimension
 from lfd.motion.trajectory import Trajectory
-from lfd.store.database import Binding, DemonstrationStore
+from lfd.store.database import DemonstrationStore
+from lfd.store.stored import Binding
 from services.process.config import ModelSection
 from services.process.exceptions import CannotWrite
 from services.process.files import data_folder

@@ -15,7 +15,9 @@ from pathlib import Path
 import sim
 from lfd.exceptions import StorageUnavailable
 from lfd.motion.demonstration import Demonstration
-from lfd.store.database import Binding, DemonstrationStore, Purpose
+from lfd.store.database import DemonstrationStore
+from lfd.store.schema import SCHEMA_VERSION
+from lfd.store.stored import Binding, Purpose
 from services import offline, robot
 from sim.cache import kept
 from sim.tasks import AnyScene
@@ -66,8 +68,11 @@ class _Teaching:
 
 
 def _key() -> str:
-    """Of everything that decides what is taught: the world, the arm, and the teaching itself."""
-    digest = hashlib.sha256()
+    """Of everything that decides what is taught, the world, the arm and the teaching itself, and how it is kept.
+
+    An older version beside this one could not read what this one has kept.
+    """
+    digest = hashlib.sha256(SCHEMA_VERSION.to_bytes(2))
     for package in (sim, robot, offline):
         for path in sorted(Path(package.__path__[0]).rglob("*.py")):
             digest.update(path.read_bytes())

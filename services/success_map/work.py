@@ -13,7 +13,8 @@ from threadpoolctl import threadpool_limits
 from lfd.models.model import MovementModel
 from lfd.motion.demonstration import Demonstration, Situation
 from lfd.motion.trajectory import Trajectory
-from lfd.store.database import DemonstrationStore, StoredDemonstration
+from lfd.store.database import DemonstrationStore
+from lfd.store.stored import StoredDemonstration
 from services.offline.pool import Progress, each, overall
 from services.offline.rehearsal import Plan, Rehearsal
 from services.offline.result import Arrangement

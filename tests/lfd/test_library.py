@@ -20,11 +20,11 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["
 OWN = {"lfd", "numpy", "scipy"}
 
 NAMES = """
-    AdaptiveOptions AdaptiveProMP Alignment Binding ConditionedProMP DMP Demonstration DemonstrationStore DmpOptions
-    GaussianBasis Interpolation LfdError MotionDistribution MovementModel Prediction PrompOptions Provenance Purpose
-    Recording Scaling Selection Situation StoredDemonstration Trajectory ViaPoint Way align blend
-    demonstration_from_arrays demonstrations_from_arrays dtw from_samples joined load read_demonstration read_recording
-    refine resample save situation_from_arrays through_waypoints
+    AdaptiveOptions AdaptiveProMP Alignment Binding ConditionedProMP DMP Demonstration DemonstrationStore Departure
+    DmpOptions GaussianBasis Interpolation LfdError Method MotionDistribution MovementModel Prediction PrompOptions
+    Provenance Purpose Recording Scaling Selection Situation StoredDemonstration Trajectory Turn ViaPoint Way align
+    blend demonstration_from_arrays demonstrations_from_arrays dtw from_samples joined load read_demonstration
+    read_recording refine resample save situation_from_arrays through_waypoints
 """
 
 # Another interpreter, in which only the standard library, NumPy, SciPy and the library itself can be found.

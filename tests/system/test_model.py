@@ -8,7 +8,8 @@ import pytest
 
 from lfd.motion.demonstration import Demonstration
 from lfd.motion.trajectory import Trajectory
-from lfd.store.database import Binding, DemonstrationStore, Purpose
+from lfd.store.database import DemonstrationStore
+from lfd.store.stored import Binding, Purpose
 from protocol import queries
 from protocol.queries import Undo
 from services.bus.arrays import motion_to_wire

@@ -6,7 +6,8 @@ import pytest
 
 from lfd.exceptions import StorageError, StorageUnavailable
 from lfd.store import connection
-from lfd.store.database import Binding, DemonstrationStore, Purpose
+from lfd.store.database import DemonstrationStore
+from lfd.store.stored import Binding, Purpose
 
 TABLE = Binding("table", "tiago")
 

@@ -8,8 +8,9 @@ import pytest
 
 from lfd.exceptions import BoundElsewhere, StorageError
 from lfd.motion.part import WHOLE
-from lfd.motion.provenance import UNKNOWN, Provenance
-from lfd.store.database import Binding, DemonstrationStore, Purpose
+from lfd.motion.provenance import UNKNOWN, Method, Provenance
+from lfd.store.database import DemonstrationStore
+from lfd.store.stored import Binding, Purpose, Turn
 
 DISHWASHER, TABLE = Binding("dishwasher", "tiago"), Binding("table", "tiago")
 
@@ -19,7 +20,23 @@ def path(tmp_path):
     return tmp_path / "demonstrations.sqlite"
 
 
+def _as_schema_5(path):
+    with sqlite3.connect(path) as old:
+        old.execute("ALTER TABLE demonstrations ADD COLUMN undone INTEGER")
+        old.execute(
+            "UPDATE demonstrations SET undone ="
+            " (SELECT max(version) FROM changes WHERE demonstration = added AND NOT in_use)"
+        )
+        old.execute("CREATE UNIQUE INDEX undone ON demonstrations (undone)")
+        old.execute("DROP TABLE changes")
+        for column in ("method", "departure_mean", "departure_most"):
+            old.execute(f"ALTER TABLE demonstrations DROP COLUMN {column}")
+        old.execute("PRAGMA user_version = 5")
+    old.close()
+
+
 def _as_schema_4(path):
+    _as_schema_5(path)
     with sqlite3.connect(path) as old:
         for column in ("part_first", "part_last"):
             old.execute(f"ALTER TABLE demonstrations DROP COLUMN {column}")
@@ -96,6 +113,60 @@ def test_what_a_file_of_schema_4_holds_speaks_of_whole_motions(path, reach):
         store.add(replace(reach([0.9, 0.2, 0.6]), part=(0.25, 0.75)), Purpose.UPDATE, TABLE)
     with DemonstrationStore(path) as store:
         assert [stored.demonstration.part for stored in store.active()] == [WHOLE, (0.25, 0.75)]
+
+
+def test_what_a_file_of_schema_5_took_back_is_taken_back_and_can_be_used_again(path, reach):
+    given = [replace(reach([0.9, y, 0.6]), provenance=Provenance("anna", y)) for y in (0.1, 0.2, 0.3)]
+    with DemonstrationStore(path) as store:
+        for one in given:
+            store.add(one, Purpose.UPDATE, TABLE)
+        store.undo(2, request=9)
+        counted = [store.counts(version) for version in range(5)]
+    _as_schema_5(path)
+    for _ in range(2):
+        with DemonstrationStore(path) as store:
+            history = store.history()
+            assert [store.counts(version) for version in range(5)] == counted
+            assert (store.version, store.made_by(9)) == (4, 4)
+            assert [stored.version for stored in store.active()] == [1, 3]
+    assert [stored.turn for stored in history] == [
+        Turn(1, True, "anna", 0.1),
+        Turn(4, False),
+        Turn(3, True, "anna", 0.3),
+    ]
+    assert [(stored.demonstration.provenance.method, stored.departure) for stored in history] == [
+        (Method.UNKNOWN, None)
+    ] * 3
+    with DemonstrationStore(path) as store:
+        assert store.redo(2) == 5
+        assert [stored.version for stored in store.active()] == [1, 2, 3]
+
+
+def test_a_file_that_was_made_anew_is_as_strict_as_a_new_one(path, tmp_path, reach):
+    """Its tables and what they refer to are the same, whatever it was upgraded from."""
+    with DemonstrationStore(path) as store:
+        store.add(reach([0.9, 0.1, 0.6]), Purpose.INITIAL, TABLE)
+    _as_schema_3(path)
+    DemonstrationStore(path).close()
+    new = tmp_path / "new.sqlite"
+    DemonstrationStore(new).close()
+    described = [_described(file) for file in (path, new)]
+    assert described[0] == described[1]
+
+
+def _described(path):
+    with sqlite3.connect(path) as file:
+        tables = {name for (name,) in file.execute("SELECT name FROM sqlite_schema WHERE type = 'table'")}
+        described = {
+            name: (
+                sorted(row[1:] for row in file.execute(f"PRAGMA table_info({name})")),
+                file.execute(f"PRAGMA foreign_key_list({name})").fetchall(),
+            )
+            for name in tables
+        }
+        assert file.execute("PRAGMA foreign_key_check").fetchall() == []
+    file.close()
+    return described
 
 
 def test_a_file_in_which_an_earlier_version_mixed_two_scenes_is_refused_by_both(path, reach):

@@ -5,7 +5,8 @@ import pytest
 
 from lfd.motion.demonstration import Demonstration
 from lfd.motion.trajectory import Trajectory
-from lfd.store.database import Binding, DemonstrationStore, Purpose
+from lfd.store.database import DemonstrationStore
+from lfd.store.stored import Binding, Purpose
 from services.model.skill import binding_of, open_store
 from services.process.config import ModelSection
 from services.process.exceptions import EnvironmentFault

@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lfd.motion.demonstration import Demonstration
-from lfd.store.database import DemonstrationStore, Purpose
+from lfd.store.database import DemonstrationStore
+from lfd.store.stored import Purpose
 from services.cli import main
 from services.commands.map import Request, draw_map
 from services.model.learning import MODELS, learn_all
