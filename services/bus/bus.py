@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from dataclasses import dataclass
 from typing import Generic, Protocol, TypeVar
 
@@ -53,8 +54,8 @@ class Bus(Protocol):
         """Send to whoever subscribes, all that names the sender filled in; what cannot be sent is a fault, and told."""
         ...
 
-    def subscribe(self, topic: Topic[M]) -> Subscription[M]:
-        """Receive what any process publishes on the topic."""
+    def subscribe(self, topic: Topic[M], call: threading.Event | None = None) -> Subscription[M]:
+        """Receive what any process publishes on the topic; each message that counts sets `call`, where there is one."""
         ...
 
     def serve(self, query: Query[Req, Rep]) -> Server[Req, Rep]:

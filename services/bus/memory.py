@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from typing import Any, TypeVar
 
 import msgspec
@@ -75,9 +76,9 @@ class MemoryBus:
         if payload is not None:
             self._network.deliver(topic, payload, topic.schema)
 
-    def subscribe(self, topic: Topic[M]) -> Subscription[M]:
+    def subscribe(self, topic: Topic[M], call: threading.Event | None = None) -> Subscription[M]:
         """Receive what is published from now on."""
-        subscription = Subscription(topic, self._network.robot, self.identity, self._clocks)
+        subscription = Subscription(topic, self._network.robot, self.identity, self._clocks, call)
         self._network.subscriptions.append(subscription)
         self._own.append(subscription)
         return subscription

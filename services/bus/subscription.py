@@ -40,9 +40,12 @@ class Subscription(Generic[M]):
         robot: whose.
         own: the receiver's identity.
         clocks: of the machines that anything was heard from.
+        call: set with every message that counts; None where nobody waits for one.
     """
 
-    def __init__(self, topic: Topic[M], robot: str, own: int, clocks: Clocks) -> None:
+    def __init__(
+        self, topic: Topic[M], robot: str, own: int, clocks: Clocks, call: threading.Event | None = None
+    ) -> None:
         self.topic = topic
         self._robot = robot
         self._own = own
@@ -51,6 +54,7 @@ class Subscription(Generic[M]):
         self._latest: Received[M] | None = None
         self._kept: deque[Received[M]] = deque(maxlen=topic.kept)
         self._tally = Tally(topic.name)
+        self._call = call
 
     @property
     def drops(self) -> Drops:
@@ -58,7 +62,7 @@ class Subscription(Generic[M]):
         return self._tally.drops
 
     def receive(self, payload: bytes, schema: str, now_ns: int, key: str | None = None) -> None:
-        """Decode, judge, store; nothing else happens here.
+        """Decode, judge, store, call; nothing else happens here.
 
         Args:
             payload: as received.
@@ -84,6 +88,8 @@ class Subscription(Generic[M]):
             self._tally.came()
             self._latest = Received(message, now_ns)
             self._kept.append(self._latest)
+        if self._call is not None:
+            self._call.set()
 
     def _judge(self, message: M, now_ns: int) -> Judgement:
         if self.topic.qos is QoS.SAFETY:  # a stop counts whatever its stamp, and twice is not too often

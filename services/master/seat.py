@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from dataclasses import dataclass
 
 from protocol.messages import AuthorityState, OperatorInput
@@ -22,11 +23,19 @@ class Sitting:
     operator: OperatorInput | None
     commands: bool
 
+    @property
+    def keys(self) -> tuple[str, ...]:
+        """Held down."""
+        return self.operator.keys if self.operator is not None else ()
+
 
 class Seat:
     """Follows the inputs of one person, whatever other stations say.
 
     The same person may have two stations open: the one that holds the authority goes before the other.
+
+    Attributes:
+        call: set where an input came.
 
     Args:
         bus: to hear stations and robot.
@@ -34,8 +43,9 @@ class Seat:
     """
 
     def __init__(self, bus: Bus, operator: str) -> None:
+        self.call = threading.Event()
         self._operator = operator
-        self._inputs = bus.subscribe(OPERATOR_INPUT)
+        self._inputs = bus.subscribe(OPERATOR_INPUT, self.call)
         self._authority = bus.subscribe(AUTHORITY_STATE)
         self._stations: dict[str, Received[OperatorInput]] = {}
 

@@ -9,6 +9,8 @@ lost process is silent, and so is one that has not taken over yet: the robot hol
 
 from __future__ import annotations
 
+import threading
+
 from protocol.messages import Figure, MasterState
 from protocol.topics import MASTER_STATE, ROBOT_STATE
 from services.bus.bus import Bus
@@ -58,12 +60,24 @@ class MasterService:
         self._device = device
         self._seat = seat
         self._robot = bus.subscribe(ROBOT_STATE)
+        self._keys: tuple[str, ...] = ()
         self._started_ns: int | None = None
         self._stepped_ns: int
+
+    @property
+    def call(self) -> threading.Event:
+        """Set where the page was heard."""
+        return self._seat.call
+
+    def step_early(self, now_ns: int) -> None:
+        """A key that is pressed or let go does not wait for the next tick."""
+        if self._seat.look(now_ns).keys != self._keys:
+            self.step(now_ns)
 
     def step(self, now_ns: int) -> None:
         """Bring the device up to now and say where it is, or keep silent, which makes a refining robot hold."""
         sitting = self._seat.look(now_ns)
+        self._keys = sitting.keys
         if self._started_ns is None:
             self._started_ns = self._stepped_ns = now_ns
         moment = Moment(

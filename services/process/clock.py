@@ -16,6 +16,10 @@ class Clock(Protocol):
         """Return at the deadline, or earlier where `stop` is set."""
         ...
 
+    def wait_until(self, deadline_ns: int, call: threading.Event) -> bool:
+        """Return as soon as `call` is set, or at the deadline; whether it was set."""
+        ...
+
 
 CLOCK = getattr(time, "CLOCK_BOOTTIME", time.CLOCK_MONOTONIC)
 """The one that goes on while the machine sleeps: after it, other machines' stamps compare as before. Linux has it."""
@@ -36,6 +40,10 @@ class SystemClock:
         elif remaining > 0:
             time.sleep(remaining / 1e9)
 
+    def wait_until(self, deadline_ns: int, call: threading.Event) -> bool:
+        """Wait for the event no longer than until then."""
+        return call.wait(max(0, deadline_ns - self.now_ns()) / 1e9)
+
 
 class ManualClock:
     """A clock that stands still until it is moved."""
@@ -50,6 +58,13 @@ class ManualClock:
     def sleep_until(self, deadline_ns: int, stop: threading.Event) -> None:
         """Jump to the deadline."""
         self._now_ns = max(self._now_ns, deadline_ns)
+
+    def wait_until(self, deadline_ns: int, call: threading.Event) -> bool:
+        """Jump to the deadline, where nothing calls."""
+        if call.is_set():
+            return True
+        self._now_ns = max(self._now_ns, deadline_ns)
+        return False
 
     def advance(self, seconds: float) -> None:
         """Move forward.

@@ -60,6 +60,20 @@ class Paced(Protocol):
         ...
 
 
+@runtime_checkable
+class Prompt(Protocol):
+    """A service that may be stepped between its ticks, where what came should not wait for the next one."""
+
+    @property
+    def call(self) -> threading.Event:
+        """Set where something came, on whichever thread it came."""
+        ...
+
+    def step_early(self, now_ns: int) -> None:
+        """As `step`, or nothing where what came can wait."""
+        ...
+
+
 class TickStatistics:
     """How regular the ticks are.
 
@@ -177,10 +191,13 @@ def run(service: Service, bus: Bus, clock: Clock, process: str, stop: threading.
     gc.freeze()
     ticks = TickStatistics(service.rate_hz)
     paced = service if isinstance(service, Paced) else None
+    prompt = service if isinstance(service, Prompt) else None
     due = clock.now_ns()
     heartbeat_due = due
     try:
         while not stop.is_set():
+            if prompt is not None:
+                prompt.call.clear()  # the step sees what called
             started = clock.now_ns()
             service.step(started)
             ended = clock.now_ns()
@@ -194,6 +211,9 @@ def run(service: Service, bus: Bus, clock: Clock, process: str, stop: threading.
             behind = clock.now_ns() - due
             if behind > ticks.period_ns:
                 due += behind // ticks.period_ns * ticks.period_ns
+            while prompt is not None and not stop.is_set() and clock.wait_until(due, prompt.call):
+                prompt.call.clear()
+                prompt.step_early(clock.now_ns())
             clock.sleep_until(due, stop)
     finally:
         gc.unfreeze()

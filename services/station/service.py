@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import secrets
+import threading
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -100,6 +101,16 @@ class StationService:
         self._asked: tuple[int, Pending[Any]] | None = None
         self._drawn: Place | None = None
         self._schedule = Schedule()
+        self._never = threading.Event()
+
+    @property
+    def call(self) -> threading.Event:
+        """Set where something was pressed or let go at the page."""
+        return self._page.call if self._page is not None else self._never
+
+    def step_early(self, now_ns: int) -> None:
+        """What a person does acts at once."""
+        self.step(now_ns)
 
     def step(self, now_ns: int) -> None:
         """A stop before all; then look, advance the workflow, ask, tell."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -110,9 +111,9 @@ class ZenohBus:
         if payload is not None:
             self._session.use(lambda opened: self._publisher(opened, topic).put(payload))
 
-    def subscribe(self, topic: Topic[M]) -> Subscription[M]:
+    def subscribe(self, topic: Topic[M], call: threading.Event | None = None) -> Subscription[M]:
         """Receive what any process publishes on the topic."""
-        subscription = Subscription(topic, self._robot, self.identity, self._clocks)
+        subscription = Subscription(topic, self._robot, self.identity, self._clocks, call)
 
         def store(sample: zenoh.Sample) -> None:
             key = str(sample.key_expr)

@@ -91,9 +91,14 @@ class Standing:
 
 
 class Desk:
-    """The operator's desk: several tabs may look on, one commands. Safe to use from several threads."""
+    """The operator's desk: several tabs may look on, one commands. Safe to use from several threads.
+
+    Attributes:
+        call: set where keys are pressed or let go, and buttons pressed: what should act at once.
+    """
 
     def __init__(self) -> None:
+        self.call = threading.Event()
         self.dropped = 0
         self.late = 0
         self._lock = threading.Lock()
@@ -212,7 +217,9 @@ class Desk:
         if not in_time:
             self.late += 1
             return
-        self._held = message
+        before, self._held = self._held, message
+        if before is None or before.keys != message.keys or before.focused != message.focused:
+            self.call.set()
         self._heard_ns = now_ns
         if message.visible:
             self._beats.append(now_ns)
@@ -235,6 +242,7 @@ class Desk:
         """Whether the press counts: a stop does at any time, from any tab, before it has said who it is as well."""
         if message.action == STOP:
             self._stop_pressed = True
+            self.call.set()
             return self._presses.add(Press(STOP))
         if known is None or not known.has_sent_in_time(message, now_ns):
             self.late += 1
@@ -256,5 +264,6 @@ class Desk:
             if self._seat.give():
                 self._sit(now_ns)
         else:
+            self.call.set()
             return self._presses.add(press)
         return True

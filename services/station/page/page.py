@@ -81,6 +81,11 @@ class Page:
             self._thread.join(0.02)
         log.info("the operator's page is on %s", self.url)
 
+    @property
+    def call(self) -> threading.Event:
+        """Set where something was pressed or let go."""
+        return self._desk.call
+
     def show(self, view: PageView) -> None:
         """Show this from now on; a stop that was pressed here is confirmed by what the robot says."""
         self._board.put(view)

@@ -1,5 +1,7 @@
 """What the receiving end of a topic keeps, and what it says about it."""
 
+import threading
+
 import pytest
 
 from protocol import topics
@@ -21,7 +23,8 @@ class Ear:
 
     def __init__(self):
         self.clock = ManualClock()
-        self.subscription = Subscription(TOPIC, "robot1", OWN, Clocks(OWN))
+        self.call = threading.Event()
+        self.subscription = Subscription(TOPIC, "robot1", OWN, Clocks(OWN), self.call)
         self._sequence = 0
 
     def hear(self, publisher=SAME_MACHINE, late_s=0.0, **changed):
@@ -107,3 +110,12 @@ def test_nobody_can_change_what_came_and_when(ear):
     ear.hear()
     with pytest.raises(AttributeError):
         ear.subscription.latest().received_ns = 0
+
+
+def test_a_message_that_counts_calls_and_one_that_does_not_lets_wait(ear):
+    ear.hear()
+    assert ear.call.is_set()
+    ear.call.clear()
+    ear.hear(late_s=10.0)
+    ear.hear(robot="robot2")
+    assert not ear.call.is_set()

@@ -70,6 +70,19 @@ def test_a_held_key_moves_the_device_in_the_name_of_who_holds_it():
     assert (state.operator, state.holder, state.epoch) == ("ann", "station-a", 7)
 
 
+def test_a_key_that_is_pressed_or_let_go_acts_between_ticks_and_nothing_else_does():
+    desk = Desk()
+    desk.run(0.1, keys=())
+    before = desk.states.latest().message.sequence
+    named = {"focused": True, "operator": "ann", "holder": "station-a", "epoch": 7}
+    for keys, told in (((), 0), (("KeyE",), 1), (("KeyE",), 1), ((), 2)):
+        desk.clock.advance(0.002)
+        desk.others.publish(OPERATOR_INPUT, OperatorInput(keys=keys, **named))
+        assert desk.service.call.is_set()
+        desk.service.step_early(desk.clock.now_ns())
+        assert desk.states.latest().message.sequence == before + told
+
+
 @pytest.mark.parametrize(
     "authority",
     [

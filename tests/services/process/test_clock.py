@@ -28,3 +28,13 @@ def test_a_long_sleep_ends_when_it_is_to_stop():
     due = clock.now_ns() + hour
     clock.sleep_until(due, stop)
     assert clock.now_ns() < due
+
+
+def test_what_calls_ends_the_wait_and_without_it_the_deadline_does():
+    call, clock = threading.Event(), SystemClock()
+    deadline = clock.now_ns() + 2_000_000
+    assert not clock.wait_until(deadline, call)
+    assert clock.now_ns() >= deadline
+    call.set()
+    assert clock.wait_until(clock.now_ns() + 3_600_000_000_000, call)
+    assert clock.wait_until(0, call)

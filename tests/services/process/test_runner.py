@@ -67,6 +67,42 @@ def test_a_long_step_skips_ticks_and_keeps_the_phase():
     assert service.started_ms == [0, 35, 40]
 
 
+class Called(Slow):
+    """A service to which something comes in the middle of its second period, and again at once."""
+
+    def __init__(self, clock, stop, durations_ms):
+        super().__init__(clock, stop, durations_ms)
+        self.call = threading.Event()
+        self.early_ms = []
+
+    def step(self, now_ns):
+        super().step(now_ns)
+        if len(self.started_ms) == 2:
+            self.call.set()
+
+    def step_early(self, now_ns):
+        self.early_ms.append((now_ns - 1_000_000_000) / MS)
+        self.clock.advance(1e-3)
+        if len(self.early_ms) < 2:
+            self.call.set()
+
+
+def test_what_calls_is_heard_between_the_ticks_and_moves_none():
+    clock, stop = ManualClock(), threading.Event()
+    service = Called(clock, stop, [3, 3, 3])
+    run(service, MemoryNetwork(clock).bus(), clock, "called", stop)
+    assert service.early_ms == [13, 14]
+    assert service.started_ms == [0, 10, 20]
+
+
+def test_what_called_before_a_tick_is_heard_in_it():
+    clock, stop = ManualClock(), threading.Event()
+    service = Called(clock, stop, [3])
+    service.call.set()
+    run(service, MemoryNetwork(clock).bus(), clock, "called", stop)
+    assert service.early_ms == []
+
+
 def test_what_was_made_at_the_start_is_not_looked_through_for_garbage_while_the_service_runs():
     gc.unfreeze()
     service, _ = ran([1, 1])

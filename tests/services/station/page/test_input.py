@@ -42,6 +42,26 @@ def test_every_state_replaces_the_one_before(browser):
     assert browser.input().keys == ("KeyQ",)
 
 
+def test_what_is_pressed_let_go_or_left_calls_and_what_stays_as_it_was_does_not(browser):
+    for state, calls in (
+        ({"keys": ("KeyE",)}, True),
+        ({"keys": ("KeyE",)}, False),
+        ({"keys": ()}, True),
+        ({"keys": (), "focused": False}, True),
+        ({"keys": (), "focused": False}, False),
+    ):
+        browser.desk.call.clear()
+        browser.hold(*state["keys"], focused=state.get("focused", True))
+        assert browser.desk.call.is_set() is calls
+
+
+@pytest.mark.parametrize("action", ["stop", "execute"])
+def test_a_press_calls(browser, action):
+    browser.desk.call.clear()
+    browser.press(action)
+    assert browser.desk.call.is_set()
+
+
 def test_silence_longer_than_the_dead_man_time_is_zero(browser):
     browser.hold("KeyE")
     assert browser.input(DEAD_MAN_MS).keys == ("KeyE",)
