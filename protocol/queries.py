@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any, Generic, TypeVar
+from typing import Annotated, Any, Generic, TypeVar
 
 import msgspec
 
@@ -88,6 +88,7 @@ class Execute(Change, frozen=True):
         prediction: the id of the model's prediction, as it was announced on the topic model/prediction.
         duration: that the motion is to take [s].
         adapt: which way-point the correction moves.
+        part: of the prediction in which corrections count; behind it the motion goes back to what is predicted.
     """
 
     epoch: Count
@@ -95,6 +96,7 @@ class Execute(Change, frozen=True):
     prediction: Count
     duration: Duration
     adapt: Adapt = Adapt.NEXT
+    part: Part = Part()
 
 
 class EpisodeStarted(msgspec.Struct, frozen=True, tag_field="reply", tag="started"):
@@ -107,6 +109,20 @@ class Finish(Change, frozen=True):
     """End the running episode here: the operator is satisfied, or gives up."""
 
     epoch: Count
+
+
+class Pace(Change, frozen=True):
+    """Let the motion that is under way go faster, slower or back.
+
+    Attributes:
+        epoch: of the authority.
+        rate: of the motion's time: 1 is its own, 0 pauses, a negative one goes back along what was executed.
+        until: share of the motion at which it pauses; None where it goes on to its end, or back to its start.
+    """
+
+    epoch: Count
+    rate: Annotated[float, msgspec.Meta(ge=-2.0, le=2.0)]
+    until: Fraction | None = None
 
 
 class Resume(Change, frozen=True):
@@ -246,6 +262,7 @@ ACQUIRE = Query("authority/acquire", AcquireAuthority, AuthorityGranted, "robot"
 RELEASE = Query("authority/release", ReleaseAuthority, Accepted, "robot", 20_480, "give the authority back")
 EXECUTE = Query("cmd/execute", Execute, EpisodeStarted, "robot", 20_480, "execute a prediction")
 FINISH = Query("cmd/finish", Finish, Accepted, "robot", 20_480, "end the episode here")
+PACE = Query("cmd/pace", Pace, Accepted, "robot", 20_480, "faster, slower, pause or back")
 RESUME = Query("cmd/resume", Resume, Accepted, "robot", 20_480, "go on after a hold")
 RESET = Query("cmd/reset", Reset, Accepted, "robot", 20_480, "back to the start")
 RELEASE_STOP = Query("safety/release_stop", ReleaseStop, Accepted, "robot", 20_480, "release the emergency stop")
@@ -261,6 +278,7 @@ QUERIES: tuple[Query[Any, Any], ...] = (
     RELEASE,
     EXECUTE,
     FINISH,
+    PACE,
     RESUME,
     RESET,
     RELEASE_STOP,

@@ -11,11 +11,13 @@ from protocol.messages.values import (
     Array,
     Condition,
     Count,
+    Duration,
     Fraction,
     Joints,
     Message,
     Motion,
     Name,
+    Part,
     Pose,
     Quaternion,
     Real,
@@ -197,12 +199,21 @@ class ExecutionState(Message, frozen=True, kw_only=True):
         mode: who shapes it.
         prediction: id of what was asked for.
         progress: from 0 to 1.
+        pace: as it was asked for: 1 is the motion's own, 0 a pause, a negative one goes back along it.
+        part: of the motion in which corrections count.
+        duration: that the whole motion takes at its own pace [s].
+        look_ahead: time constant with which a correction follows the operator, and returns to nothing where nobody asks
+            for it, in the motion's time [s]; 0 where it does so at once.
     """
 
     episode: Count
     mode: Mode
     prediction: Count
     progress: Real
+    pace: Real = 1.0
+    part: Part = Part()
+    duration: Duration = 1.0
+    look_ahead: Real = 0.0
 
 
 class EpisodeResult(Message, frozen=True, kw_only=True):

@@ -7,7 +7,10 @@ from lfd.exceptions import LfdError
 from lfd.motion.rotations import conjugate, log_map, multiply
 from lfd.motion.trajectory import Trajectory
 from protocol.queries import Reset
+from services.robot.execution import look_ahead
+from services.robot.pace import FASTEST_PACE
 from services.robot.refusal import Refusal
+from services.robot.safety import ROUNDING
 from sim.pose import Pose
 from sim.tasks.scene import Scene
 
@@ -52,23 +55,53 @@ def admit_prediction(positions: Array, orientations: Array, duration: float, mea
     return prediction
 
 
+def admit_pace(prediction: Trajectory, rate: float) -> None:
+    """Let pass a pace at which the prediction keeps within the limits of its own.
+
+    Args:
+        prediction: that is executed.
+        rate: of its time, of either sign.
+
+    Raises:
+        Refusal: it would move or turn too fast somewhere.
+    """
+    speed, turn_speed = float(np.max(_speeds(prediction))), float(np.max(_turn_speeds(prediction)))
+    most = 1.0 / max(speed / FASTEST, turn_speed / FASTEST_TURN, 1.0 / FASTEST_PACE)
+    if not abs(rate) <= most * (1.0 + ROUNDING):
+        raise Refusal(
+            f"at {abs(rate):.0%} of its pace the motion would be faster than {FASTEST:g} m/s or {FASTEST_TURN:g} rad/s:"
+            f" give at most {most:.0%}"
+        )
+
+
 def _check_speeds(prediction: Trajectory) -> None:
-    interval = prediction.duration / (prediction.n_points - 1)
-    speeds = np.linalg.norm(np.diff(prediction.positions, axis=0), axis=1) / interval
+    speeds = _speeds(prediction)
     if not np.max(speeds) <= FASTEST:
         point = int(np.argmax(speeds))
         raise Refusal(
             f"the prediction moves at {np.max(speeds):.2f} m/s after way-point {point}, at most {FASTEST:g} m/s is"
             " allowed: give it more time"
         )
-    turns = log_map(multiply(conjugate(prediction.orientations[:-1]), prediction.orientations[1:]))
-    turn_speeds = np.linalg.norm(turns, axis=1) / interval
+    turn_speeds = _turn_speeds(prediction)
     if not np.max(turn_speeds) <= FASTEST_TURN:
         point = int(np.argmax(turn_speeds))
         raise Refusal(
             f"the prediction turns at {np.max(turn_speeds):.2f} rad/s after way-point {point}, at most"
             f" {FASTEST_TURN:g} rad/s is allowed: give it more time"
         )
+
+
+def _speeds(prediction: Trajectory) -> Array:
+    """Between way-points, shape (n - 1,) [m/s]."""
+    lengths: Array = np.linalg.norm(np.diff(prediction.positions, axis=0), axis=1)
+    return lengths / look_ahead(prediction)
+
+
+def _turn_speeds(prediction: Trajectory) -> Array:
+    """Between way-points, shape (n - 1,) [rad/s]."""
+    turns = log_map(multiply(conjugate(prediction.orientations[:-1]), prediction.orientations[1:]))
+    angles: Array = np.linalg.norm(turns, axis=1)
+    return angles / look_ahead(prediction)
 
 
 def admit_target(scene: Scene, request: Reset) -> Array | None:

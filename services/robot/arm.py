@@ -10,6 +10,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from lfd.motion.part import WHOLE, Part
 from lfd.motion.trajectory import Trajectory
 from protocol.messages import Cut, Phase
 from services.robot import safety
@@ -113,15 +114,16 @@ class Arm:
         """What the arm follows of a correction, its reach included."""
         return safety.clamp_correction(self._kinematics.admitted(wanted))[0]
 
-    def begin(self, prediction: Trajectory, look_ahead: float) -> None:
+    def begin(self, prediction: Trajectory, look_ahead: float, part: Part = WHOLE) -> None:
         """Begin an episode, with a ramp from the measured pose to the prediction's start.
 
         Args:
             prediction: to execute, in the base frame.
             look_ahead: after which the correction is to equal the operator's [s].
+            part: of the prediction in which the operator's correction counts.
         """
         self._stand()
-        self._episode = Episode(prediction, self.measured, look_ahead, CONTROL_PERIOD)
+        self._episode = Episode(prediction, self.measured, look_ahead, CONTROL_PERIOD, part)
 
     def finish(self, cut: Cut, reason: str) -> None:
         """Let the running episode end here; its outcome follows when the arm has settled."""

@@ -12,11 +12,21 @@ from numpy.typing import NDArray
 
 from protocol import messages
 from protocol.messages import Cut, MasterState, Mode, Motion, Phase
-from protocol.queries import AcquireAuthority, Adapt, Execute, Finish, ReleaseAuthority, ReleaseStop, Reset, Resume
+from protocol.queries import (
+    AcquireAuthority,
+    Adapt,
+    Execute,
+    Finish,
+    Pace,
+    ReleaseAuthority,
+    ReleaseStop,
+    Reset,
+    Resume,
+)
 from services.bus.arrays import motion_from_wire
 from services.bus.subscription import Received
 from services.process.exceptions import ServiceError
-from services.robot.admission import admit_prediction, admit_reset, admit_target
+from services.robot.admission import admit_pace, admit_prediction, admit_reset, admit_target
 from services.robot.arm import Arm
 from services.robot.authority import Lease
 from services.robot.backends.backend import CONTROL_PERIOD
@@ -134,7 +144,8 @@ class Control:
         self.order = Order(number, request, self.lease.holder, self.lease.who)
         self.finished = None
         self._hold.ask(request.epoch)
-        self.arm.begin(prediction, look_ahead(prediction) if request.adapt is Adapt.NEXT else 0.0)
+        after = look_ahead(prediction) if request.adapt is Adapt.NEXT else 0.0
+        self.arm.begin(prediction, after, (request.part.first, request.part.last))
         return number
 
     def finish(self, request: Finish) -> None:
@@ -144,6 +155,16 @@ class Control:
             raise Refusal("no episode is running: nothing to finish")
         share = self.arm.episode.execution.progress
         self.arm.finish(Cut.FINISHED, f"finished by {self.lease.who} at {share:.0%}")
+
+    def pace(self, request: Pace) -> None:
+        """Let the motion that is under way go on at another pace, or back; what holds it holds it all the same."""
+        self._check_stop()
+        self.lease.check(request.epoch)
+        episode = self.arm.episode
+        if episode is None or episode.settling:
+            raise Refusal("no motion is under way: there is no pace to change")
+        admit_pace(episode.prediction, request.rate)
+        episode.execution.go(request.rate, request.until)
 
     def resume(self, request: Resume) -> None:
         """Let an episode go on that waits to be asked."""
@@ -232,12 +253,13 @@ class Control:
         if not master.engaged or master.publisher != self._master:
             self._clutch.let_go()
         self._master = master.publisher
-        if episode.execution.ramping:
+        execution = episode.execution
+        if not execution.corrects:
             self._clutch.rest()
-        if hold_reason or episode.execution.ramping:
-            return UNCORRECTED
+        if hold_reason or not execution.corrects:
+            return execution.correction
         asked = Correction(self.master_gain * np.array(master.displacement), np.array(master.rotation))
-        return self._clutch.correction(asked, self.arm.followed(asked), episode.execution.correction)
+        return self._clutch.correction(asked, self.arm.followed(asked), execution.correction)
 
     def _end(self, outcome: EpisodeOutcome | None) -> None:
         if outcome is not None and self.order is not None:

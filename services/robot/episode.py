@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from lfd.motion.part import WHOLE, Part
 from lfd.motion.trajectory import Trajectory
 from protocol.messages import Cut
 from services.robot.correction import Correction
@@ -71,12 +72,15 @@ class Episode:
         measured: pose of the grasping frame now.
         look_ahead: after which the correction is to equal the operator's [s].
         period: of the control [s].
+        part: of the prediction in which the operator's correction counts.
     """
 
-    def __init__(self, prediction: Trajectory, measured: Pose, look_ahead: float, period: float) -> None:
+    def __init__(
+        self, prediction: Trajectory, measured: Pose, look_ahead: float, period: float, part: Part = WHOLE
+    ) -> None:
         self.prediction = prediction
-        self.execution = Execution(measured, prediction, look_ahead, period)
-        self.recording = Recording()
+        self.execution = Execution(measured, prediction, look_ahead, period, part)
+        self.recording = Recording(period)
         self.holding = False
         self._period = period
         self._cut: Cut | None = None
@@ -139,7 +143,7 @@ class Episode:
         if held:
             duration = (self._ticks - 1 - self._held_since) * self._period
             self.execution.rejoin(measured, at_once=duration <= LONG_HOLD_S)
-        if not self.execution.ramping:
+        if self.execution.corrects:
             self._input |= _counts(wanted)
         return self.execution.advance(wanted)
 
@@ -163,7 +167,7 @@ class Episode:
             stopped: why the arm was stopped before its end, empty where it was not.
         """
         cut, reason = (Cut.STOPPED, stopped) if stopped else (self._cut, self._reason)
-        motions = self.recording.motions(self.prediction.n_points, measured, self._period)
+        motions = self.recording.motions(self.prediction.n_points, measured)
         progress = self.execution.progress
         return EpisodeOutcome(
             prediction=self.prediction,

@@ -16,6 +16,9 @@ over a period h in which d stands still. Without input the prediction is tracked
 next period, nothing jumps, and after release the correction returns to zero in the same way. Adapting the CURRENT
 way-point (eq. B.7) is the limit L = 0: o = d at once.
 
+The time t is the prediction's. At another pace it passes faster or more slowly, and o with it: the pace changes when
+the arm is somewhere, never where it goes. In a pause both stand still; on the way back o is what it was there.
+
 The thesis corrects positions only and recommends orientations next (V-B). Here a rotation vector r in base axes follows
 the master's rotation by the same law, and rotates the orientation that is predicted: R_new = exp(r) R. On its way r
 does not leave the ball that the master's reach spans, far from where rotation vectors wrap around.
@@ -26,10 +29,13 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from lfd.motion.resampling import Interpolation, at_phases
+from lfd.motion.part import WHOLE, Part
 from lfd.motion.rotations import conjugate, log_map, multiply, slerp
 from lfd.motion.trajectory import Trajectory
 from services.robot.correction import UNCORRECTED, Correction
+from services.robot.pace import Pace
+from services.robot.passage import Passage
+from services.robot.path import Path
 from sim.pose import Pose
 
 Array = NDArray[np.float64]
@@ -56,17 +62,21 @@ class Execution:
         prediction: in the base frame, any number of way-points.
         look_ahead: L, after which the correction is to equal the operator's [s]; 0 moves the current way-point.
         period: of the control [s].
+        part: of the prediction in which the operator's correction counts; elsewhere none is asked for.
     """
 
-    def __init__(self, measured: Pose, prediction: Trajectory, look_ahead: float, period: float) -> None:
-        ticks = math.ceil(prediction.duration / period - 1e-9)
-        self._times = np.minimum(np.arange(ticks + 1) * period, prediction.duration)
-        path = at_phases(prediction, self._times / prediction.duration, Interpolation.CUBIC)
-        self._positions, self._orientations = path.positions, path.orientations
+    def __init__(
+        self, measured: Pose, prediction: Trajectory, look_ahead: float, period: float, part: Part = WHOLE
+    ) -> None:
+        self._path = Path(prediction, period)
+        self._passage = Passage()
         self._period = period
-        self._gain = -math.expm1(-period / look_ahead) if look_ahead > 0.0 else 1.0
-        self._tick = 0
+        self._at = 0.0  # [control periods]
+        self.part = part
+        self.look_ahead = look_ahead
+        self.duration = prediction.duration
         self.correction: Correction = UNCORRECTED
+        self.pace = Pace(period)
         self._ramp = Ramp(measured, self.nominal, period)
 
     @property
@@ -77,43 +87,75 @@ class Execution:
     @property
     def finished(self) -> bool:
         """The last way-point is the reference."""
-        return not self.ramping and self._tick == len(self._times) - 1
+        return not self.ramping and self._at == self._path.end
+
+    @property
+    def corrects(self) -> bool:
+        """The operator's correction counts: the motion goes on, and is in the part that is corrected."""
+        first, last = self.part
+        return not self.ramping and self.pace.rate > 0.0 and first <= self.progress <= last
 
     @property
     def time(self) -> float:
         """Of the prediction [s]."""
-        return float(self._times[self._tick])
+        return self._path.time(self._at)
 
     @property
     def progress(self) -> float:
         """Share of the prediction that lies behind."""
-        return self._tick / (len(self._times) - 1)
+        return self._at / self._path.end
 
     @property
     def nominal(self) -> Pose:
         """What the prediction alone says now."""
-        return Pose(self._positions[self._tick], self._orientations[self._tick])
+        return self._path.pose(self._at)
 
     @property
     def reference(self) -> Pose:
         """Where the grasping frame should be now."""
         return self._ramp.pose if self.ramping else self._corrected()
 
+    def go(self, rate: float, until: float | None = None) -> None:
+        """Go on at another pace.
+
+        Args:
+            rate: of the prediction's time; 0 pauses, a negative one goes back along the motion that was executed. A
+                ramp takes its own time at 1 and more, longer at less, and stands in a pause.
+            until: share of the prediction at which to pause; None to go on to its end.
+        """
+        self.pace.ask(rate, None if until is None else until * self._path.end)
+
     def advance(self, wanted: Correction) -> Pose:
         """Go on by one control period.
 
         Args:
-            wanted: the correction that the operator asks for; ignored on the ramp.
+            wanted: the correction that the operator asks for; ignored on the ramp, on the way back, and outside the
+                part that is corrected.
 
         Returns:
             The reference at the end of the period.
         """
+        if self.finished:
+            return self.reference
+        step = self.pace.step(self._at)
         if self.ramping:
-            self._ramp.advance()
-        elif not self.finished:
-            self._tick += 1
-            self.correction = self.correction.towards(wanted, self._gain)
+            self._ramp.advance(min(1.0, abs(step)))
+        elif step > 0.0:
+            self._go_on(step, wanted)
+        elif step < 0.0:
+            self._at = max(0.0, self._at + step)
+            self.correction = self._passage.go_back(self._at)
         return self.reference
+
+    def _go_on(self, step: float, wanted: Correction) -> None:
+        first, last = self.part
+        asked = wanted if first <= self.progress <= last else UNCORRECTED
+        gain = -math.expm1(-step * self._period / self.look_ahead) if self.look_ahead > 0.0 else 1.0
+        self._at += step
+        if self._path.is_over(self._at):
+            self._at = float(self._path.end)
+        self.correction = self.correction.towards(asked, gain)
+        self._passage.go_on(self._at, self.correction)
 
     def rejoin(self, measured: Pose, *, at_once: bool) -> None:
         """Go on after a hold: with a ramp from the measured pose to where the prediction was left.
@@ -145,7 +187,7 @@ class Ramp:
         distance = float(np.linalg.norm(goal.position - start.position))
         angle = angle_between(start.orientation, goal.orientation)
         self._ticks = round(max(RAMP_MIN_S, distance / RAMP_SPEED, angle / RAMP_TURN_SPEED) / period)
-        self._tick = 0
+        self._tick = 0.0
 
     @property
     def finished(self) -> bool:
@@ -162,9 +204,9 @@ class Ramp:
         position = self.start.position + share * (self.goal.position - self.start.position)
         return Pose(position, slerp(self.start.orientation, self.goal.orientation, np.asarray(share)))
 
-    def advance(self) -> None:
-        """Go on by one control period."""
-        self._tick += 1
+    def advance(self, step: float = 1.0) -> None:
+        """Go on by a share of a control period, all of it by default."""
+        self._tick += step
 
 
 def _close(one: Pose, other: Pose) -> bool:

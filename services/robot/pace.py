@@ -1,44 +1,58 @@
-"""Moves the control periods to where the operator's samples come, so that none waits for most of a period."""
+"""How fast the motion goes: the rate at which the prediction's time passes, changed without a jerk."""
 
 from __future__ import annotations
 
-MARGIN_NS = 2_500_000
-"""How long before a control period a sample should come: more than most of its jitter."""
+import math
 
-DEADBAND_NS = 300_000
-GAIN = 0.05
-LARGEST_NS = 100_000
-"""A period is stretched or shortened by one per cent at most: the arm does not notice."""
+FASTEST_PACE = 2.0
+"""The greatest rate, forward and back."""
+
+SLEW = 4.0
+"""By how much the rate changes at most [1/s]: a motion comes to rest within a quarter of a second."""
 
 
 class Pace:
-    """A phase-locked loop between the master's samples and the control periods.
-
-    Two loops of the same rate meet at a random phase: a sample waits half a period on average. Only receipt times are
-    used, so it works for a master on another machine as well.
+    """Rate 1 is the prediction's own, 0 a pause; a negative one goes back along the motion that was executed.
 
     Args:
-        period_ns: of the control.
+        period: of the control [s].
     """
 
-    def __init__(self, period_ns: int) -> None:
-        self._period_ns = period_ns
-        self._slew_ns = 0
+    def __init__(self, period: float) -> None:
+        self.asked = 1.0
+        self.rate = 1.0
+        self._until: float | None = None
+        self._slew = SLEW * period
 
-    def heard(self, started_ns: int, received_ns: int) -> None:
-        """A control period began with a sample that had come before it; one that came long before says nothing.
+    def ask(self, rate: float, until: float | None = None) -> None:
+        """Go on at another rate.
 
         Args:
-            started_ns: when the period began.
-            received_ns: when the sample came.
+            rate: from -`FASTEST_PACE` to `FASTEST_PACE`.
+            until: the time at which to pause [control periods]; None for none. One that lies the other way pauses now.
         """
-        if started_ns - received_ns >= self._period_ns:
-            return
-        early = (started_ns - received_ns - MARGIN_NS + self._period_ns // 2) % self._period_ns - self._period_ns // 2
-        wanted = 0 if abs(early) < DEADBAND_NS else -round(GAIN * early)
-        self._slew_ns = max(-LARGEST_NS, min(LARGEST_NS, wanted))
+        self.asked, self._until = rate, until
 
-    def take_slew_ns(self) -> int:
-        """By how much the next period is to begin later (or earlier, where negative)."""
-        slew, self._slew_ns = self._slew_ns, 0
-        return slew
+    def step(self, now: float) -> float:
+        """By how much the prediction's time is to pass in the next control period [control periods].
+
+        Towards the time at which it pauses the rate falls as it rises, so that it comes to rest exactly there.
+
+        Args:
+            now: the prediction's time [control periods].
+        """
+        if self._until is not None and (self._until - now) * self.asked <= 0.0:
+            self.ask(0.0)
+        change = self.asked - self.rate
+        self.rate += math.copysign(min(abs(change), self._slew), change)
+        if self._until is None:
+            return self.rate
+        left = self._until - now
+        if left * self.rate > 0.0:
+            self.rate = math.copysign(min(abs(self.rate), self._stopping(abs(left))), left)
+        return self.rate
+
+    def _stopping(self, left: float) -> float:
+        """The greatest rate from which the way that is left suffices: v, v - a, v - 2 a and so on add up to it."""
+        braking = 0.5 * self._slew * (math.sqrt(1.0 + 8.0 * left / self._slew) - 1.0)
+        return min(left, braking)

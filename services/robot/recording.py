@@ -27,33 +27,53 @@ class Motions:
     measured: Trajectory
 
 
-class Recording:
-    """Samples at the control rate; ramps and holds, in which the prediction's time stands still, leave none."""
+DENSEST = 0.5
+"""Of samples: a slow motion leaves no more of them than one at its own pace [control periods]."""
 
-    def __init__(self) -> None:
+
+class Recording:
+    """Samples at the control rate; where the prediction's time stands still, on a ramp or in a pause, there are none.
+
+    Where the arm went back, what it had passed is forgotten: of every time the last pass counts.
+
+    Args:
+        period: of the control [s].
+    """
+
+    def __init__(self, period: float) -> None:
+        self._period = period
         self._times: list[float] = []
         self._rows: list[Array] = []  # refined, commanded and measured pose, each as position and orientation
 
     def add(self, time: float, refined: Pose, commanded: Pose, measured: Pose) -> None:
         """Keep the poses at a time of the prediction [s], unless that time is recorded already."""
-        if not self._times or time > self._times[-1]:
-            poses = (refined, commanded, measured)
-            self._times.append(time)
-            self._rows.append(np.concatenate([part for pose in poses for part in (pose.position, pose.orientation)]))
+        while self._times and self._times[-1] > time:
+            self._drop()
+        if self._times and time == self._times[-1]:
+            return
+        if len(self._times) > 1 and self._times[-1] - self._times[-2] < DENSEST * self._period:
+            self._drop()
+        poses = (refined, commanded, measured)
+        self._times.append(time)
+        self._rows.append(np.concatenate([part for pose in poses for part in (pose.position, pose.orientation)]))
 
-    def motions(self, n: int, standing: Pose, period: float) -> Motions:
+    def motions(self, n: int, standing: Pose) -> Motions:
         """The part that was executed, at n way-points of equal time.
 
         Args:
             n: number of way-points.
-            standing: where the arm is, for an execution that ended before it moved.
-            period: duration of such a motion that is none [s].
+            standing: where the arm is, for an execution that ended before it moved: it stands for a period then.
         """
         if len(self._times) < 2:
-            still = Trajectory(np.tile(standing.position, (n, 1)), np.tile(standing.orientation, (n, 1)), period)
+            positions, orientations = np.tile(standing.position, (n, 1)), np.tile(standing.orientation, (n, 1))
+            still = Trajectory(positions, orientations, self._period)
             return Motions(still, still, still)
         poses = np.array(self._rows).reshape(-1, 3, 7)
         refined, commanded, measured = (
             from_samples(self._times, poses[:, i, :3], poses[:, i, 3:], n) for i in range(poses.shape[1])
         )
         return Motions(refined, commanded, measured)
+
+    def _drop(self) -> None:
+        self._times.pop()
+        self._rows.pop()

@@ -26,10 +26,10 @@ from services.robot.backends.backend import CONTROL_PERIOD
 from services.robot.control import Control
 from services.robot.mechanism import Mechanism
 from services.robot.memory import Memory, safety_file
-from services.robot.pace import Pace
 from services.robot.refusal import Refusal
 from services.robot.safety import Watchdog
 from services.robot.states import States
+from services.robot.synchronisation import Synchronisation
 from services.robot.tick import Tick
 from sim.robots.description import prepare
 from sim.tasks import scene as scene_named
@@ -123,7 +123,7 @@ class RobotService:
         self._control = control
         self._states = States(bus, control)
         self._kinematics = kinematics
-        self._pace = Pace(round(CONTROL_PERIOD * 1e9))
+        self._synchronisation = Synchronisation(round(CONTROL_PERIOD * 1e9))
         self._master = bus.subscribe(topics.MASTER_STATE)
         self._renewal = bus.subscribe(topics.AUTHORITY_RENEWAL)
         self._emergency_stop = bus.subscribe(topics.EMERGENCY_STOP)
@@ -132,6 +132,7 @@ class RobotService:
         self._release = bus.serve(queries.RELEASE)
         self._execute = bus.serve(queries.EXECUTE)
         self._finish = bus.serve(queries.FINISH)
+        self._pace = bus.serve(queries.PACE)
         self._resume = bus.serve(queries.RESUME)
         self._reset = bus.serve(queries.RESET)
         self._release_stop = bus.serve(queries.RELEASE_STOP)
@@ -150,15 +151,15 @@ class RobotService:
         self._answer_all(now_ns)
         sample = self._sample_that_counts()
         if sample is not None:
-            self._pace.heard(now_ns, sample.received_ns)
+            self._synchronisation.heard(now_ns, sample.received_ns)
         tick = self._control.tick(now_ns, sample, self._given)
         self._measure(tick, sample)
         applied = self._applied.message.sequence if self._applied is not None else 0
         self._states.publish(now_ns, tick, applied, self._applied_latency)
 
     def take_slew_ns(self) -> int:
-        """See `Pace`."""
-        return self._pace.take_slew_ns()
+        """See `Synchronisation`."""
+        return self._synchronisation.take_slew_ns()
 
     def figures(self) -> tuple[Figure, ...]:
         """Since the last call.
@@ -201,6 +202,7 @@ class RobotService:
         self._answer(self._release, _accepting(control.release))
         self._answer(self._execute, self._executed)
         self._answer(self._finish, _accepting(control.finish))
+        self._answer(self._pace, _accepting(control.pace))
         self._answer(self._resume, _accepting(control.resume))
         self._answer(self._reset, _accepting(control.reset))
         self._answer(self._release_stop, _accepting(control.release_stop))

@@ -70,6 +70,10 @@ class States:
             mode=order.execute.mode,
             prediction=order.execute.prediction,
             progress=episode.execution.progress,
+            pace=episode.execution.pace.asked,
+            part=messages.Part(*episode.execution.part),
+            duration=episode.execution.duration,
+            look_ahead=episode.execution.look_ahead,
         )
         self._bus.publish(topics.EXECUTION, state)
 

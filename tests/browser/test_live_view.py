@@ -128,8 +128,8 @@ def test_a_tube_is_as_wide_in_every_direction_as_the_ellipsoid_there(tab):
 def test_it_rests_twice_as_long_as_a_picture_took_and_draws_coarser_where_it_is_slow(tab):
     waits, finenesses = tab.page.evaluate(
         """async () => {
-            const { Pace } = await import("/assets/js/drawing/pace.js");
-            const [fast, slow] = [new Pace(), new Pace()];
+            const { Cadence } = await import("/assets/js/drawing/cadence.js");
+            const [fast, slow] = [new Cadence(), new Cadence()];
             fast.begin(1000);
             fast.done(1004);
             const finenesses = [];

@@ -1,46 +1,57 @@
-"""Control periods settle just after the samples that they use."""
+"""How the rate changes, and where it comes to rest."""
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from services.robot.pace import DEADBAND_NS, GAIN, LARGEST_NS, MARGIN_NS, Pace
+from services.robot.pace import FASTEST_PACE, SLEW, Pace
 
-PERIOD = 10_000_000
-
-
-def waits(offset_ns, jitter=()):
-    """How long each sample waited for its period, where the first waited `offset_ns`; jitter delays samples."""
-    pace, started, waited = Pace(PERIOD), offset_ns, []
-    for i in range(600):
-        received = started // PERIOD * PERIOD + (jitter[i % len(jitter)] if jitter else 0)
-        if received > started:
-            received -= PERIOD
-        waited.append(started - received)
-        pace.heard(started, received)
-        started += PERIOD + pace.take_slew_ns()
-    return waited
+PERIOD = 0.01
+RATES = st.floats(-FASTEST_PACE, FASTEST_PACE)
 
 
-@given(st.integers(min_value=0, max_value=PERIOD - 1))
-def test_whatever_the_phase_was_samples_soon_wait_for_the_margin(offset):
-    tolerance = DEADBAND_NS + 1.0 / GAIN
-    assert all(abs(wait - MARGIN_NS) <= tolerance for wait in waits(offset)[400:])
+def steps(pace, now, count):
+    """The steps of so many control periods, and the time after them."""
+    taken = []
+    for _ in range(count):
+        taken.append(pace.step(now))
+        now += taken[-1]
+    return np.array(taken), now
 
 
-@given(st.integers(min_value=0, max_value=10**9), st.integers(min_value=0, max_value=PERIOD))
-def test_a_period_changes_by_one_per_cent_at_most(started, wait):
+def test_where_nothing_is_asked_each_period_is_one_to_the_last_bit():
+    taken, now = steps(Pace(PERIOD), 0.0, 1000)
+    assert set(taken.tolist()) == {1.0}
+    assert now == 1000.0
+
+
+@given(st.lists(RATES, min_size=1, max_size=8))
+def test_the_rate_reaches_what_is_asked_and_never_changes_faster_than_it_may(rates):
+    pace, before = Pace(PERIOD), 1.0
+    for rate in rates:
+        pace.ask(rate)
+        taken, _ = steps(pace, 0.0, 101)  # from -2 to 2 at 4/s takes a second
+        assert np.max(np.abs(np.diff(taken, prepend=before))) <= SLEW * PERIOD + 1e-12
+        assert taken[-1] == pytest.approx(rate, abs=1e-12)
+        before = taken[-1]
+
+
+@given(st.floats(0.05, FASTEST_PACE), st.floats(0.0, 400.0), st.booleans())
+def test_it_pauses_exactly_where_it_is_told_to_and_brakes_no_harder_than_it_may(rate, way, backwards):
+    pace, sign = Pace(PERIOD), -1.0 if backwards else 1.0
+    pace.ask(0.0)
+    steps(pace, 0.0, 30)
+    pace.ask(sign * rate, until=500.0 + sign * way)
+    taken, now = steps(pace, 500.0, 20_000)
+    assert now == pytest.approx(500.0 + sign * way, abs=1e-9)
+    eighth_more = 1.125  # what is left in the last period may be a little less than the rate has to fall by
+    assert np.max(np.abs(np.diff(taken, prepend=0.0))) <= eighth_more * SLEW * PERIOD + 1e-9
+    assert (pace.asked, taken[-1]) == (0.0, 0.0)
+
+
+def test_a_pause_that_lies_the_other_way_is_one_now():
     pace = Pace(PERIOD)
-    pace.heard(started + wait, started)
-    assert abs(pace.take_slew_ns()) <= LARGEST_NS == PERIOD // 100
-
-
-def test_without_a_new_sample_periods_are_as_long_as_ever():
-    pace = Pace(PERIOD)
-    pace.heard(9_000_000, 0)
-    pace.take_slew_ns()
-    assert pace.take_slew_ns() == 0
-
-
-def test_jitter_within_the_margin_delays_no_sample_by_a_period():
-    assert max(waits(5_000_000, jitter=(0, 800_000, 300_000))[400:]) == pytest.approx(MARGIN_NS, abs=1_200_000)
+    pace.ask(1.0, until=99.0)
+    taken, _ = steps(pace, 100.0, 30)
+    assert (pace.asked, taken[-1]) == (0.0, 0.0)

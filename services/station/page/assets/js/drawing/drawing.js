@@ -11,7 +11,7 @@ import {
 } from "/assets/js/drawing/three.js";
 import { Marks } from "/assets/js/drawing/marks.js";
 import { Motions } from "/assets/js/drawing/motions.js";
-import { Pace } from "/assets/js/drawing/pace.js";
+import { Cadence } from "/assets/js/drawing/cadence.js";
 import { colourOf } from "/assets/js/drawing/paint.js";
 import { Robot } from "/assets/js/drawing/robot.js";
 import { Surroundings } from "/assets/js/drawing/surroundings.js";
@@ -26,7 +26,7 @@ export class Drawing {
   constructor(canvas, { context, isSlow }, description, shapes, onDrawn) {
     Object.assign(this, { canvas, context, isSlow, onDrawn, eye: description.eye });
     this.renderer = new WebGLRenderer({ canvas, context });
-    this.pace = new Pace();
+    this.cadence = new Cadence();
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.05, 30);
     this.camera.up.set(0, 0, 1);
@@ -73,17 +73,17 @@ export class Drawing {
     clearTimeout(this.still);
     if (this.waits || this.isDrawing) return;
     this.waits = true;
-    setTimeout(() => requestAnimationFrame(() => this.draw()), this.pace.wait(performance.now()));
+    setTimeout(() => requestAnimationFrame(() => this.draw()), this.cadence.wait(performance.now()));
   }
 
-  draw(fineness = this.pace.fineness) {
+  draw(fineness = this.cadence.fineness) {
     this.waits = this.wished = false;
     this.isDrawing = true;
     this.refine(fineness);
     const { shown, values } = this.moment;
     if (values) this.move(values);
     this.moment = { shown };
-    this.pace.begin(performance.now());
+    this.cadence.begin(performance.now());
     this.renderer.render(this.scene, this.camera);
     const { context } = this;
     const fence = context.fenceSync(context.SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -101,7 +101,7 @@ export class Drawing {
     context.deleteSync(fence);
     this.isDrawing = false;
     this.onDrawn(shown);
-    this.pace.done(performance.now());
+    this.cadence.done(performance.now());
     if (this.wished) this.wish();
     else if (this.fineness < 1) this.still = setTimeout(() => this.draw(1), STILL_MS);
   }

@@ -7,7 +7,7 @@ const SLOW_MS = 40;
 const SLOW_TIMES = 4;
 const FINENESS = [1, 0.75, 0.5];
 
-export class Pace {
+export class Cadence {
   constructor() {
     this.due = 0;
     this.began = 0;

@@ -1,0 +1,68 @@
+"""The prediction as the control periods pass it: its pose at any time."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lfd.motion.resampling import Interpolation, at_phases
+from lfd.motion.rotations import slerp
+from lfd.motion.trajectory import Trajectory
+from sim.pose import Pose
+
+Array = NDArray[np.float64]
+
+_NODES = 4
+_SLACK = 1e-9
+"""Of a control period: where a duration is a multiple of it but for rounding, it is one."""
+
+
+class Path:
+    """The poses of a prediction; between those at whole control periods, which are kept, they are interpolated.
+
+    Args:
+        prediction: in the base frame.
+        period: of the control [s].
+    """
+
+    def __init__(self, prediction: Trajectory, period: float) -> None:
+        self.end = math.ceil(prediction.duration / period - _SLACK)
+        """The last control period."""
+        self._period = period
+        self._times = np.minimum(np.arange(self.end + 1) * period, prediction.duration)
+        path = at_phases(prediction, self._times / prediction.duration, Interpolation.CUBIC)
+        self._positions, self._orientations = path.positions, path.orientations
+
+    def time(self, at: float) -> float:
+        """Of the prediction [s].
+
+        Args:
+            at: the time in control periods, from 0 to `end`.
+        """
+        return min(at * self._period, float(self._times[-1]))
+
+    def is_over(self, at: float) -> bool:
+        """Whether the last way-point is reached then; the last period may be a shorter one."""
+        return self.time(at) >= float(self._times[-1]) - _SLACK * self._period
+
+    def pose(self, at: float) -> Pose:
+        """The pose at a time in control periods, from 0 to `end`."""
+        tick = int(at)
+        if tick == at:
+            return Pose(self._positions[tick], self._orientations[tick])
+        time = self.time(at)
+        before, after = self._times[tick : tick + 2]
+        share = np.asarray((time - before) / (after - before))
+        orientation = slerp(self._orientations[tick], self._orientations[tick + 1], share)
+        return Pose(self._position(tick, time), orientation)
+
+    def _position(self, tick: int, time: float) -> Array:
+        """On the cubic through the nearest kept points (Lagrange): exact for cubics."""
+        first = max(0, min(tick - 1, len(self._times) - _NODES))
+        nodes = self._times[first : first + _NODES]
+        weights = [
+            math.prod((time - other) / (node - other) for other in nodes if other != node) for node in nodes.tolist()
+        ]
+        return np.asarray(weights @ self._positions[first : first + _NODES], dtype=np.float64)
