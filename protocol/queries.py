@@ -8,11 +8,13 @@ from typing import Annotated, Any, Generic, TypeVar
 
 import msgspec
 
+from protocol.history import Compare, Compared, HistoryListed, ListHistory
 from protocol.messages import (
     Condition,
     Count,
     Duration,
     Fraction,
+    Method,
     Mode,
     ModelState,
     Motion,
@@ -20,6 +22,7 @@ from protocol.messages import (
     Part,
     Pose,
     Prediction,
+    Purpose,
     Text,
     Vector3,
 )
@@ -177,13 +180,6 @@ class Predicted(msgspec.Struct, frozen=True, tag_field="reply", tag="predicted")
     prediction: Prediction
 
 
-class Purpose(Enum):
-    """What a demonstration is for the model: part of what it starts from, or an update."""
-
-    INITIAL = "initial"
-    UPDATE = "update"
-
-
 class AddDemonstration(Change, frozen=True):
     """Learn from a motion that reached the object.
 
@@ -196,6 +192,7 @@ class AddDemonstration(Change, frozen=True):
         operator: who gave it; empty where nobody did.
         alpha: of eq. 18, how far the prediction is moved towards the motion; 1 learns the motion itself.
         part: of the motion that was right; the rest stays as predicted.
+        method: how it was given.
     """
 
     purpose: Purpose
@@ -206,16 +203,33 @@ class AddDemonstration(Change, frozen=True):
     operator: Name = ""
     alpha: Fraction = 1.0
     part: Part = Part()
+    method: Method = Method.UNKNOWN
 
 
 class Undo(Change, frozen=True):
-    """Take the newest demonstration of one purpose back.
+    """Take a demonstration back, whichever came after it.
 
     Attributes:
-        purpose: an update, unless one of those that the model starts from is meant.
+        purpose: of the newest in use, which is meant where no entry is named.
+        entry: of the history, by its id; 0 for the newest.
+        operator: who takes it back; empty where nobody does.
     """
 
     purpose: Purpose = Purpose.UPDATE
+    entry: Count = 0
+    operator: Name = ""
+
+
+class Redo(Change, frozen=True):
+    """Use a demonstration again that was taken back.
+
+    Attributes:
+        entry: of the history, by its id.
+        operator: who wants it back; empty where nobody does.
+    """
+
+    entry: Count
+    operator: Name = ""
 
 
 class Describe(msgspec.Struct, frozen=True):
@@ -270,7 +284,12 @@ PREDICT = Query("model/predict", Predict, Predicted, "model", 1_048_576, "predic
 ADD_DEMONSTRATION = Query(
     "model/add_demonstration", AddDemonstration, Learnt, "model", 4_194_304, "learn; answered when it is on disk"
 )
-UNDO = Query("model/undo", Undo, Learnt, "model", 20_480, "take the newest update back, or a first demonstration")
+UNDO = Query("model/undo", Undo, Learnt, "model", 20_480, "take the newest update back, or any demonstration")
+REDO = Query("model/redo", Redo, Learnt, "model", 20_480, "use a demonstration again that was taken back")
+HISTORY = Query(
+    "model/history", ListHistory, HistoryListed, "model", 1_048_576, "what was learnt, by whom, and how far it led"
+)
+COMPARE = Query("model/compare", Compare, Compared, "model", 1_048_576, "what a demonstration changes")
 DESCRIBE = Query("model/describe", Describe, Learnt, "model", 20_480, "the model as it lies on disk")
 
 QUERIES: tuple[Query[Any, Any], ...] = (
@@ -285,5 +304,8 @@ QUERIES: tuple[Query[Any, Any], ...] = (
     PREDICT,
     ADD_DEMONSTRATION,
     UNDO,
+    REDO,
+    HISTORY,
+    COMPARE,
     DESCRIBE,
 )

@@ -9,7 +9,7 @@ from protocol.messages.authority import AuthorityRenewal, AuthorityState
 from protocol.messages.camera import CameraImage
 from protocol.messages.command import MasterState, OperatorInput
 from protocol.messages.health import Figure, Heartbeat, TopicFigures
-from protocol.messages.model import ModelState, Prediction, Way
+from protocol.messages.model import Method, ModelState, Prediction, Purpose, Way
 from protocol.messages.safety import EmergencyStop, SafetyState
 from protocol.messages.state import (
     Box,
@@ -66,6 +66,7 @@ __all__ = [
     "Light",
     "MasterState",
     "Message",
+    "Method",
     "Mode",
     "ModelState",
     "Motion",
@@ -77,6 +78,7 @@ __all__ = [
     "Phase",
     "Pose",
     "Prediction",
+    "Purpose",
     "Quaternion",
     "Real",
     "Recording",

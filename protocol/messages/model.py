@@ -2,11 +2,28 @@
 
 from __future__ import annotations
 
+import enum
 from typing import Annotated
 
 import msgspec
 
 from protocol.messages.values import Array, Count, Fraction, Message, Motion, Name, Vector3
+
+
+class Purpose(enum.Enum):
+    """What a demonstration is for the model: part of what it starts from, or an update."""
+
+    INITIAL = "initial"
+    UPDATE = "update"
+
+
+class Method(enum.Enum):
+    """How a demonstration was given: a prediction corrected while it ran, through waypoints, or led by hand."""
+
+    UNKNOWN = ""
+    REFINE = "refine"
+    WAYPOINTS = "waypoints"
+    DEMONSTRATE = "demonstrate"
 
 
 class Way(msgspec.Struct, frozen=True):

@@ -15,8 +15,8 @@ import numpy as np
 from lfd.motion.waypoints import through_waypoints
 from lfd.store.waypoint_file import Surroundings, read_waypoints
 from protocol import queries
-from protocol.messages import ModelState, Vector3
-from protocol.queries import AddDemonstration, Learnt, Purpose, Query, Undo
+from protocol.messages import Method, ModelState, Purpose, Vector3
+from protocol.queries import AddDemonstration, Learnt, Query, Undo
 from services.bus.arrays import motion_to_wire, vector3
 from services.bus.bus import Bus, Failed
 from services.bus.identity import new_number
@@ -140,8 +140,15 @@ def teach_waypoints(configuration: Configuration, file: Path, object_position: V
     with _model(configuration) as model:
         before = model.state(scene)
         purpose = Purpose.UPDATE if before.demonstrations or before.updates else Purpose.INITIAL
-        operator = configuration.operator
-        given = AddDemonstration(purpose, motion, object_position, scene.name, operator=operator, request=new_number())
+        given = AddDemonstration(
+            purpose,
+            motion,
+            object_position,
+            scene.name,
+            operator=configuration.operator,
+            method=Method.WAYPOINTS,
+            request=new_number(),
+        )
         state = model.add(given)
     log.info("taught a motion through %d waypoints; %s", len(waypoints.positions), _holds(state))
 
@@ -157,7 +164,7 @@ def take_back(configuration: Configuration) -> None:
     with _model(configuration) as model:
         before = model.state(scene)
         purpose = Purpose.UPDATE if before.updates else Purpose.INITIAL
-        state = model.undo(Undo(purpose=purpose, request=new_number()))
+        state = model.undo(Undo(purpose=purpose, operator=configuration.operator, request=new_number()))
     taken = "update" if purpose is Purpose.UPDATE else "first demonstration"
     log.info("took back the newest %s; %s", taken, _holds(state))
 

@@ -11,19 +11,21 @@ from typing import TypeVar
 import numpy as np
 
 from lfd.exceptions import LfdError
-from lfd.models.model import MovementModel
 from lfd.motion.demonstration import Demonstration, Situation
-from lfd.motion.provenance import Provenance
+from lfd.motion.provenance import Method, Provenance
 from lfd.motion.trajectory import Trajectory
 from lfd.store.database import DemonstrationStore
-from lfd.store.stored import Counts, Purpose, StoredDemonstration
+from lfd.store.stored import Counts, Purpose
 from protocol import messages, queries, topics
-from protocol.queries import AddDemonstration, Learnt, Predict, Predicted, Refused, Undo
+from protocol.history import Compare, Compared, HistoryListed, ListHistory
+from protocol.queries import AddDemonstration, Learnt, Predict, Predicted, Redo, Refused, Undo
 from services.bus.arrays import motion_from_wire, motion_to_wire, to_wire
 from services.bus.bus import Bus, Rep, Req
 from services.bus.identity import new_number
 from services.bus.server import Server
-from services.model.learning import MODELS, Fit, learn_all
+from services.model.comparison import Comparisons
+from services.model.history import History
+from services.model.learning import MODELS, Fit
 from services.model.skill import binding_of, check_demonstration, check_duration, check_situation, open_store
 from services.process.clock import Clock
 from services.process.config import Configuration
@@ -35,7 +37,7 @@ from sim.tasks import scene as find_scene
 
 log = logging.getLogger(__name__)
 
-Learns = TypeVar("Learns", AddDemonstration, Undo)
+Learns = TypeVar("Learns", AddDemonstration, Undo, Redo)
 
 
 def build(bus: Bus, clock: Clock, configuration: Configuration, models: Mapping[str, Fit] = MODELS) -> ModelService:
@@ -88,30 +90,33 @@ class ModelService:
     ) -> None:
         self._bus = bus
         self._utc = utc
-        self._store = store
         self._kind = kind
-        self._models = models
         self._scene = scene
         self._binding = binding_of(scene)
-        self._stored = store.active()
-        self._model = learn_all(kind, self._stored, models)
+        self._history = History(store, self._binding, kind, models)
+        self._comparisons = Comparisons(self._history, scene)
         self._predict = bus.serve(queries.PREDICT)
         self._add = bus.serve(queries.ADD_DEMONSTRATION)
         self._undo = bus.serve(queries.UNDO)
+        self._redo = bus.serve(queries.REDO)
+        self._list = bus.serve(queries.HISTORY)
+        self._compare = bus.serve(queries.COMPARE)
         self._describe = bus.serve(queries.DESCRIBE)
         self._stands_in = bus.subscribe(topics.SCENE_STATE)
         self._schedule = Schedule()
         self._newest: messages.Prediction | None = None
-        # Kept here: what is announced must not wait for a file that somebody holds.
-        self._state = self._state_in(store.version)
-        log.info("%s: model version %d, %d demonstrations", self._binding, self._state.version, len(self._stored))
+        log.info("%s: model version %d, %d demonstrations", self._binding, self._history.version, self._size)
 
     def step(self, now_ns: int) -> None:
         """Answer what was asked."""
         _answer(self._predict, self._predicted)
         _answer(self._add, self._once(self._learnt))
         _answer(self._undo, self._once(self._undone))
+        _answer(self._redo, self._once(self._redone))
+        _answer(self._list, self._listed)
+        _answer(self._compare, self._compared)
         _answer(self._describe, self._described)
+        self._comparisons.step()
         if self._schedule.due(topics.MODEL_STATE, now_ns):
             self._bus.publish(topics.MODEL_STATE, self._state)
             if self._newest is not None:
@@ -119,18 +124,22 @@ class ModelService:
 
     def figures(self) -> tuple[messages.Figure, ...]:
         """The model's size."""
-        return (messages.Figure("demonstrations", float(len(self._stored)), "1"),)
+        return (messages.Figure("demonstrations", float(self._size), "1"),)
 
     def close(self) -> None:
         """Close the database."""
-        self._store.close()
+        self._history.close()
+
+    @property
+    def _size(self) -> int:
+        return sum(self._history.counts)
 
     def _once(self, change: Callable[[Learns], Learnt | Refused]) -> Callable[[Learns], Learnt | Refused]:
         """The change, or the answer to a request that has made it already: in this process or in one before it."""
 
         def changed(request: Learns) -> Learnt | Refused:
-            version = self._store.made_by(request.request) if request.request else None
-            return change(request) if version is None else Learnt(self._state_in(version))
+            made = self._history.made_by(request.request)
+            return change(request) if made is None else Learnt(self._told(*made))
 
         return changed
 
@@ -141,11 +150,12 @@ class ModelService:
                 f"the robot stands in scene {there.message.name}, and this model is for {self._binding}:"
                 " start both with the same --scene"
             )
-        if self._model is None:
+        model = self._history.model
+        if model is None:
             return Refused("the model has no demonstration yet: teach it first")
         situation = _situation(request)
         check_situation(self._scene, situation)
-        prediction = self._model.predict(situation)
+        prediction = model.predict(situation)
         check_duration("the prediction's duration", prediction.trajectory)
         variances = np.diagonal(prediction.position_covariances, axis1=1, axis2=2)
         motion = prediction.trajectory
@@ -153,7 +163,7 @@ class ModelService:
             id=new_number(),
             motion=motion_to_wire(motion.positions, motion.orientations, motion.duration),
             deviations=to_wire(np.sqrt(np.maximum(variances, 0.0))),
-            model_version=self._state.version,
+            model_version=self._history.version,
             object_position=request.object_position,
             known=prediction.known,
             way=messages.Way(prediction.way.index, prediction.way.count, prediction.way.probability),
@@ -167,42 +177,50 @@ class ModelService:
                 f"the demonstration is of scene {request.scene}, and this model is for {self._binding}:"
                 f" start the model with --scene {request.scene}"
             )
-        demonstration = _demonstration(request, self._utc().timestamp())
+        demonstration = _demonstration(request, self._now_s())
         check_demonstration(self._scene, demonstration)
-        purpose = Purpose(request.purpose.value)
-        candidate = self._extended(demonstration, purpose)
-        version = self._store.add(demonstration, purpose, self._binding, request.request)
-        added = StoredDemonstration(version, purpose, self._binding, demonstration)
-        return self._changed(candidate, [*self._stored, added], version)
-
-    def _extended(self, demonstration: Demonstration, purpose: Purpose) -> MovementModel | None:
-        if purpose is Purpose.UPDATE and self._model is not None:
-            return self._model.updated(demonstration)
-        added = StoredDemonstration(self._state.version + 1, purpose, self._binding, demonstration)
-        return learn_all(self._kind, [*self._stored, added], self._models)
+        self._history.add(demonstration, Purpose(request.purpose.value), request.request)
+        return self._changed(self._history.version)
 
     def _undone(self, request: Undo) -> Learnt | Refused:
-        purpose = Purpose(request.purpose.value)
-        newest = next((one for one in reversed(self._stored) if one.purpose is purpose), None)
-        if newest is None:
-            known = "update" if purpose is Purpose.UPDATE else "first demonstration"
-            return Refused(f"there is no {known} to take back")
-        left = [one for one in self._stored if one is not newest]
-        model = learn_all(self._kind, left, self._models)
-        return self._changed(model, left, self._store.undo(newest.version, request.request))
+        if request.entry:
+            entry = self._history.find(request.entry)
+        else:
+            purpose = Purpose(request.purpose.value)
+            newest = self._history.newest(purpose)
+            if newest is None:
+                known = "update" if purpose is Purpose.UPDATE else "first demonstration"
+                return Refused(f"there is no {known} to take back")
+            entry = newest
+        self._history.turn(entry, in_use=False, author=request.operator, at_s=self._now_s(), request=request.request)
+        return self._changed(entry.version)
 
-    def _changed(self, model: MovementModel | None, stored: list[StoredDemonstration], version: int) -> Learnt:
-        """Take over what is on disk by now; nothing here can fail."""
-        self._model, self._stored = model, stored
-        self._state = self._told(version, Counts.of(stored))
+    def _redone(self, request: Redo) -> Learnt | Refused:
+        entry = self._history.find(request.entry)
+        self._history.turn(entry, in_use=True, author=request.operator, at_s=self._now_s(), request=request.request)
+        return self._changed(entry.version)
+
+    def _changed(self, entry: int) -> Learnt:
+        """Told as it is on disk by now; what the entry changes is worked out before anybody asks."""
+        self._comparisons.of(self._history.find(entry))
         return Learnt(self._state)
+
+    def _listed(self, request: ListHistory) -> HistoryListed:
+        return self._history.listed(request.before)
+
+    def _compared(self, request: Compare) -> Compared | Refused:
+        return self._comparisons.of(self._history.find(request.entry))
 
     def _described(self, request: queries.Describe) -> Learnt:
         del request
         return Learnt(self._state)
 
-    def _state_in(self, version: int) -> messages.ModelState:
-        return self._told(version, self._store.counts(version))
+    @property
+    def _state(self) -> messages.ModelState:
+        return self._told(self._history.version, self._history.counts)
+
+    def _now_s(self) -> float:
+        return self._utc().timestamp()
 
     def _told(self, version: int, counts: Counts) -> messages.ModelState:
         return messages.ModelState(
@@ -218,7 +236,7 @@ class ModelService:
 def _demonstration(request: AddDemonstration, at_s: float) -> Demonstration:
     motion = Trajectory(*motion_from_wire(request.motion))
     origin = np.array(request.object_position, dtype=np.float64)
-    provenance = Provenance(request.operator, at_s, request.alpha)
+    provenance = Provenance(request.operator, at_s, request.alpha, Method(request.method.value))
     part = request.part.first, request.part.last
     if request.condition:
         return Demonstration(motion, origin, np.array(request.condition), provenance, part)

@@ -10,8 +10,8 @@ from pathlib import Path
 
 from lfd.motion.demonstration import Demonstration
 from protocol import queries
-from protocol.messages import EpisodeResult, TeachingState
-from protocol.queries import AddDemonstration, Learnt, Purpose
+from protocol.messages import EpisodeResult, Purpose, TeachingState
+from protocol.queries import AddDemonstration, Learnt
 from protocol.topics import EPISODE_RESULT, TEACHING_STATE
 from services.bus.arrays import from_wire, motion_to_wire, vector3
 from services.bus.predictions import Predictions

@@ -183,7 +183,7 @@ def test_every_query_refuses_what_is_no_request(network, unmoved):
     sent = {}
     for query in queries.QUERIES:
         sample = msgpack.packb(
-            {"epoch": "none", "holder": 7, "by": 7, "kind": 7, "prediction": 7, "object_position": 7}
+            {"epoch": "none", "holder": 7, "by": 7, "kind": 7, "prediction": 7, "object_position": 7, "before": "none"}
         )
         wrong = [
             *garbage.no_messages(query.max_bytes),

@@ -7,7 +7,7 @@ from dataclasses import replace
 import msgspec
 
 from protocol import queries
-from protocol.messages import Motion
+from protocol.messages import Method, Motion, Purpose
 from services.bus.predictions import percent
 from services.station.workflow.asking import ask, not_done, to
 from services.station.workflow.state import Phase, Settings, Taught, Workflow
@@ -42,7 +42,7 @@ def learning(state: Workflow, view: View, settings: Settings) -> Step:
 
 def _request(taught: Taught, view: View, settings: Settings, intent: int) -> queries.AddDemonstration:
     return queries.AddDemonstration(
-        queries.Purpose.UPDATE,
+        Purpose.UPDATE,
         learnable(taught.motion, settings.autonomous_s),
         taught.object_position,
         view.scene.name if view.scene is not None else "",
@@ -50,6 +50,7 @@ def _request(taught: Taught, view: View, settings: Settings, intent: int) -> que
         operator=settings.operator,
         alpha=settings.alpha,
         part=taught.part,
+        method=Method.REFINE,
         request=intent,
     )
 
@@ -61,8 +62,7 @@ def learnable(motion: Motion, duration: float) -> Motion:
 
 def undoing(state: Workflow, view: View, settings: Settings) -> Step:
     """Have the model take its newest update back."""
-    del settings
-    reply = ask(state, view, queries.UNDO, lambda intent: queries.Undo(request=intent))
+    reply = ask(state, view, queries.UNDO, lambda intent: queries.Undo(operator=settings.operator, request=intent))
     match reply:
         case Step():
             return reply

@@ -32,9 +32,9 @@ class Rig:
         self.service.step(self.clock.now_ns())
         return pending.poll()
 
-    def teach(self, purpose, bend=0.0, at=OBJECT, duration=10.0, **more):
+    def teach(self, purpose, bend=0.0, at=OBJECT, duration=10.0, start=START.position, **more):
         t = np.linspace(0.0, 1.0, 40)[:, None]
-        path = np.array(START.position) + t * (np.array(at) - START.position) + np.sin(np.pi * t) * [0.0, 0.0, bend]
+        path = np.array(start) + t * np.subtract(at, start) + np.sin(np.pi * t) * [0.0, 0.0, bend]
         motion = motion_to_wire(path, np.tile(START.orientation, (40, 1)), duration)
         given = {"scene": "dishwasher", **more}
         return self.ask(queries.ADD_DEMONSTRATION, AddDemonstration(purpose, motion, at, **given))

@@ -5,6 +5,7 @@ from dataclasses import replace
 import msgspec
 import numpy as np
 
+from lfd.models.adaptive.adaptation import AdaptiveProMP
 from lfd.models.model import Way
 from protocol import messages, topics
 from protocol.queries import Predicted, Purpose
@@ -60,9 +61,9 @@ def test_a_prediction_says_how_much_of_it_is_known(rig):
 
 def test_a_prediction_says_which_of_several_ways_it_takes(rig, monkeypatch):
     rig.teach(Purpose.INITIAL)
-    predict = type(rig.service._model).predict
+    predict = AdaptiveProMP.predict
     monkeypatch.setattr(
-        type(rig.service._model), "predict", lambda *asked: replace(predict(*asked), known=0.6, way=Way(1, 2, 0.8))
+        AdaptiveProMP, "predict", lambda *asked: replace(predict(*asked), known=0.6, way=Way(1, 2, 0.8))
     )
     prediction = rig.predict().prediction
     assert prediction.way == messages.Way(1, 2, 0.8)
