@@ -8,7 +8,7 @@ from typing import Annotated
 import msgspec
 
 from protocol.messages.state import Mode
-from protocol.messages.values import Condition, Count, Message, Name, Real, Text, Vector3
+from protocol.messages.values import Condition, Count, Message, Name, Part, Real, Text, Vector3
 
 
 class Light(enum.Enum):
@@ -69,6 +69,8 @@ class TeachingState(Message, frozen=True, kw_only=True):
         reason: why not, empty where it did.
         actions: what the operator may do now, by name.
         recommended: which of them brings the run on; empty where there is nothing to choose.
+        pace: at which motions go; 1 is their own.
+        part: of the next refinement in which corrections count, or of the one that runs.
     """
 
     phase: Name
@@ -82,8 +84,10 @@ class TeachingState(Message, frozen=True, kw_only=True):
     finished: bool = False
     loop_closed: bool = False
     reason: Text = ""
-    actions: Annotated[tuple[Name, ...], msgspec.Meta(max_length=16)] = ()
+    actions: Annotated[tuple[Name, ...], msgspec.Meta(max_length=32)] = ()
     recommended: Name = ""
+    pace: Real = 1.0
+    part: Part = Part()
 
 
 class Recording(Message, frozen=True, kw_only=True):

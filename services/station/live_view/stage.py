@@ -50,8 +50,18 @@ class Stage:
         master = self._ears.master.fresh(now_ns)
         return _NO_FORCE if master is None else master.force
 
+    def spoilt(self, now_ns: int) -> tuple[float, ...]:
+        """Shares of the motion that is shown at which the last episode of it touched or kicked over something."""
+        result, shown = message(self._ears.results.latest()), self._shown(now_ns)
+        if result is None or shown is None or result.prediction != shown.id:
+            return ()
+        return (result.clear_until,) if result.clear_until < result.progress else ()
+
+    def _shown(self, now_ns: int) -> Prediction | None:
+        return self._ears.predictions.shown(self._ears.execution.fresh(now_ns))
+
     def _predicted(self, now_ns: int) -> Curve | None:
-        prediction = self._ears.predictions.shown(self._ears.execution.fresh(now_ns))
+        prediction = self._shown(now_ns)
         if prediction is not self._curve[0]:
             self._curve = prediction, None if prediction is None else _curve(prediction)
         return self._curve[1]

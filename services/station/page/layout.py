@@ -6,6 +6,7 @@ from services.station.page.controls import actions, emergency_stop
 from services.station.page.input import Standing
 from services.station.page.panels import counters, header, scene, traffic_light, verdict
 from services.station.page.seating import seating
+from services.station.page.timeline import timeline
 from services.station.page.values import Values
 from services.station.page.view import Shown
 
@@ -24,6 +25,7 @@ def values(shown: Shown, standing: Standing) -> Values:
         **counters(shown),
         **verdict(shown),
         **actions(shown),
+        **timeline(shown),
         **emergency_stop(shown, standing),
         **seating(standing),
     }

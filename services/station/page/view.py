@@ -9,6 +9,7 @@ import msgspec
 
 from protocol.messages import (
     AuthorityState,
+    ExecutionState,
     Figure,
     Light,
     ModelState,
@@ -48,6 +49,8 @@ class PageView:
     Attributes:
         robot_age_s: age of the robot's state [s]; infinite where there is none.
         prediction: of the model as it is now.
+        execution: of the motion under way; None where there is none.
+        spoilt: shares of the motion that is shown at which something was touched or kicked over.
         drawing: what the live view shows.
         force: that the operator feels [N].
         authority_is_mine: this station holds the authority.
@@ -65,6 +68,8 @@ class PageView:
     model: ModelState | None = None
     prediction: Prediction | None = None
     object_pose: ObjectPose | None = None
+    execution: ExecutionState | None = None
+    spoilt: tuple[float, ...] = ()
     drawing: Drawing = field(default_factory=Drawing)
     force: Vector3 = (0.0, 0.0, 0.0)
     recording: Recording | None = None

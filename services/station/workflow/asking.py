@@ -30,6 +30,7 @@ def to(state: Workflow, phase: Phase, view: View, **changes: Any) -> Workflow:
         "intent": 0,
         "retry_s": 0.0,
         "wants": None,
+        "going": None,
         "offered": frozenset(),
         "notice": "",
     }

@@ -8,7 +8,8 @@ from protocol.messages import Mode
 from services.station.workflow.asking import to
 from services.station.workflow.closure import Closure
 from services.station.workflow.episode import press
-from services.station.workflow.state import Action, Phase, Settings, Workflow
+from services.station.workflow.going import SETTING, set_for_next
+from services.station.workflow.state import WHOLE, Action, Phase, Settings, Workflow
 from services.station.workflow.view import Step, View
 
 
@@ -16,12 +17,13 @@ def deciding(state: Workflow, view: View, settings: Settings) -> Step:
     """Wait for a press; what the model was told and has not answered comes first."""
     if state.owed is not None:
         return Step(to(state, state.owed.phase, view, intent=state.owed.intent, owed=None))
-    offered = {Action.EXECUTE, Action.REFINE, Action.NEXT, Action.END}
+    state = set_for_next(state, view)
+    offered = {Action.EXECUTE, Action.REFINE, Action.NEXT, Action.END} | SETTING
     if state.updates:
         offered.add(Action.UNDO)
     if state.taught is not None:
         offered.add(Action.TEACH)
-    pressed = [action for action in Action if action in view.actions & offered]
+    pressed = [action for action in Action if action in view.actions & offered - SETTING]
     chosen = recommended(state, settings) if settings.scripted else next(iter(pressed), None)
     if chosen is None:
         return Step(replace(state, offered=frozenset(offered)))
@@ -54,7 +56,7 @@ def finished(state: Workflow, view: View, settings: Settings) -> Step:
 
 
 def _elsewhere(state: Workflow) -> Workflow:
-    return replace(state, placed=None, last=None, refinements=0, updates=0, warned=False)
+    return replace(state, placed=None, part=WHOLE, last=None, refinements=0, updates=0, warned=False)
 
 
 def recommended(state: Workflow, settings: Settings) -> Action:

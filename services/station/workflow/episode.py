@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import msgspec
@@ -12,9 +14,10 @@ from protocol.messages import Mode, Prediction, Vector3
 from protocol.messages import Phase as RobotPhase
 from protocol.queries import Query
 from services.bus.predictions import LITTLE
+from services.station.workflow import going
 from services.station.workflow.asking import RETRY_S, ask, not_done, to
 from services.station.workflow.authority import runs
-from services.station.workflow.state import Action, Episode, Phase, Place, Settings, Workflow
+from services.station.workflow.state import WHOLE, Action, Episode, Going, Phase, Place, Settings, Workflow
 from services.station.workflow.view import Ask, Step, View
 
 LOOK_S = 0.8
@@ -116,22 +119,24 @@ def starting(state: Workflow, view: View, settings: Settings) -> Step:
     if robot is None:
         return Step(state)
     duration = settings.duration_s(state.mode)
+    part = state.part if state.mode is Mode.REFINE else WHOLE
     reply = ask(
         state,
         view,
         queries.EXECUTE,
         lambda intent: queries.Execute(
-            state.epoch, state.mode, prediction.id, duration, settings.adapt, request=intent
+            state.epoch, state.mode, prediction.id, duration, settings.adapt, part, request=intent
         ),
     )
     if isinstance(reply, queries.Refused):
         # The robot has moved since, or has not heard this prediction: another one is as quickly made.
         return _refused(state, view, settings, queries.EXECUTE, reply, again=Phase.PREDICTING)
     if isinstance(reply, Step):
-        told = Episode(reply.state.intent, robot.publisher) if reply.ask is not None else state.episode
+        told = Episode(reply.state.intent, robot.publisher, part=part) if reply.ask is not None else state.episode
         return Step(replace(reply.state, episode=told), reply.ask)
     started = replace(state.episode, number=reply.episode) if state.episode is not None else None
-    return Step(to(state, Phase.EXECUTING, view, episode=started, pressed=False, let_go=False))
+    paced = Going(state.pace) if state.pace != 1.0 else None
+    return Step(to(state, Phase.EXECUTING, view, episode=started, pressed=False, let_go=False, going=paced))
 
 
 def _refused(
@@ -158,6 +163,7 @@ def executing(state: Workflow, view: View, settings: Settings) -> Step:
     ended = _without_result(state, view, settings)
     if ended:
         return Step(to(state, Phase.DECIDING, view, episode=None, event=ended))
+    state = going.heard(state, view)
     wanted = _wanted(state, view, settings)
     if wanted is not state.wants:
         state = replace(state, wants=wanted, question=0, intent=0, retry_s=view.now_s, event="")
@@ -165,32 +171,39 @@ def executing(state: Workflow, view: View, settings: Settings) -> Step:
     if let_go is not state.let_go:
         state = replace(state, let_go=let_go)
     waits = view.robot is not None and view.robot.waiting
-    offered = frozenset({Action.FINISH, Action.GO_ON} if waits else {Action.FINISH})
+    offered = going.offered(view) | ({Action.FINISH, Action.GO_ON} if waits else {Action.FINISH})
     match state.wants:
         case Action.FINISH:
             finishing = replace(state.episode, finishing=True) if state.episode is not None else None
-            step = _order(replace(state, episode=finishing), view, queries.FINISH)
+            state = replace(state, episode=finishing, going=None)
+            step = _order(state, view, queries.FINISH, lambda intent: queries.Finish(state.epoch, request=intent))
         case Action.GO_ON:
-            step = _order(state, view, queries.RESUME)
+            step = _order(state, view, queries.RESUME, lambda intent: queries.Resume(state.epoch, request=intent))
+        case Action.PACE if state.going is not None:
+            step = _order(state, view, queries.PACE, partial(going.request, state, state.going))
         case _:
             step = Step(state)
     return step if offered == step.state.offered else Step(replace(step.state, offered=offered), step.ask)
 
 
 def _wanted(state: Workflow, view: View, settings: Settings) -> Action | None:
-    """What the operator wants of the robot: what is not answered yet, but to end goes before to go on."""
+    """What the operator wants of the robot: what is not answered yet, but to end goes before all else."""
     if Action.FINISH in view.actions or state.wants is not None:
         return Action.FINISH if Action.FINISH in view.actions else state.wants
     pressed = view.now_s >= state.retry_s if settings.scripted else Action.GO_ON in view.actions
-    return Action.GO_ON if pressed and view.robot is not None and view.robot.waiting else None
+    if pressed and view.robot is not None and view.robot.waiting:
+        return Action.GO_ON
+    return Action.PACE if state.going is not None else None
 
 
-def _order(state: Workflow, view: View, query: Query[Any, Any]) -> Step:
-    """Finish or go on, as the operator wants, until the robot has answered."""
-    reply = ask(state, view, query, lambda intent: query.request(state.epoch, request=intent))
+def _order(state: Workflow, view: View, query: Query[Any, Any], request: Callable[[int], msgspec.Struct]) -> Step:
+    """Finish, go on, or at another pace, as the operator wants, until the robot has answered."""
+    reply = ask(state, view, query, request)
     if isinstance(reply, Step):
         return reply
     answered = replace(state, wants=None, retry_s=view.now_s + RETRY_S)
+    if query is queries.PACE:
+        answered = replace(answered, going=None)
     if not isinstance(reply, queries.Refused):
         return Step(replace(answered, notice=""))
     if query is queries.FINISH and view.robot is not None and view.robot.phase is RobotPhase.IDLE:

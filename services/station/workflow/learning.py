@@ -8,9 +8,9 @@ import msgspec
 
 from protocol import queries
 from protocol.messages import Method, Motion, Purpose
-from services.bus.predictions import percent
 from services.station.workflow.asking import ask, not_done, to
-from services.station.workflow.state import Phase, Settings, Taught, Workflow
+from services.station.workflow.part import extent
+from services.station.workflow.state import WHOLE, Phase, Settings, Taught, Workflow
 from services.station.workflow.view import Step, View
 
 
@@ -34,9 +34,10 @@ def learning(state: Workflow, view: View, settings: Settings) -> Step:
                 return Step(to(state, Phase.FINISHED, view, owed=None, reason=notice))
             return Step(to(state, Phase.DECIDING, view, owed=None, event=notice))
         case _:
-            learnt = replace(state, taught=None, last=None, refinements=0, updates=state.updates + 1, warned=False)
-            upto = "" if taught.whole else f" up to {percent(taught.part.last)} of the motion"
-            event = f"The model has learnt the correction{upto}."
+            learnt = replace(
+                state, taught=None, last=None, refinements=0, updates=state.updates + 1, warned=False, part=WHOLE
+            )
+            event = f"The model has learnt the correction{extent(taught.part)}."
             return Step(to(learnt, Phase.DECIDING, view, owed=None, event=event))
 
 

@@ -28,6 +28,13 @@ class Action(Enum):
     RELEASE_STOP = "release_stop"
     ASK = "ask"
     TAKE_OVER = "take_over"
+    PACE = "pace"
+    PAUSE = "pause"
+    PLAY = "play"
+    STEP_BACK = "step_back"
+    STEP_ON = "step_on"
+    SEEK = "seek"
+    PART = "part"
 
 
 class Phase(Enum):
@@ -108,12 +115,27 @@ class Episode:
         robot: the robot process' incarnation that was told.
         number: the robot's own for it; 0 until the robot has said so.
         finishing: the operator asked to end it.
+        part: of the motion in which corrections count.
     """
 
     request: int
     robot: int
     number: int = 0
     finishing: bool = False
+    part: Part = WHOLE
+
+
+@dataclass(frozen=True)
+class Going:
+    """How the motion under way is to go on.
+
+    Attributes:
+        rate: of the motion's time; 0 pauses, a negative one goes back.
+        until: share of the motion at which it pauses; None for none.
+    """
+
+    rate: float
+    until: float | None = None
 
 
 @dataclass(frozen=True)
@@ -125,17 +147,14 @@ class Taught:
         object_position: that the motion is relative to, base frame [m].
         condition: that it was right for; empty where it is the object's.
         part: of the motion that was right.
+        whole: the refinement succeeded, and all that was to be corrected of it was right.
     """
 
     motion: Motion
     object_position: Vector3
     condition: Condition = ()
     part: Part = WHOLE
-
-    @property
-    def whole(self) -> bool:
-        """All of the motion was right."""
-        return self.part == WHOLE
+    whole: bool = True
 
 
 @dataclass(frozen=True)
@@ -168,6 +187,9 @@ class Workflow:
         episode: that the robot was told to run and whose result has not come; None where there is none.
         owed: to the model.
         mode: of the next episode.
+        pace: at which motions go; 1 is their own.
+        part: of the next refinement in which corrections count.
+        going: how the operator wants the motion under way to go on, until the robot has answered.
         placed: where the target was put.
         looked: where the object was seen [m]; the base frame's origin where there is none.
         condition: that the robot stood in then; empty where it is the object's.
@@ -203,6 +225,9 @@ class Workflow:
     episode: Episode | None = None
     owed: Owed | None = None
     mode: Mode = Mode.AUTONOMOUS
+    pace: float = 1.0
+    part: Part = WHOLE
+    going: Going | None = None
     placed: Place | None = None
     looked: Vector3 | None = None
     condition: Condition = ()

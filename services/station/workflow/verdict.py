@@ -15,6 +15,7 @@ from services.bus.arrays import motion_from_wire, motion_to_wire
 from services.process.exceptions import ServiceError
 from services.station.workflow.asking import to
 from services.station.workflow.episode import ORIGIN
+from services.station.workflow.part import common
 from services.station.workflow.state import WHOLE, Episode, Phase, Taught, Workflow
 from services.station.workflow.view import View
 
@@ -85,22 +86,32 @@ def _taught(state: Workflow, result: EpisodeResult, outcome: Outcome, episode: E
         return None
     finished = episode.finishing and result.cut is Cut.FINISHED
     succeeded = outcome.success and (result.completed or finished)
-    part = WHOLE if succeeded else _part_before(result, finished=finished)
-    motion = _shown(result) if succeeded or part is None else _of_all_phases(result)
+    part = (_part_within if succeeded else _part_before)(result, episode.part, finished=finished)
+    motion = _shown(result) if part == WHOLE else _of_all_phases(result)
     if part is None or motion is None:
         return None
-    return Taught(motion, state.looked or ORIGIN, state.condition, part)
+    whole = succeeded and part == episode.part
+    return Taught(motion, state.looked or ORIGIN, state.condition, part, whole=whole)
 
 
-def _part_before(result: EpisodeResult, *, finished: bool) -> Part | None:
-    """The part of a refinement before it failed or was cut short; None where there is none to speak of.
+def _part_within(result: EpisodeResult, corrected: Part, *, finished: bool) -> Part | None:
+    """What was corrected of a refinement that succeeded: all of it, or as far as it came before it was finished."""
+    if corrected == WHOLE or not finished:
+        return corrected
+    return common(Part(0.0, max(result.progress, SHORTEST)), corrected, SHORTEST)
+
+
+def _part_before(result: EpisodeResult, corrected: Part, *, finished: bool) -> Part | None:
+    """What was corrected of a refinement before it failed or was cut short; None where there is none to speak of.
 
     One that came to its end and merely missed the target does not say where it went wrong.
     """
     cut = finished or result.cut is Cut.STOPPED
     spoilt = result.clear_until < result.progress and (result.completed or cut)
     last = min(result.clear_until, result.progress) - MARGIN
-    return Part(0.0, last) if result.operator_input and (cut or spoilt) and last >= SHORTEST else None
+    if not (result.operator_input and (cut or spoilt) and last >= SHORTEST):
+        return None
+    return common(Part(0.0, last), corrected, SHORTEST)
 
 
 def _shown(result: EpisodeResult) -> Motion:

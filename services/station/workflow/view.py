@@ -48,6 +48,7 @@ class View:
         authority: who may command.
         safety: whether it may move at all.
         verdict: the success criteria as they are now.
+        execution: of the motion under way.
         scene: in which it stands.
         scene_s: when that came [s].
         model: the model's state.
@@ -68,6 +69,7 @@ class View:
     authority: messages.AuthorityState | None = None
     safety: messages.SafetyState | None = None
     verdict: messages.Verdict | None = None
+    execution: messages.ExecutionState | None = None
     scene: messages.SceneState | None = None
     scene_s: float = 0.0
     model: ModelState | None = None

@@ -7,6 +7,7 @@ from protocol.messages import Phase as RobotPhase
 from services.bus.predictions import certainty, way_taken
 from services.station.workflow.authority import another, missing
 from services.station.workflow.deciding import recommended
+from services.station.workflow.going import elsewhere, paused
 from services.station.workflow.state import Action, Phase, Settings, Workflow
 from services.station.workflow.view import View
 
@@ -40,6 +41,8 @@ def teaching_state(state: Workflow, view: View, settings: Settings) -> TeachingS
         reason=state.reason,
         actions=tuple(sorted(action.value for action in state.offered)),
         recommended=recommended(state, settings).value if state.phase is Phase.DECIDING and state.offered else "",
+        pace=state.pace,
+        part=state.episode.part if state.episode is not None else state.part,
     )
 
 
@@ -62,7 +65,7 @@ def _light(state: Workflow, view: View) -> Light:
         return Light.GREEN
     if state.phase is not Phase.EXECUTING:
         return Light.AMBER
-    if view.robot is not None and view.robot.phase is RobotPhase.HOLD:
+    if view.robot is not None and (view.robot.phase is RobotPhase.HOLD or paused(view)):
         return Light.HOLD
     if state.mode is Mode.AUTONOMOUS:
         return Light.RED
@@ -71,7 +74,7 @@ def _light(state: Workflow, view: View) -> Light:
 
 def _may_correct(state: Workflow, view: View) -> bool:
     under_way = view.robot is not None and view.robot.phase is RobotPhase.EXECUTE
-    return under_way and not state.let_go and not _collided(view)
+    return under_way and not state.let_go and not _collided(view) and not elsewhere(view)
 
 
 def _text(state: Workflow, view: View, settings: Settings) -> str:
@@ -131,11 +134,21 @@ def _executing(state: Workflow, view: View) -> str:
     if robot.phase is not RobotPhase.EXECUTE:
         ramps = robot.phase is RobotPhase.RAMP
         return "Wait: the robot goes to where the motion goes on." if ramps else "The motion has ended."
-    if state.mode is Mode.AUTONOMOUS:
-        way = way_taken(state.prediction.way) if state.prediction is not None else ""
-        return f"The robot executes the prediction{f' ({way})' if way else ''}. Watch."
+    if paused(view):
+        return "Paused. Play goes on, a step goes back or on."
+    return _watching(state) if state.mode is Mode.AUTONOMOUS else _correcting(state, view)
+
+
+def _watching(state: Workflow) -> str:
+    way = way_taken(state.prediction.way) if state.prediction is not None else ""
+    return f"The robot executes the prediction{f' ({way})' if way else ''}. Watch."
+
+
+def _correcting(state: Workflow, view: View) -> str:
     if _collided(view):
         return "The robot has touched something: this attempt has failed. Finish it, or let it end."
+    if elsewhere(view):
+        return elsewhere(view)
     return "Let go of the keys: they count from then on." if state.let_go else "Correct the motion now."
 
 

@@ -4,7 +4,18 @@ import numpy as np
 import pytest
 
 from protocol import topics
-from protocol.messages import Box, ExecutionState, MasterState, Mode, Phase, Pose, RobotState, SceneState, Verdict
+from protocol.messages import (
+    Box,
+    EpisodeResult,
+    ExecutionState,
+    MasterState,
+    Mode,
+    Phase,
+    Pose,
+    RobotState,
+    SceneState,
+    Verdict,
+)
 from services.bus.arrays import motion_to_wire, to_wire
 from services.bus.memory import MemoryNetwork
 from services.process.clock import ManualClock
@@ -129,3 +140,38 @@ def test_the_force_is_the_masters_as_long_as_it_is_heard():
     assert network.stage.force(network.clock.now_ns()) == (0.0, 1.5, 0.0)
     network.clock.advance(5.0)
     assert network.stage.force(network.clock.now_ns()) == (0.0, 0.0, 0.0)
+
+
+def result(prediction, **shares):
+    motion = line(1.0)
+    return EpisodeResult(
+        episode=1,
+        request=1,
+        mode=Mode.AUTONOMOUS,
+        completed=True,
+        reason="",
+        prediction=prediction,
+        refined=motion,
+        commanded=motion,
+        measured=motion,
+        verdict=Verdict(reached=False, kicked_over=False, collision=True),
+        operator_input=False,
+        clamped=0,
+        held=0.0,
+        duration=1.0,
+        **shares,
+    )
+
+
+def test_where_the_last_episode_of_the_motion_that_is_shown_was_spoilt_is_told():
+    network = Network()
+    shown = announce(network.other, line(1.0))
+    network.seen()
+
+    def ended(prediction, **shares):
+        network.other.publish(topics.EPISODE_RESULT, result(prediction, **shares))
+        return network.stage.spoilt(network.clock.now_ns())
+
+    assert ended(shown, progress=1.0, clear_until=0.6) == (0.6,)
+    assert ended(shown, progress=0.6, clear_until=0.6) == ()
+    assert ended(shown + 1, progress=1.0, clear_until=0.6) == ()

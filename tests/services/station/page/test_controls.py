@@ -8,6 +8,7 @@ from views import SEATED, shown, teaching
 from protocol.keys import PUSH_KEYS, TURN_KEYS
 from protocol.messages import SafetyState
 from services.station.page.controls import BUTTONS, KEYBOARDS, actions, emergency_stop
+from services.station.page.timeline import CONTROLS
 from services.station.workflow.state import Action
 
 PRESSED = replace(SEATED, stop_pressed=True)
@@ -26,8 +27,8 @@ def test_the_page_shows_the_very_keys_that_the_device_obeys():
 
 
 def test_every_action_of_the_workflow_has_a_button():
-    in_the_stop_s_place = {Action.RELEASE_STOP.value}
-    assert {action.value for action in Action} <= {button.action for button in BUTTONS} | in_the_stop_s_place
+    elsewhere = {Action.RELEASE_STOP.value, *CONTROLS}
+    assert {action.value for action in Action} <= {button.action for button in BUTTONS} | elsewhere
 
 
 def test_a_button_can_be_pressed_where_the_workflow_offers_it():

@@ -83,8 +83,8 @@ class Site:
         self.numbers += 1
         before = self.state.phase
         now = {"now_s": self.now_s, "seen_s": self.now_s, "scene_s": self.now_s, "number": self.numbers}
-        presses = tuple(Press(action.value) for action in actions)
-        step = advance(self.state, replace(self.view, presses=presses, **(now | seen)), self.settings)
+        now["presses"] = tuple(Press(action.value) for action in actions)
+        step = advance(self.state, replace(self.view, **(now | seen)), self.settings)
         self.state = step.state
         if step.ask is not None:
             self.asked.append(step.ask)

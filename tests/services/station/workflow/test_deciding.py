@@ -4,6 +4,7 @@ import pytest
 
 from protocol import queries
 from protocol.messages import Mode
+from services.station.workflow.going import SETTING
 from services.station.workflow.state import Action, Phase
 from tests.services.station.workflow.site import (
     BY_HAND,
@@ -25,7 +26,7 @@ def test_after_connecting_it_asks_for_the_authority_looks_and_stands():
     assert site.state.phase is Phase.DECIDING
     assert site.names() == ["authority/acquire"]
     assert site.state.looked == (0.85, 0.05, 0.5)
-    assert site.state.offered == {Action.EXECUTE, Action.REFINE, Action.NEXT, Action.END}
+    assert site.state.offered == {Action.EXECUTE, Action.REFINE, Action.NEXT, Action.END} | SETTING
 
 
 def test_a_press_before_it_asks_moves_nothing():

@@ -66,7 +66,7 @@ def told(state, **seen):
         ),
         (Workflow(phase=Phase.DECIDING, taught=TAUGHT), {}, Light.GREEN, "Teach this, or discard it by going on."),
         (
-            Workflow(phase=Phase.DECIDING, last=COLLIDED, taught=replace(TAUGHT, part=Part(0.0, 0.5))),
+            Workflow(phase=Phase.DECIDING, last=COLLIDED, taught=replace(TAUGHT, part=Part(0.0, 0.5), whole=False)),
             {},
             Light.GREEN,
             "The robot collided, the target was not reached. Teach what you showed before, or discard it by going on.",
@@ -177,7 +177,7 @@ def test_the_state_tells_counts_offers_and_the_end():
         (Workflow(last=COLLIDED), "refine"),
         (Workflow(last=REACHED), "next"),
         (Workflow(last=REACHED, taught=TAUGHT), "teach"),
-        (Workflow(last=COLLIDED, taught=replace(TAUGHT, part=Part(0.0, 0.5))), "refine"),
+        (Workflow(last=COLLIDED, taught=replace(TAUGHT, part=Part(0.0, 0.5), whole=False)), "refine"),
     ],
 )
 def test_what_is_recommended_is_told_while_there_is_a_choice(state, action):
