@@ -102,6 +102,18 @@ class Execute(Change, frozen=True):
     part: Part = Part()
 
 
+class Teleoperate(Change, frozen=True):
+    """Let the operator's hand lead the robot, from where it is, until somebody asks to finish.
+
+    Its end, and the motion, are announced on the topic state/episode_result.
+
+    Attributes:
+        epoch: of the authority.
+    """
+
+    epoch: Count
+
+
 class EpisodeStarted(msgspec.Struct, frozen=True, tag_field="reply", tag="started"):
     """The episode's number."""
 
@@ -275,6 +287,9 @@ class Query(Generic[Req, Rep]):
 ACQUIRE = Query("authority/acquire", AcquireAuthority, AuthorityGranted, "robot", 20_480, "ask for the authority")
 RELEASE = Query("authority/release", ReleaseAuthority, Accepted, "robot", 20_480, "give the authority back")
 EXECUTE = Query("cmd/execute", Execute, EpisodeStarted, "robot", 20_480, "execute a prediction")
+TELEOPERATE = Query(
+    "cmd/teleoperate", Teleoperate, EpisodeStarted, "robot", 20_480, "lead the robot by hand, without a prediction"
+)
 FINISH = Query("cmd/finish", Finish, Accepted, "robot", 20_480, "end the episode here")
 PACE = Query("cmd/pace", Pace, Accepted, "robot", 20_480, "faster, slower, pause or back")
 RESUME = Query("cmd/resume", Resume, Accepted, "robot", 20_480, "go on after a hold")
@@ -296,6 +311,7 @@ QUERIES: tuple[Query[Any, Any], ...] = (
     ACQUIRE,
     RELEASE,
     EXECUTE,
+    TELEOPERATE,
     FINISH,
     PACE,
     RESUME,

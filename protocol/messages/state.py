@@ -42,10 +42,11 @@ class Phase(enum.Enum):
 
 
 class Mode(enum.Enum):
-    """Who shapes the motion: the prediction alone, or the operator on top of it."""
+    """Who shapes the motion: the prediction alone, the operator on top of it, or the operator's hand alone."""
 
     AUTONOMOUS = "autonomous"
     REFINE = "refine"
+    TEACH = "teach"
 
 
 class Cut(enum.Enum):
@@ -197,7 +198,7 @@ class ExecutionState(Message, frozen=True, kw_only=True):
     Attributes:
         episode: its number.
         mode: who shapes it.
-        prediction: id of what was asked for.
+        prediction: id of what was asked for; 0 where the operator's hand leads alone.
         progress: from 0 to 1.
         pace: as it was asked for: 1 is the motion's own, 0 a pause, a negative one goes back along it.
         part: of the motion in which corrections count.
@@ -225,7 +226,7 @@ class EpisodeResult(Message, frozen=True, kw_only=True):
         mode: who shaped it.
         completed: it ran to its end and was not cut short.
         reason: why not, empty where it was.
-        prediction: id of what was asked for.
+        prediction: id of what was asked for; 0 where the operator's hand led alone.
         refined: the reference including the operator's correction.
         commanded: what the joints were told, as a motion of the grasping frame.
         measured: what the arm did.
@@ -235,7 +236,8 @@ class EpisodeResult(Message, frozen=True, kw_only=True):
         held: time spent holding [s].
         duration: from the first motion to the verdict [s].
         cut: what cut it short; None where it completed.
-        progress: share of the prediction that was executed; the three motions are as far as it.
+        progress: share of the prediction that was executed, or of the longest time that a hand may lead; the three
+            motions are as far as it.
         clear_until: share of the prediction before anything was touched or kicked over; `progress` where nothing was.
     """
 

@@ -17,9 +17,10 @@ from services.robot import safety
 from services.robot.backends.backend import CONTROL_PERIOD, Backend, Blocked
 from services.robot.correction import UNCORRECTED, Correction
 from services.robot.episode import Episode, EpisodeOutcome
-from services.robot.execution import angle_between
+from services.robot.execution import Execution, angle_between
 from services.robot.mechanism import InverseFailed, Mechanism
 from services.robot.starts import StartImpossible, Starts
+from services.robot.teleoperation import Teleoperation
 from services.robot.tick import Tick
 from services.robot.verdict import Criteria, Verdict
 from sim.pose import Pose
@@ -123,7 +124,13 @@ class Arm:
             part: of the prediction in which the operator's correction counts.
         """
         self._stand()
-        self._episode = Episode(prediction, self.measured, look_ahead, CONTROL_PERIOD, part)
+        execution = Execution(self.measured, prediction, look_ahead, CONTROL_PERIOD, part)
+        self._episode = Episode(execution, CONTROL_PERIOD)
+
+    def teleoperate(self) -> None:
+        """Begin an episode that the operator's hand leads, from where the arm is."""
+        self._stand()
+        self._episode = Episode(Teleoperation(lambda: self.measured, CONTROL_PERIOD), CONTROL_PERIOD)
 
     def finish(self, cut: Cut, reason: str) -> None:
         """Let the running episode end here; its outcome follows when the arm has settled."""
@@ -147,7 +154,7 @@ class Arm:
         """Give one command and see what it did.
 
         Args:
-            wanted: the correction that the operator asks for.
+            wanted: the correction that the operator asks for, or by how much a hand moves the gripper that leads alone.
             hold_reason: why a running episode may not go on, empty where it may.
             given: called when the command has been handed over, before the period passes in which it acts.
         """

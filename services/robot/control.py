@@ -4,7 +4,6 @@ Every method that carries out a request raises `Refusal` where it does not; time
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from datetime import datetime
 
 import numpy as np
@@ -22,6 +21,7 @@ from protocol.queries import (
     ReleaseStop,
     Reset,
     Resume,
+    Teleoperate,
 )
 from services.bus.arrays import motion_from_wire
 from services.bus.subscription import Received
@@ -33,43 +33,20 @@ from services.robot.backends.backend import CONTROL_PERIOD
 from services.robot.clutch import Clutch
 from services.robot.correction import UNCORRECTED, Correction
 from services.robot.episode import EpisodeOutcome
-from services.robot.execution import look_ahead
+from services.robot.execution import Execution, look_ahead
 from services.robot.hold import Hold
 from services.robot.latch import Latch
 from services.robot.memory import Memory
+from services.robot.order import Finished, Order
 from services.robot.refusal import Refusal
 from services.robot.safety import Watchdog
 from services.robot.starts import StartImpossible
+from services.robot.teleoperation import Coupling
 from services.robot.tick import Tick
 from sim.pose import Pose
 from sim.tasks import AnyScene
 
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Order:
-    """What was asked for, and the number that it got.
-
-    Attributes:
-        episode: counted since the process started.
-        execute: the request.
-        holder: of the authority who asked.
-        who: the same for people.
-    """
-
-    episode: int
-    execute: Execute
-    holder: str
-    who: str
-
-
-@dataclass(frozen=True, eq=False)
-class Finished:
-    """An order and what became of it."""
-
-    order: Order
-    outcome: EpisodeOutcome
 
 
 class Control:
@@ -109,6 +86,7 @@ class Control:
         self._watchdog = watchdog
         self._hold = Hold()
         self._clutch = Clutch(CONTROL_PERIOD)
+        self._coupling = Coupling()
         self._master: int | None = None
         self.master_gain = master_gain
         self._place: Array = scene.training_positions[0]
@@ -140,21 +118,23 @@ class Control:
         except ServiceError as error:
             raise Refusal(f"the prediction cannot be executed: {error}") from error
         prediction = admit_prediction(positions, orientations, request.duration, self.arm.measured)
-        number = self.order.episode + 1 if self.order is not None else 1
-        self.order = Order(number, request, self.lease.holder, self.lease.who)
-        self.finished = None
-        self._hold.ask(request.epoch)
         after = look_ahead(prediction) if request.adapt is Adapt.NEXT else 0.0
         self.arm.begin(prediction, after, (request.part.first, request.part.last))
-        return number
+        return self._ordered(request, request.mode, request.prediction)
+
+    def teleoperate(self, request: Teleoperate) -> int:
+        """Begin an episode that the operator's hand leads; its number."""
+        self._check(request.epoch)
+        self.arm.teleoperate()
+        return self._ordered(request, Mode.TEACH)
 
     def finish(self, request: Finish) -> None:
         """End the running episode here."""
         self.lease.check(request.epoch)
         if self.arm.episode is None:
             raise Refusal("no episode is running: nothing to finish")
-        share = self.arm.episode.execution.progress
-        self.arm.finish(Cut.FINISHED, f"finished by {self.lease.who} at {share:.0%}")
+        share = "" if self.mode is Mode.TEACH else f" at {self.arm.episode.execution.progress:.0%}"
+        self.arm.finish(Cut.FINISHED, f"finished by {self.lease.who}{share}")
 
     def pace(self, request: Pace) -> None:
         """Let the motion that is under way go on at another pace, or back; what holds it holds it all the same."""
@@ -163,7 +143,9 @@ class Control:
         episode = self.arm.episode
         if episode is None or episode.settling:
             raise Refusal("no motion is under way: there is no pace to change")
-        admit_pace(episode.prediction, request.rate)
+        if not isinstance(episode.execution, Execution):
+            raise Refusal("the operator's hand leads this motion: it has no pace to change")
+        admit_pace(episode.execution.prediction, request.rate)
         episode.execution.go(request.rate, request.until)
 
     def resume(self, request: Resume) -> None:
@@ -228,37 +210,56 @@ class Control:
         return episode is not None and not episode.settling and self._hold.waiting
 
     @property
-    def refining(self) -> bool:
-        """The order that runs, or ran last, is shaped by the operator."""
-        return self.order is not None and self.order.execute.mode is Mode.REFINE
+    def mode(self) -> Mode:
+        """Of the order that runs, or ran last."""
+        return self.order.mode if self.order is not None else Mode.AUTONOMOUS
+
+    def let_go(self) -> None:
+        """The hand was off the master, if only for a moment."""
+        self._clutch.let_go()
+        self._coupling.decouple()
 
     def phase(self, tick: Tick) -> Phase:
         """What the robot is doing, the emergency stop before all."""
         return Phase.STOPPED if self.latch.latched else tick.phase
 
+    def _ordered(self, request: Execute | Teleoperate, mode: Mode, prediction: int = 0) -> int:
+        number = self.order.episode + 1 if self.order is not None else 1
+        self.order = Order(number, request.request, mode, prediction, self.lease.holder, self.lease.who)
+        self.finished = None
+        self._hold.ask(request.epoch)
+        self.let_go()
+        return number
+
     def _hold_reason(self, now_ns: int, sample: Received[MasterState] | None) -> str:
         """Why a motion may not go on in this period; empty where it may."""
         cause = self._watchdog.presence(self.lease.holder, self.lease.silence_s(now_ns))
-        if self.refining and not cause:
+        if self.mode is not Mode.AUTONOMOUS and not cause:
             age_s = sample.age_s(now_ns) if sample is not None else None
-            cause = self._watchdog.hand(age_s, engaged=sample is not None and sample.message.engaged)
+            # Where the hand leads alone the robot stands without it, and nothing is left undone.
+            free = self.mode is Mode.TEACH
+            cause = self._watchdog.hand(age_s, engaged=free or (sample is not None and sample.message.engaged))
         return self._hold.reason(now_ns, cause, self.lease.epoch)
 
     def _wanted(self, sample: Received[MasterState] | None, hold_reason: str) -> Correction:
-        """The correction that the operator asks for."""
+        """What the operator asks for: a correction, or by how much to move where the hand leads alone."""
         episode = self.arm.episode
-        if episode is None or not self.refining or sample is None:
+        if episode is None or self.mode is Mode.AUTONOMOUS or sample is None:
             return UNCORRECTED
         master = sample.message
         if not master.engaged or master.publisher != self._master:
-            self._clutch.let_go()
+            self.let_go()
         self._master = master.publisher
         execution = episode.execution
         if not execution.corrects:
             self._clutch.rest()
+        if hold_reason:
+            self._coupling.decouple()
         if hold_reason or not execution.corrects:
             return execution.correction
         asked = Correction(self.master_gain * np.array(master.displacement), np.array(master.rotation))
+        if self.mode is Mode.TEACH:
+            return self._coupling.step(asked) if master.engaged else UNCORRECTED
         return self._clutch.correction(asked, self.arm.followed(asked), execution.correction)
 
     def _end(self, outcome: EpisodeOutcome | None) -> None:

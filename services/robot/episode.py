@@ -1,14 +1,11 @@
 """One episode: an execution from the first motion to the verdict, and the account of it."""
 
 from dataclasses import dataclass
+from typing import Protocol
 
-import numpy as np
-
-from lfd.motion.part import WHOLE, Part
 from lfd.motion.trajectory import Trajectory
 from protocol.messages import Cut
 from services.robot.correction import Correction
-from services.robot.execution import Execution
 from services.robot.hold import LONG_HOLD_S
 from services.robot.recording import Recording
 from services.robot.verdict import Verdict
@@ -17,11 +14,69 @@ from sim.pose import Pose
 SETTLE_S = 0.5
 """The arm arrives and a toppling object falls before the verdict is given [s]."""
 
-INPUT_THRESHOLD = 0.0005
-"""A displacement above this counts as the operator's input [m]."""
 
-TURN_THRESHOLD = 0.005
-"""A rotation above this does too [rad]: it moves what lies 0.1 m from its axis as far."""
+class Course(Protocol):
+    """What leads the arm through an episode: a prediction under correction, or a hand alone.
+
+    Not calling `advance` is a hold: time stands still, the reference stays.
+
+    Attributes:
+        correction: of the operator's, as it is applied now.
+    """
+
+    correction: Correction
+
+    @property
+    def points(self) -> int:
+        """Of the account of what was done."""
+        ...
+
+    @property
+    def time(self) -> float:
+        """Of the motion [s]."""
+        ...
+
+    @property
+    def progress(self) -> float:
+        """Share of the motion that lies behind."""
+        ...
+
+    @property
+    def ramping(self) -> bool:
+        """The motion's time stands still while the arm goes to where it left off."""
+        ...
+
+    @property
+    def corrects(self) -> bool:
+        """What the operator wants counts now."""
+        ...
+
+    @property
+    def finished(self) -> bool:
+        """The motion is at its end."""
+        ...
+
+    @property
+    def nominal(self) -> Pose:
+        """Where it should be without the operator's correction."""
+        ...
+
+    @property
+    def reference(self) -> Pose:
+        """Where the grasping frame should be now."""
+        ...
+
+    def is_input(self, wanted: Correction) -> bool:
+        """What is wanted is more than a device's noise."""
+        ...
+
+    def advance(self, wanted: Correction) -> Pose:
+        """Go on by one control period as the operator wants; the reference at its end."""
+        ...
+
+    def rejoin(self, measured: Pose, *, at_once: bool) -> None:
+        """Go on after a hold, from the measured pose; at once where it was short and the arm did not leave."""
+        ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +84,6 @@ class EpisodeOutcome:
     """What became of an episode.
 
     Attributes:
-        prediction: what was asked for.
         refined: the reference including the operator's correction, as many way-points, in real moved time.
         commanded: what the joints were told, as poses of the grasping frame.
         measured: what the arm did.
@@ -44,7 +98,6 @@ class EpisodeOutcome:
         clear_until: share of it before anything was touched or kicked over; `progress` where nothing was.
     """
 
-    prediction: Trajectory
     refined: Trajectory
     commanded: Trajectory
     measured: Trajectory
@@ -60,7 +113,7 @@ class EpisodeOutcome:
 
     @property
     def completed(self) -> bool:
-        """It ran to the prediction's end."""
+        """It ran to its end."""
         return self.cut is None
 
 
@@ -68,18 +121,12 @@ class Episode:
     """Counts and records while an execution advances.
 
     Args:
-        prediction: what is executed.
-        measured: pose of the grasping frame now.
-        look_ahead: after which the correction is to equal the operator's [s].
+        execution: that advances.
         period: of the control [s].
-        part: of the prediction in which the operator's correction counts.
     """
 
-    def __init__(
-        self, prediction: Trajectory, measured: Pose, look_ahead: float, period: float, part: Part = WHOLE
-    ) -> None:
-        self.prediction = prediction
-        self.execution = Execution(measured, prediction, look_ahead, period, part)
+    def __init__(self, execution: Course, period: float) -> None:
+        self.execution = execution
         self.recording = Recording(period)
         self.holding = False
         self._period = period
@@ -144,7 +191,7 @@ class Episode:
             duration = (self._ticks - 1 - self._held_since) * self._period
             self.execution.rejoin(measured, at_once=duration <= LONG_HOLD_S)
         if self.execution.corrects:
-            self._input |= _counts(wanted)
+            self._input |= self.execution.is_input(wanted)
         return self.execution.advance(wanted)
 
     def record(self, reference: Pose, commanded: Pose, measured: Pose, *, clamped: bool) -> None:
@@ -167,10 +214,9 @@ class Episode:
             stopped: why the arm was stopped before its end, empty where it was not.
         """
         cut, reason = (Cut.STOPPED, stopped) if stopped else (self._cut, self._reason)
-        motions = self.recording.motions(self.prediction.n_points, measured)
+        motions = self.recording.motions(self.execution.points, measured)
         progress = self.execution.progress
         return EpisodeOutcome(
-            prediction=self.prediction,
             refined=motions.refined,
             commanded=motions.commanded,
             measured=motions.measured,
@@ -184,9 +230,3 @@ class Episode:
             progress=progress,
             clear_until=progress if self._clear_until is None else self._clear_until,
         )
-
-
-def _counts(wanted: Correction) -> bool:
-    """It is more than a device's noise."""
-    displaced = float(np.linalg.norm(wanted.offset)) > INPUT_THRESHOLD
-    return displaced or float(np.linalg.norm(wanted.turn)) > TURN_THRESHOLD

@@ -45,6 +45,8 @@ RAMP_SPEED = 0.15  # [m/s] mean
 RAMP_TURN_SPEED = 0.5  # [rad/s] mean
 STILL_THERE = 0.01  # [m] from where it should be, an arm goes on after a short hold without a ramp
 STILL_TURNED = 0.1  # [rad] the same of its orientation
+INPUT_THRESHOLD = 0.0005  # [m] a displacement above this counts as the operator's input
+TURN_THRESHOLD = 0.005  # [rad] a rotation above this does too: it moves what lies 0.1 m from its axis as far
 
 
 def look_ahead(prediction: Trajectory) -> float:
@@ -74,7 +76,7 @@ class Execution:
         self._at = 0.0  # [control periods]
         self.part = part
         self.look_ahead = look_ahead
-        self.duration = prediction.duration
+        self.prediction = prediction
         self.correction: Correction = UNCORRECTED
         self.pace = Pace(period)
         self._ramp = Ramp(measured, self.nominal, period)
@@ -94,6 +96,11 @@ class Execution:
         """The operator's correction counts: the motion goes on, and is in the part that is corrected."""
         first, last = self.part
         return not self.ramping and self.pace.rate > 0.0 and first <= self.progress <= last
+
+    @property
+    def points(self) -> int:
+        """Of the account of it: as many way-points as are predicted."""
+        return self.prediction.n_points
 
     @property
     def time(self) -> float:
@@ -156,6 +163,11 @@ class Execution:
             self._at = float(self._path.end)
         self.correction = self.correction.towards(asked, gain)
         self._passage.go_on(self._at, self.correction)
+
+    def is_input(self, wanted: Correction) -> bool:
+        """What is wanted is more than a device's noise."""
+        displaced = float(np.linalg.norm(wanted.offset)) > INPUT_THRESHOLD
+        return displaced or float(np.linalg.norm(wanted.turn)) > TURN_THRESHOLD
 
     def rejoin(self, measured: Pose, *, at_once: bool) -> None:
         """Go on after a hold: with a ramp from the measured pose to where the prediction was left.

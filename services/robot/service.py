@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from protocol import queries, topics
-from protocol.messages import Figure, MasterState, Phase
+from protocol.messages import Figure, MasterState, Mode, Phase
 from protocol.queries import Accepted, AuthorityGranted, EpisodeStarted, Execute, Refused
 from services.bus.bus import Bus, Rep, Req
 from services.bus.identity import same_clock
@@ -131,6 +131,7 @@ class RobotService:
         self._acquire = bus.serve(queries.ACQUIRE)
         self._release = bus.serve(queries.RELEASE)
         self._execute = bus.serve(queries.EXECUTE)
+        self._teleoperate = bus.serve(queries.TELEOPERATE)
         self._finish = bus.serve(queries.FINISH)
         self._pace = bus.serve(queries.PACE)
         self._resume = bus.serve(queries.RESUME)
@@ -201,6 +202,7 @@ class RobotService:
         self._answer(self._acquire, lambda request: AuthorityGranted(control.acquire(request, now_ns), lease_s))
         self._answer(self._release, _accepting(control.release))
         self._answer(self._execute, self._executed)
+        self._answer(self._teleoperate, lambda request: EpisodeStarted(control.teleoperate(request)))
         self._answer(self._finish, _accepting(control.finish))
         self._answer(self._pace, _accepting(control.pace))
         self._answer(self._resume, _accepting(control.resume))
@@ -235,6 +237,8 @@ class RobotService:
         for received in self._master.take():
             if covers(received.message.holder, received.message.epoch):
                 self._sample = received
+                if not received.message.engaged:
+                    self._control.let_go()
         if self._sample is not None and not covers(self._sample.message.holder, self._sample.message.epoch):
             self._sample = None
         return self._sample
@@ -248,7 +252,7 @@ class RobotService:
         self._ticks += 1
         self._touching += tick.observation.touch is not None
         self._clamped += bool(tick.clamped)
-        if tick.phase is not Phase.EXECUTE or not self._control.refining or sample in (None, self._applied):
+        if tick.phase is not Phase.EXECUTE or self._control.mode is Mode.AUTONOMOUS or sample in (None, self._applied):
             return
         self._applied = sample
         self._applied_latency = -1.0

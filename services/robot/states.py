@@ -5,7 +5,9 @@ from services.bus.arrays import to_wire, vector3
 from services.bus.bus import Bus
 from services.process.schedule import Schedule
 from services.robot import wire
-from services.robot.control import Control, Finished
+from services.robot.control import Control
+from services.robot.execution import Execution
+from services.robot.order import Finished
 from services.robot.safety import standing
 from services.robot.tick import Tick
 from sim.pose import Pose
@@ -67,14 +69,12 @@ class States:
             return
         state = messages.ExecutionState(
             episode=order.episode,
-            mode=order.execute.mode,
-            prediction=order.execute.prediction,
+            mode=order.mode,
+            prediction=order.prediction,
             progress=episode.execution.progress,
-            pace=episode.execution.pace.asked,
-            part=messages.Part(*episode.execution.part),
-            duration=episode.execution.duration,
-            look_ahead=episode.execution.look_ahead,
         )
+        if isinstance(episode.execution, Execution):
+            state = wire.with_pace(state, episode.execution)
         self._bus.publish(topics.EXECUTION, state)
 
     def _publish_result(self, now_ns: int) -> None:
@@ -93,7 +93,7 @@ class States:
             measured=wire.pose(tick.measured),
             reference=wire.pose(tick.reference),
             phase=self._control.phase(tick),
-            mode=order.execute.mode if order is not None else messages.Mode.AUTONOMOUS,
+            mode=self._control.mode,
             episode=order.episode if order is not None else 0,
             progress=tick.progress,
             offset=vector3(tick.correction.offset),

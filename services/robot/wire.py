@@ -1,12 +1,14 @@
 """The robot's own values as messages."""
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
 from lfd.motion.trajectory import Trajectory
 from protocol import messages
 from services.bus.arrays import motion_to_wire, quaternion, vector3
-from services.robot.control import Finished
+from services.robot.execution import Execution
+from services.robot.order import Finished
 from services.robot.verdict import Verdict
 from sim.pose import Pose
 from sim.region import Region
@@ -49,11 +51,11 @@ def episode_result(finished: Finished) -> messages.EpisodeResult:
     order, outcome = finished.order, finished.outcome
     return messages.EpisodeResult(
         episode=order.episode,
-        request=order.execute.request,
-        mode=order.execute.mode,
+        request=order.request,
+        mode=order.mode,
         completed=outcome.completed,
         reason=outcome.reason,
-        prediction=order.execute.prediction,
+        prediction=order.prediction,
         refined=motion(outcome.refined),
         commanded=motion(outcome.commanded),
         measured=motion(outcome.measured),
@@ -65,6 +67,17 @@ def episode_result(finished: Finished) -> messages.EpisodeResult:
         cut=outcome.cut,
         progress=outcome.progress,
         clear_until=outcome.clear_until,
+    )
+
+
+def with_pace(state: messages.ExecutionState, execution: Execution) -> messages.ExecutionState:
+    """The state of a motion under way, with how fast it goes and where it is corrected."""
+    return msgspec.structs.replace(
+        state,
+        pace=execution.pace.asked,
+        part=messages.Part(*execution.part),
+        duration=execution.prediction.duration,
+        look_ahead=execution.look_ahead,
     )
 
 

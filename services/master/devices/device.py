@@ -31,10 +31,17 @@ class Moment:
     @property
     def refining(self) -> RobotState | None:
         """The robot's state, while it executes an episode that an operator may correct."""
+        return self._led(Mode.REFINE)
+
+    @property
+    def teaching(self) -> RobotState | None:
+        """The robot's state, while an operator's hand leads it without a prediction."""
+        return self._led(Mode.TEACH)
+
+    def _led(self, mode: Mode) -> RobotState | None:
         robot = self.robot
-        if robot is None or not self.commands or robot.mode is not Mode.REFINE or not robot.phase.running:
-            return None
-        return robot
+        led = robot is not None and self.commands and robot.mode is mode and robot.phase.running
+        return robot if led else None
 
 
 @dataclass(frozen=True)

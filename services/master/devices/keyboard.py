@@ -5,8 +5,12 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
+from lfd.motion.rotations import exp_map, log_map, multiply
 from protocol.keys import PUSH_KEYS, STEERING, TURN_KEYS, Direction
 from protocol.messages import Figure, OperatorInput, Phase, RobotState, Vector3
+from services.bus.arrays import vector3
 from services.master.devices.device import ZERO, Moment, Sample
 from services.process.config import Keyboard
 
@@ -74,8 +78,14 @@ class _Lever:
         )
         self.value = (x, y, z)
 
+    def rates(self, keys: Collection[str]) -> Vector3:
+        """How fast the held keys move the three numbers that lead alone [u/s]."""
+        x, y, z = directions(keys, self._table)
+        return (x * self._law.growth, y * self._law.growth, z * self._law.growth)
+
     def let_go(self, dt: float) -> None:
         """Return to zero, within `LET_GO_S` from anywhere."""
+        self.take_over(self.value)
         x, y, z = (_towards_zero(v, self._law.reach / LET_GO_S * dt) for v in self.value)
         self.value = (x, y, z)
 
@@ -83,7 +93,10 @@ class _Lever:
 class KeyboardMaster:
     """Turns held keys into a displacement and a rotation, as fast as the clock goes and not as fast as messages come.
 
-    A key counts only while an episode is being refined and the page's newest state is fresh and focused.
+    Where the hand leads the robot without a prediction nothing decays: what the keys have moved stays, as far as it
+    goes, and only what changes counts.
+
+    A key counts only while an episode is led or refined and the page's newest state is fresh and focused.
     Otherwise nobody is at the device: it disengages at once and both fall to zero within `LET_GO_S`. Whoever engages
     it takes over the correction as the robot applies it then: a held robot does not jump back because its operator, or
     this process, was away. While the robot does not execute yet, on its way to the start or held, the device follows
@@ -103,6 +116,8 @@ class KeyboardMaster:
 
     def step(self, moment: Moment) -> Sample:
         """Advance by the time that has passed."""
+        if moment.teaching is not None:
+            return self._lead(moment.teaching, moment.operator, moment.dt)
         robot, operator = moment.refining, moment.operator
         if robot is None or operator is None or not operator.focused:
             return self._let_go(moment.dt)
@@ -121,6 +136,20 @@ class KeyboardMaster:
 
     def close(self) -> None:
         """There is no hardware to let go of."""
+
+    def _lead(self, robot: RobotState, operator: OperatorInput | None, dt: float) -> Sample:
+        """Move by what the keys say; nobody at them, and keys that were held before they counted, leave it standing."""
+        before = self._push.value
+        if operator is None or not operator.focused:
+            self._engaged = False
+        elif not self._engaged or robot.phase is not Phase.EXECUTE:
+            self._engaged, self._neutral = True, _is_neutral(operator)
+        else:
+            self._neutral = self._neutral or _is_neutral(operator)
+            keys = operator.keys if self._neutral else ()
+            self._push.value = _moved(before, self._push.rates(keys), dt)
+            self._turn.value = _turned(self._turn.value, self._turn.rates(keys), dt)
+        return self._sample(before, dt)
 
     def _follow(self, robot: RobotState, operator: OperatorInput) -> Sample:
         """Stand where the correction is that the robot applies, whatever is held."""
@@ -144,6 +173,17 @@ class KeyboardMaster:
 
 def _is_neutral(operator: OperatorInput) -> bool:
     return STEERING.isdisjoint(operator.keys)
+
+
+def _moved(value: Vector3, rates: Vector3, dt: float) -> Vector3:
+    x, y, z = (v + rate * dt for v, rate in zip(value, rates, strict=True))
+    return (x, y, z)
+
+
+def _turned(rotation: Vector3, rates: Vector3, dt: float) -> Vector3:
+    """A rotation, turned on about the base axes: however far, the keys turn about the same ones."""
+    step = exp_map(dt * np.array(rates))
+    return vector3(log_map(multiply(step, exp_map(np.array(rotation)))))
 
 
 def _velocity(before: Vector3, after: Vector3, dt: float) -> Vector3:

@@ -35,12 +35,13 @@ def corridor(variant, duration=6.0):
 
 
 def test_the_corridor_of_the_scene_succeeds_without_an_operator(arm):
-    outcome = rollout(arm, corridor("b1"), PLACE, variant="b1")
+    prediction = corridor("b1")
+    outcome = rollout(arm, prediction, PLACE, variant="b1")
     assert outcome.verdict.success
     assert outcome.completed
     assert not outcome.operator_input
     assert outcome.clamped == 0
-    np.testing.assert_allclose(outcome.refined.positions, outcome.prediction.positions, atol=1e-4)
+    np.testing.assert_allclose(outcome.refined.positions, prediction.positions, atol=1e-4)
     np.testing.assert_allclose(outcome.measured.positions, outcome.refined.positions, atol=2e-3)
 
 

@@ -29,15 +29,19 @@ class Operated:
                 renewal = messages.AuthorityRenewal(holder=self.holder, epoch=self.epoch)
                 self.operator.publish(topics.AUTHORITY_RENEWAL, renewal)
             if master is not None:
-                state = messages.MasterState(
-                    displacement=master,
-                    rotation=rotation,
-                    engaged=engaged,
-                    holder=self.holder,
-                    epoch=self.epoch if epoch is None else epoch,
-                )
-                self.operator.publish(topics.MASTER_STATE, state)
+                self.say(master, rotation=rotation, engaged=engaged, epoch=epoch)
             self.service.step(self.clock.now_ns())
+
+    def say(self, displacement, *, rotation=(0.0, 0.0, 0.0), engaged=True, epoch=None):
+        """One sample of the master."""
+        state = messages.MasterState(
+            displacement=displacement,
+            rotation=rotation,
+            engaged=engaged,
+            holder=self.holder,
+            epoch=self.epoch if epoch is None else epoch,
+        )
+        self.operator.publish(topics.MASTER_STATE, state)
 
     def ask(self, query, request):
         pending = self.operator.ask(query, request)

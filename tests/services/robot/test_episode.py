@@ -8,6 +8,7 @@ from protocol.messages import Cut
 from services.robot.backends.backend import Touch
 from services.robot.correction import UNCORRECTED
 from services.robot.episode import Episode
+from services.robot.execution import Execution
 from services.robot.verdict import Verdict
 from sim.pose import Pose
 
@@ -32,7 +33,7 @@ class Running:
         self.verdict = WELL
         path = np.column_stack([np.linspace(0.0, 0.2, 75), np.zeros(75), np.zeros(75)])
         motion = Trajectory(path, np.tile(UPRIGHT, (75, 1)), 2.0)
-        self.episode = Episode(motion, HERE, 0.02, PERIOD)
+        self.episode = Episode(Execution(HERE, motion, 0.02, PERIOD), PERIOD)
         while self.episode.execution.ramping:
             self.go_on(PERIOD)
 

@@ -156,7 +156,7 @@ class Recorded:
     """An episode past its ramp, whose arm does what it is told."""
 
     def __init__(self):
-        self.episode = Episode(prediction(), HERE, look_ahead(prediction()), PERIOD)
+        self.episode = Episode(Execution(HERE, prediction(), look_ahead(prediction()), PERIOD), PERIOD)
         while self.episode.execution.ramping:
             self.tick(UNCORRECTED)
 

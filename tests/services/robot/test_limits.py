@@ -3,7 +3,7 @@
 import pytest
 
 from services.process import config
-from services.robot import admission, clutch, episode, execution, hold, latch, memory, safety
+from services.robot import admission, clutch, episode, execution, hold, latch, memory, safety, teleoperation
 
 
 @pytest.mark.parametrize(
@@ -42,13 +42,16 @@ from services.robot import admission, clutch, episode, execution, hold, latch, m
                 "RAMP_TURN_SPEED": 0.5,
                 "STILL_THERE": 0.01,
                 "STILL_TURNED": 0.1,
+                "INPUT_THRESHOLD": 0.0005,
+                "TURN_THRESHOLD": 0.005,
             },
         ),
         (clutch, {"NEUTRAL": 0.01, "NEUTRAL_TURN": 0.1, "FADE": 0.05, "FADE_TURN": 0.2}),
         (hold, {"LONG_HOLD_S": 0.5}),
         (memory, {"RESERVED": 1024, "RETRY": 100}),
         (latch, {"LONGEST_REASON": 500}),
-        (episode, {"SETTLE_S": 0.5, "INPUT_THRESHOLD": 0.0005, "TURN_THRESHOLD": 0.005}),
+        (episode, {"SETTLE_S": 0.5}),
+        (teleoperation, {"LONGEST_S": 600.0, "LEASH": 0.03, "LEASH_TURN": 0.15, "MOST_POINTS": 4000}),
     ],
     ids=lambda value: getattr(value, "__name__", ""),
 )

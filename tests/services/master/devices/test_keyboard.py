@@ -1,14 +1,16 @@
 from dataclasses import FrozenInstanceError, fields
 
 import msgspec
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from lfd.motion.rotations import conjugate, exp_map, log_map, multiply
 from protocol.keys import PUSH_KEYS, TURN_KEYS
 from protocol.messages import Mode, OperatorInput, Phase, Pose, RobotState
 from services.master.devices.device import Moment
-from services.master.devices.keyboard import KeyboardMaster, Law, directions, pushed
+from services.master.devices.keyboard import LET_GO_S, KeyboardMaster, Law, directions, pushed
 from services.process.config import Keyboard
 
 KEYBOARD = Keyboard(growth=0.12, decay=0.05, reach=0.25, turn_growth=0.4, turn_decay=0.2, turn_reach=0.8)
@@ -216,3 +218,67 @@ def test_a_master_that_nobody_has_touched_is_not_engaged_and_names_itself():
     master = KeyboardMaster(KEYBOARD)
     assert not master.step(moment(robot=None)).engaged
     assert (master.name, master.figures()) == ("keyboard", ())
+
+
+LED = RobotState(measured=POSE, reference=POSE, phase=Phase.EXECUTE, mode=Mode.TEACH, episode=1)
+
+
+def leading():
+    """A master whose operator leads the robot and holds nothing yet."""
+    master = KeyboardMaster(KEYBOARD)
+    for _ in range(2):
+        master.step(moment(robot=LED))
+    return master
+
+
+def test_keys_that_lead_alone_leave_what_they_moved():
+    master = leading()
+    moved = hold(master, 1.0, "KeyQ", "KeyT", robot=LED)
+    assert moved.displacement == pytest.approx((0.12, 0.0, 0.0))
+    assert moved.rotation == pytest.approx((0.0, 0.4, 0.0))
+    later = hold(master, 5.0, robot=LED)
+    assert later.engaged
+    assert (later.displacement, later.velocity) == (moved.displacement, (0.0, 0.0, 0.0))
+    assert later.rotation == pytest.approx(moved.rotation)
+
+
+def test_they_lead_as_far_as_they_are_held():
+    assert hold(leading(), 5.0, "KeyD", robot=LED).displacement == pytest.approx((0.0, 0.0, -0.6))
+
+
+def test_they_turn_about_the_base_axes_however_far_it_was_turned():
+    master = leading()
+    before = hold(master, 2.0, "KeyR", robot=LED).rotation
+    after = hold(master, 0.1, "KeyY", robot=LED).rotation
+    step = multiply(exp_map(np.array(after)), conjugate(exp_map(np.array(before))))
+    np.testing.assert_allclose(log_map(step), (0.0, 0.0, 0.04), atol=1e-9)
+
+
+def test_a_key_that_is_held_as_the_hand_takes_over_counts_once_all_were_let_go():
+    master = KeyboardMaster(KEYBOARD)
+    assert hold(master, 0.5, "KeyQ", robot=LED).displacement == (0.0, 0.0, 0.0)
+    hold(master, 0.02, robot=LED)
+    assert hold(master, 0.5, "KeyQ", robot=LED).displacement[0] == pytest.approx(0.06)
+
+
+def test_without_the_focus_nobody_leads_and_what_was_moved_stands():
+    master = leading()
+    moved = hold(master, 0.5, "KeyQ", robot=LED)
+    away = hold(master, 2.0, "KeyQ", robot=LED, focused=False)
+    assert not away.engaged
+    assert away.displacement == moved.displacement
+    assert hold(master, 0.1, "KeyQ", robot=LED).displacement == moved.displacement, "held as the focus came back"
+
+
+def test_keys_do_not_lead_while_the_robot_holds():
+    master = leading()
+    held = msgspec.structs.replace(LED, phase=Phase.HOLD)
+    sample = hold(master, 1.0, "KeyQ", robot=held)
+    assert sample.engaged
+    assert sample.displacement == (0.0, 0.0, 0.0)
+
+
+def test_after_it_the_device_is_back_at_rest_within_the_time_to_let_go():
+    master = leading()
+    hold(master, 10.0, "KeyQ", robot=LED)
+    assert hold(master, LET_GO_S, robot=None).displacement == (0.0, 0.0, 0.0)

@@ -1,0 +1,141 @@
+"""Free motion under the operator's hand: no prediction leads, the gripper goes where the master goes.
+
+While master m and robot are coupled, with the gain g and the poses at the coupling marked 0,
+
+    p = p_0 + g (d - d_0),    R = (exp(r) exp(r_0)^-1) R_0
+
+for the displacement d and the rotation vector r of the master, all in base axes. Decoupled, the robot stands, and the
+hand goes to where it is comfortable; coupled again, both begin anew from where they are, so that nothing jumps. Taken
+period by period, as is done here, that is the same: each moves by what the hand did since the period before.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from lfd.motion.rotations import conjugate, exp_map, log_map, multiply
+from services.robot.correction import UNCORRECTED, Correction
+from services.robot.execution import angle_between
+from services.robot.safety import clamp_length
+from sim.pose import Pose
+
+LONGEST_S = 600.0
+"""A motion by hand ends by itself after so long [s]: nobody teaches one that takes ten minutes."""
+
+LEASH = 0.03
+"""The reference is never further from where the arm is [m]: a hand that pulls where the arm cannot follow, out of reach
+or against a wall, slips, and the arm follows again as soon as the hand turns back."""
+
+LEASH_TURN = 0.15
+"""The same of its orientation [rad]."""
+
+SAMPLE_S = 0.04
+"""Between two points of the account of a motion by hand [s]; more where there would be too many of them."""
+
+MOST_POINTS = 4000
+LEAST_POINTS = 75
+
+
+class Coupling:
+    """Between the operator's hand and the robot: what the hand does counts while it is coupled."""
+
+    def __init__(self) -> None:
+        self._before: Correction | None = None
+
+    def decouple(self) -> None:
+        """The hand is off the master, the robot holds, or another master has come in its place."""
+        self._before = None
+
+    def step(self, hand: Correction) -> Correction:
+        """By how much the robot moves in this period; not at all where the hand has just been coupled.
+
+        Args:
+            hand: displacement and rotation of the master, the gain in them.
+        """
+        before, self._before = self._before, hand
+        if before is None:
+            return UNCORRECTED
+        turned = multiply(exp_map(hand.turn), conjugate(exp_map(before.turn)))
+        return Correction(hand.offset - before.offset, log_map(turned))
+
+
+class Teleoperation:
+    """One motion by hand, from where the arm is. See `Course`.
+
+    Args:
+        measured: says where the grasping frame is.
+        period: of the control [s].
+    """
+
+    correction = UNCORRECTED
+    corrects = True
+    ramping = False
+
+    def __init__(self, measured: Callable[[], Pose], period: float) -> None:
+        self.reference = measured()
+        self._measured = measured
+        self._period = period
+        self._ticks = 0
+        self._longest = round(LONGEST_S / period)
+
+    @property
+    def finished(self) -> bool:
+        """It took as long as any may."""
+        return self._ticks >= self._longest
+
+    @property
+    def time(self) -> float:
+        """Since it began, holds left out [s]."""
+        return self._ticks * self._period
+
+    @property
+    def progress(self) -> float:
+        """Share of the longest time that it may take."""
+        return self._ticks / self._longest
+
+    @property
+    def nominal(self) -> Pose:
+        """Nothing leads but the hand."""
+        return self.reference
+
+    @property
+    def points(self) -> int:
+        """Of the account of it."""
+        return min(MOST_POINTS, max(LEAST_POINTS, math.ceil(self.time / SAMPLE_S) + 1))
+
+    def is_input(self, wanted: Correction) -> bool:
+        """The hand moves."""
+        return bool(wanted.offset.any() or wanted.turn.any())
+
+    def advance(self, wanted: Correction) -> Pose:
+        """Go on by one control period.
+
+        Args:
+            wanted: by how much the hand moves the reference, see `Coupling.step`.
+
+        Returns:
+            The reference at the end of the period.
+        """
+        if not self.finished:
+            self._ticks += 1
+            self.reference = _leashed(wanted.of(self.reference), self._measured())
+        return self.reference
+
+    def rejoin(self, measured: Pose, *, at_once: bool) -> None:
+        """Go on after a hold, from where the arm is."""
+        del at_once
+        self.reference = measured
+
+
+def _leashed(reference: Pose, measured: Pose) -> Pose:
+    """The reference, drawn to within the leash of where the arm is."""
+    offset, far = clamp_length(reference.position - measured.position, LEASH)
+    position = measured.position + offset if far else reference.position
+    if angle_between(measured.orientation, reference.orientation) <= LEASH_TURN:
+        return Pose(position, reference.orientation)
+    turn = log_map(multiply(reference.orientation, conjugate(measured.orientation)))
+    shortened = exp_map(turn * (LEASH_TURN / float(np.linalg.norm(turn))))
+    return Pose(position, multiply(shortened, measured.orientation))
