@@ -23,6 +23,7 @@ from protocol.messages import (
     Pose,
     Prediction,
     Purpose,
+    Reason,
     Text,
     Vector3,
 )
@@ -54,11 +55,19 @@ class Change(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class AcquireAuthority(Change, frozen=True):
-    """Ask for the authority to command; `take_over` ends another holder's lease."""
+    """Get the authority to command, where nobody else has it.
+
+    Attributes:
+        holder: the station's name.
+        operator: the person at it.
+        take_over: end another holder's lease at once.
+        reason: why it is taken over, for who loses it.
+    """
 
     holder: Name
     operator: Name = ""
     take_over: bool = False
+    reason: Reason = ""
 
 
 class AuthorityGranted(msgspec.Struct, frozen=True, tag_field="reply", tag="granted"):
@@ -73,6 +82,34 @@ class ReleaseAuthority(Change, frozen=True):
 
     holder: Name
     epoch: Count
+
+
+class AnswerRequest(Change, frozen=True):
+    """Give the authority to who asks for it, or keep it.
+
+    Attributes:
+        holder: that has it.
+        epoch: of its authority.
+        number: of the request that is answered.
+        give: whether it is given.
+    """
+
+    holder: Name
+    epoch: Count
+    number: Count
+    give: bool
+
+
+class RevokeAuthority(Change, frozen=True):
+    """Take the authority from whoever holds it, without taking it oneself: the robot holds.
+
+    Attributes:
+        by: who revokes it.
+        reason: why, for who loses it.
+    """
+
+    by: Name
+    reason: Reason
 
 
 class Adapt(Enum):
@@ -284,7 +321,11 @@ class Query(Generic[Req, Rep]):
         return f"retouch/{VERSION}/{checked_name(robot)}/{self.name}/{self.server}"
 
 
-ACQUIRE = Query("authority/acquire", AcquireAuthority, AuthorityGranted, "robot", 20_480, "ask for the authority")
+ACQUIRE = Query("authority/acquire", AcquireAuthority, AuthorityGranted, "robot", 20_480, "get the authority")
+ANSWER = Query(
+    "authority/answer", AnswerRequest, Accepted, "robot", 20_480, "give the authority to who asks, or keep it"
+)
+REVOKE = Query("authority/revoke", RevokeAuthority, Accepted, "robot", 20_480, "end the authority of whoever commands")
 RELEASE = Query("authority/release", ReleaseAuthority, Accepted, "robot", 20_480, "give the authority back")
 EXECUTE = Query("cmd/execute", Execute, EpisodeStarted, "robot", 20_480, "execute a prediction")
 TELEOPERATE = Query(
@@ -309,6 +350,8 @@ DESCRIBE = Query("model/describe", Describe, Learnt, "model", 20_480, "the model
 
 QUERIES: tuple[Query[Any, Any], ...] = (
     ACQUIRE,
+    ANSWER,
+    REVOKE,
     RELEASE,
     EXECUTE,
     TELEOPERATE,

@@ -120,7 +120,12 @@ MASTER_STATE = Topic(  # kept: between two steps of the robot a master without a
 AUTHORITY_RENEWAL = Topic(
     "authority/renewal", messages.AuthorityRenewal, 50.0, QoS.STATE, "station", 1_536, "an operator is present", kept=8
 )
-AUTHORITY_STATE = Topic("authority/state", messages.AuthorityState, 10.0, QoS.STATE, "robot", 1_536, "who may command")
+AUTHORITY_REQUEST = Topic(
+    "authority/request", messages.AuthorityRequest, 10.0, QoS.STATE, "station", 1_536, "asks who commands", kept=8
+)
+AUTHORITY_STATE = Topic(
+    "authority/state", messages.AuthorityState, 10.0, QoS.STATE, "robot", 3_584, "who may command, and who asks to"
+)
 EMERGENCY_STOP = Topic(
     "safety/emergency_stop",
     messages.EmergencyStop,
@@ -185,6 +190,7 @@ TOPICS: tuple[Topic[Any], ...] = (
     OPERATOR_INPUT,
     MASTER_STATE,
     AUTHORITY_RENEWAL,
+    AUTHORITY_REQUEST,
     AUTHORITY_STATE,
     EMERGENCY_STOP,
     SAFETY_STATE,

@@ -5,7 +5,14 @@ scalar first (w, x, y, z). A new field needs a default; any other change to a me
 Numbers are bounded, so that a NaN or an infinity never passes the codec.
 """
 
-from protocol.messages.authority import AuthorityRenewal, AuthorityState
+from protocol.messages.authority import (
+    SHORTEST_REASON,
+    SILENCE_GIVES_S,
+    AuthorityEvent,
+    AuthorityRenewal,
+    AuthorityRequest,
+    AuthorityState,
+)
 from protocol.messages.camera import CameraImage
 from protocol.messages.command import MasterState, OperatorInput
 from protocol.messages.health import Figure, Heartbeat, TopicFigures
@@ -40,15 +47,20 @@ from protocol.messages.values import (
     Pose,
     Quaternion,
     Real,
+    Reason,
     Text,
     Vector3,
 )
 
 __all__ = [
     "ITEM_SIZES",
+    "SHORTEST_REASON",
+    "SILENCE_GIVES_S",
     "Array",
     "Attempt",
+    "AuthorityEvent",
     "AuthorityRenewal",
+    "AuthorityRequest",
     "AuthorityState",
     "Box",
     "CameraImage",
@@ -81,6 +93,7 @@ __all__ = [
     "Purpose",
     "Quaternion",
     "Real",
+    "Reason",
     "Recording",
     "RobotState",
     "SafetyState",

@@ -9,6 +9,7 @@ import msgspec
 from protocol.topics import checked_name
 from services.process.addresses import EVERYWHERE, in_url
 from services.process.config import Configuration, Scripted, load
+from services.process.processes import PROCESSES
 
 _FLAGS = {"robot": "name", "operator": "operator", "connect": "connect", "listen": "listen", "seed": "seed"}
 """Flag to the key that it stands for."""
@@ -44,7 +45,8 @@ def configuration(arguments: Namespace) -> Configuration:
         if result.station.variant:
             found.check(result.station.variant)
     checked_name(result.name)
-    checked_name(result.operator)
+    for process in PROCESSES:
+        checked_name(process.named(checked_name(result.operator)))
     return result
 
 

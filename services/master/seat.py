@@ -1,4 +1,4 @@
-"""Who sits at the device: the newest input of its operator, and whether the robot lets that one's station command."""
+"""Who sits at the device: the newest input at its station, and whether the robot lets that station command."""
 
 from __future__ import annotations
 
@@ -30,21 +30,21 @@ class Sitting:
 
 
 class Seat:
-    """Follows the inputs of one person, whatever other stations say.
+    """Follows the inputs at one station, whoever sits there, whatever other stations say.
 
-    The same person may have two stations open: the one that holds the authority goes before the other.
+    Where it is renewed, both are heard for a moment: the one that holds the authority goes before the other.
 
     Attributes:
         call: set where an input came.
 
     Args:
         bus: to hear stations and robot.
-        operator: whose inputs count.
+        station: name of the station's process whose inputs count.
     """
 
-    def __init__(self, bus: Bus, operator: str) -> None:
+    def __init__(self, bus: Bus, station: str) -> None:
         self.call = threading.Event()
-        self._operator = operator
+        self._station = station
         self._inputs = bus.subscribe(OPERATOR_INPUT, self.call)
         self._authority = bus.subscribe(AUTHORITY_STATE)
         self._stations: dict[str, Received[OperatorInput]] = {}
@@ -52,7 +52,7 @@ class Seat:
     def look(self, now_ns: int) -> Sitting:
         """Who sits there now."""
         for received in self._inputs.take():
-            if received.message.operator == self._operator:
+            if received.message.process == self._station:
                 self._stations[received.message.holder] = received
         limit = OPERATOR_INPUT.stale_after_ns
         self._stations = {

@@ -19,6 +19,7 @@ from services.master.devices.keyboard import KeyboardMaster
 from services.master.seat import Seat, Sitting
 from services.process.clock import Clock
 from services.process.config import Configuration, Keyboard, Scripted
+from services.process.processes import process
 
 _LONGEST_STEP_S = 0.1
 """A process that was stopped for longer does not make up for it: nobody held a key meanwhile."""
@@ -30,7 +31,8 @@ that holds a correction drop it."""
 
 def build(bus: Bus, clock: Clock, configuration: Configuration) -> MasterService:
     """The service with the device that the configuration names."""
-    return MasterService(bus, _device(bus, clock, configuration), Seat(bus, configuration.operator))
+    station = process("station").named(configuration.operator)
+    return MasterService(bus, _device(bus, clock, configuration), Seat(bus, station))
 
 
 def _device(bus: Bus, clock: Clock, configuration: Configuration) -> Device:

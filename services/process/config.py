@@ -14,6 +14,7 @@ from services.process import endpoint
 from services.process.exceptions import BadEndpoint, ConfigurationError
 from services.process.files import write_whole
 from services.process.misfit import told
+from services.process.processes import NOBODY_IN_PARTICULAR
 
 LARGEST = 1 << 20
 """Of a configuration file [byte]; more is some other file."""
@@ -187,7 +188,7 @@ class Configuration(_Section, frozen=True):
     """
 
     name: str = "robot1"
-    operator: str = "operator"
+    operator: str = NOBODY_IN_PARTICULAR
     connect: str = "tcp/127.0.0.1:7447"
     listen: str = "tcp/127.0.0.1:7447"
     seed: Annotated[int, msgspec.Meta(ge=0)] = 0

@@ -111,7 +111,8 @@ class NameTaken(BusError, EnvironmentFault):
         self.robot = robot
         self.process = process
         super().__init__(
-            f"a process {process!r} of robot {robot!r} is on this network already: choose another name with --robot"
+            f"a process {process!r} of robot {robot!r} is on this network already: say who is here with --operator, or"
+            " choose another robot's name with --robot"
         )
 
 

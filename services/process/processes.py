@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+NOBODY_IN_PARTICULAR = "operator"
+"""The operator's name where nobody gave one."""
+
 
 @dataclass(frozen=True)
 class Process:
@@ -15,12 +18,18 @@ class Process:
         about: one line for `--help`.
         nice: how far it stands back from the processor, so that drawing does not disturb control; where it is negative,
             it goes before others as far as the system lets it.
+        at_operator: there is one for each operator.
     """
 
     name: str
     module: str
     about: str
     nice: int = 0
+    at_operator: bool = False
+
+    def named(self, operator: str) -> str:
+        """Its name on the network: that of an operator's process says whose it is, so that two can be there at once."""
+        return f"{self.name}-{operator}" if self.at_operator and operator != NOBODY_IN_PARTICULAR else self.name
 
 
 PROCESSES: tuple[Process, ...] = (
@@ -33,9 +42,22 @@ PROCESSES: tuple[Process, ...] = (
     Process("camera", "services.camera.service", "the process that draws the head and wrist pictures", nice=5),
     Process("perception", "services.perception.service", "the process that finds the object in the pictures", nice=5),
     Process("model", "services.model.service", "the process that owns the learnt model and its database"),
-    Process("master", "services.master.service", "the process that owns the operator's input device", nice=-10),
-    Process("viewer", "services.viewer.service", "the process that shows and records with Rerun", nice=5),
-    Process("station", "services.station.service", "the process that serves the operator's page and runs the teaching"),
+    Process(
+        "master",
+        "services.master.service",
+        "the process that owns the operator's input device",
+        nice=-10,
+        at_operator=True,
+    ),
+    Process(
+        "viewer", "services.viewer.service", "the process that shows and records with Rerun", nice=5, at_operator=True
+    ),
+    Process(
+        "station",
+        "services.station.service",
+        "the process that serves the operator's page and runs the teaching",
+        at_operator=True,
+    ),
 )
 
 PROCESS_NAMES = tuple(process.name for process in PROCESSES)

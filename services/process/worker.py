@@ -41,13 +41,14 @@ def run_process(process: Process, configuration: Configuration) -> None:
     # Loaded before the network is joined: most of a start is this, and the router starts meanwhile.
     build = _builder(process)
     clock = SystemClock()
-    bus = connect(configuration.connect, configuration.name, process.name, clock)
+    name = process.named(configuration.operator)
+    bus = connect(configuration.connect, configuration.name, name, clock)
     try:
         service = build(bus, clock, configuration)
         stop = stop_on_signals()
         patience.seconds = WITHIN_S
         log.info("started on %s", configuration.connect)
-        run(service, bus, clock, process.name, stop)
+        run(service, bus, clock, name, stop)
     finally:
         bus.close()
 

@@ -1,6 +1,9 @@
 """Who may command: a lease with an epoch that fences off whoever held it before."""
 
+from protocol.messages import SHORTEST_REASON, AuthorityEvent, AuthorityRequest
+from protocol.queries import AnswerRequest, ReleaseAuthority, RevokeAuthority
 from services.process.config import LONGEST_LEASE_S
+from services.robot.asking import Asking
 from services.robot.refusal import Refusal
 
 NOBODY = ""
@@ -10,6 +13,13 @@ class Lease:
     """The authority of at most one holder at a time.
 
     The epoch grows with every change, losing the authority included, so that a command of an earlier one is known.
+
+    Attributes:
+        event: how it came to be as it is.
+        by: who caused that, for people.
+        before: who had it before.
+        reason: why it was taken over or revoked.
+        asking: who asks for it.
 
     Args:
         duration_s: how long it lasts without renewal, at most `LONGEST_LEASE_S` [s].
@@ -21,6 +31,9 @@ class Lease:
         self.epoch = epoch
         self.holder = NOBODY
         self.operator = NOBODY
+        self.event = AuthorityEvent.NONE
+        self.by = self.before = self.reason = ""
+        self.asking = Asking()
         self._expires_ns = 0
         self._renewed_ns: int | None = None
 
@@ -29,20 +42,47 @@ class Lease:
         """Holds it, for people: the person, or the station of one who gave no name; empty for nobody."""
         return self.operator or self.holder
 
-    def acquire(self, holder: str, now_ns: int, *, operator: str = "", take_over: bool = False) -> int:
+    def acquire(
+        self, holder: str, now_ns: int, *, operator: str = "", take_over: bool = False, reason: str = ""
+    ) -> int:
         """Give the authority to a holder; its new epoch.
 
         Raises:
-            Refusal: another one holds it and it is not taken over, or the name is empty.
+            Refusal: another one holds it and it is not taken over, or without a reason, or the name is empty.
         """
         self.expire(now_ns)
         if holder == NOBODY:
             raise Refusal("the authority needs a holder's name: give one")
-        if self.holder not in (NOBODY, holder) and not take_over:
-            raise Refusal(f"{self.who} holds the authority: wait until it is released, or take over")
-        self._change(holder, operator)
-        self._expires_ns = now_ns + self._duration_ns
+        if self.holder in (NOBODY, holder):
+            self._change(AuthorityEvent.ACQUIRED, operator or holder, holder, operator)
+        elif take_over:
+            why = checked_reason("a take-over", reason)
+            self._change(AuthorityEvent.TAKEN_OVER, operator or holder, holder, operator, reason=why)
+        else:
+            raise Refusal(f"{self.who} holds the authority: ask for it, or take over")
+        self._begin(now_ns)
         return self.epoch
+
+    def ask(self, request: AuthorityRequest, received_ns: int) -> None:
+        """Somebody asks for the authority; heard only where another one has it."""
+        if self.holder not in (NOBODY, request.holder):
+            self.asking.hear(request, received_ns)
+
+    def answer(self, request: AnswerRequest, now_ns: int) -> None:
+        """The holder gives the authority to who asks for it, or keeps it.
+
+        Raises:
+            Refusal: it is not this holder's, not of this epoch, or nobody asks by this number any more.
+        """
+        self._check_holder(request.holder)
+        self.check(request.epoch)
+        question = self.asking.question
+        if question is None or question.number != request.number:
+            raise Refusal("nobody asks for the authority any more: there is nothing to answer")
+        if request.give:
+            self._hand_over(AuthorityEvent.GIVEN, now_ns)
+        else:
+            self.asking.decline()
 
     def covers(self, holder: str, epoch: int) -> bool:
         """Whether what a holder sends under an epoch counts now."""
@@ -58,25 +98,40 @@ class Lease:
         """Time since the newest renewal [s]; None where there was none under this epoch."""
         return (now_ns - self._renewed_ns) / 1e9 if self._renewed_ns is not None else None
 
-    def release(self, holder: str, epoch: int) -> None:
-        """Give the authority back.
+    def release(self, request: ReleaseAuthority) -> None:
+        """Take the authority back from its holder.
 
         Raises:
             Refusal: it is not this holder's, or not of this epoch.
         """
-        if self.holder != holder:
-            raise Refusal(f"{holder!r} does not hold the authority: {self.who or 'nobody'} does")
-        self.check(epoch)
-        self._change(NOBODY)
+        self._check_holder(request.holder)
+        self.check(request.epoch)
+        self._change(AuthorityEvent.RELEASED, self.who)
 
-    def revoke(self) -> None:
-        """Take the authority away from whoever holds it."""
-        self._change(NOBODY)
+    def revoke(self, request: RevokeAuthority) -> None:
+        """Take the authority from whoever holds it; the robot holds, and waits for whoever asks for it next.
+
+        Raises:
+            Refusal: nobody holds it, or it is not said who revokes it and why.
+        """
+        if not request.by:
+            raise Refusal("a revocation needs a name: say who revokes the authority")
+        why = checked_reason("a revocation", request.reason)
+        if self.holder == NOBODY:
+            raise Refusal("nobody holds the authority: there is nothing to revoke")
+        self._change(AuthorityEvent.REVOKED, request.by, reason=why)
+
+    def end(self, by: str) -> None:
+        """A stop was released: whoever held the authority has lost it."""
+        self._change(AuthorityEvent.STOPPED, by)
 
     def expire(self, now_ns: int) -> None:
-        """Let the lease run out where it was not renewed in time."""
+        """Let the lease run out where it was not renewed in time; silence gives it to who asks for it."""
+        self.asking.expire(now_ns)
         if self.holder != NOBODY and now_ns > self._expires_ns:
-            self._change(NOBODY)
+            self._change(AuthorityEvent.EXPIRED, self.who)
+        if self.asking.question is not None and self.asking.left_s(now_ns) <= 0.0:
+            self._hand_over(AuthorityEvent.GIVEN_BY_SILENCE, now_ns)
 
     def check(self, epoch: int) -> None:
         """Let a command of the present epoch pass.
@@ -97,7 +152,36 @@ class Lease:
     def _duration_ns(self) -> int:
         return round(self.duration_s * 1e9)
 
-    def _change(self, holder: str, operator: str = "") -> None:
+    def _hand_over(self, event: AuthorityEvent, now_ns: int) -> None:
+        question = self.asking.question
+        if question is not None:
+            self._change(event, self.who, question.holder, question.operator)
+            self._begin(now_ns)
+
+    def _check_holder(self, holder: str) -> None:
+        if self.holder != holder:
+            raise Refusal(f"{holder!r} does not hold the authority: {self.who or 'nobody'} does")
+
+    def _begin(self, now_ns: int) -> None:
+        self._expires_ns = now_ns + self._duration_ns
+
+    def _change(
+        self, event: AuthorityEvent, by: str, holder: str = NOBODY, operator: str = "", *, reason: str = ""
+    ) -> None:
+        self.event, self.by, self.before, self.reason = event, by, self.who, reason
         self.holder, self.operator = holder, operator
         self.epoch += 1
+        self.asking.forget()
         self._renewed_ns = None
+
+
+def checked_reason(what: str, reason: str) -> str:
+    """The reason, without what surrounds it.
+
+    Raises:
+        Refusal: it says nothing.
+    """
+    stripped = reason.strip()
+    if len(stripped) < SHORTEST_REASON:
+        raise Refusal(f"{what} needs a reason of at least {SHORTEST_REASON} characters: whoever loses it is told")
+    return stripped

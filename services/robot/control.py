@@ -10,25 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from protocol import messages
-from protocol.messages import Cut, MasterState, Mode, Motion, Phase
-from protocol.queries import (
-    AcquireAuthority,
-    Adapt,
-    Execute,
-    Finish,
-    Pace,
-    ReleaseAuthority,
-    ReleaseStop,
-    Reset,
-    Resume,
-    Teleoperate,
-)
+from protocol.messages import AuthorityEvent, Cut, MasterState, Mode, Motion, Phase
+from protocol.queries import AcquireAuthority, Adapt, Execute, Finish, Pace, ReleaseStop, Reset, Resume, Teleoperate
 from services.bus.arrays import motion_from_wire
 from services.bus.subscription import Received
 from services.process.exceptions import ServiceError
 from services.robot.admission import admit_pace, admit_prediction, admit_reset, admit_target
 from services.robot.arm import Arm
-from services.robot.authority import Lease
+from services.robot.authority import NOBODY, Lease
 from services.robot.backends.backend import CONTROL_PERIOD
 from services.robot.clutch import Clutch
 from services.robot.correction import UNCORRECTED, Correction
@@ -92,16 +81,10 @@ class Control:
         self._place: Array = scene.training_positions[0]
 
     def acquire(self, request: AcquireAuthority, now_ns: int) -> int:
-        """Give the authority to a holder; the epoch. An episode of another holder's does not go on under it."""
+        """Give the authority to a holder; the epoch."""
         self._check_stop()
-        epoch = self.lease.acquire(request.holder, now_ns, operator=request.operator, take_over=request.take_over)
-        if self.order is not None and self.order.holder != request.holder:
-            self.arm.finish(Cut.TAKEN_OVER, f"{self.lease.who} took the authority over from {self.order.who}")
-        return epoch
-
-    def release(self, request: ReleaseAuthority) -> None:
-        """Take the authority back from its holder."""
-        self.lease.release(request.holder, request.epoch)
+        holder, who, over, why = request.holder, request.operator, request.take_over, request.reason
+        return self.lease.acquire(holder, now_ns, operator=who, take_over=over, reason=why)
 
     def execute(self, request: Execute, predicted: Motion | None) -> int:
         """Begin an episode; its number.
@@ -183,7 +166,7 @@ class Control:
         if not request.by:
             raise Refusal("the release needs a name: say who releases the stop")
         self.latch = self.latch.released(request.by, self._now())
-        self.lease.revoke()
+        self.lease.end(request.by)
 
     def tick(self, now_ns: int, sample: Received[MasterState] | None, given: Callable[[], None]) -> Tick:
         """One control period.
@@ -194,6 +177,7 @@ class Control:
             given: called when the arm's command has been handed over.
         """
         self.lease.expire(now_ns)
+        self._end_another_s()
         reason = self._hold_reason(now_ns, sample)
         tick = self.arm.tick(self._wanted(sample, reason), reason, given)
         self._end(tick.outcome)
@@ -265,6 +249,15 @@ class Control:
     def _end(self, outcome: EpisodeOutcome | None) -> None:
         if outcome is not None and self.order is not None:
             self.finished = Finished(self.order, outcome)
+
+    def _end_another_s(self) -> None:
+        """An episode does not go on under another holder than the one who asked for it."""
+        lease, order = self.lease, self.order
+        if order is None or lease.holder in (NOBODY, order.holder):
+            return
+        taken = lease.event is AuthorityEvent.TAKEN_OVER
+        how = f"{lease.who} took the authority over from {order.who}" if taken else f"{lease.who} has the authority now"
+        self.arm.finish(Cut.TAKEN_OVER, how)
 
     def _check(self, epoch: int) -> None:
         self._check_stop()

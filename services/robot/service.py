@@ -126,9 +126,12 @@ class RobotService:
         self._synchronisation = Synchronisation(round(CONTROL_PERIOD * 1e9))
         self._master = bus.subscribe(topics.MASTER_STATE)
         self._renewal = bus.subscribe(topics.AUTHORITY_RENEWAL)
+        self._request = bus.subscribe(topics.AUTHORITY_REQUEST)
         self._emergency_stop = bus.subscribe(topics.EMERGENCY_STOP)
         self._predictions = Predictions(bus)
         self._acquire = bus.serve(queries.ACQUIRE)
+        self._authority_answer = bus.serve(queries.ANSWER)
+        self._revoke = bus.serve(queries.REVOKE)
         self._release = bus.serve(queries.RELEASE)
         self._execute = bus.serve(queries.EXECUTE)
         self._teleoperate = bus.serve(queries.TELEOPERATE)
@@ -143,6 +146,7 @@ class RobotService:
         self._given_ns = 0
         self._latencies: deque[float] = deque(maxlen=FIGURES_KEPT)
         self._first_ns: int | None = None
+        self._told_epoch = control.lease.epoch
         self._ticks = self._touching = self._clamped = self._refused = 0
 
     def step(self, now_ns: int) -> None:
@@ -155,6 +159,7 @@ class RobotService:
             self._synchronisation.heard(now_ns, sample.received_ns)
         tick = self._control.tick(now_ns, sample, self._given)
         self._measure(tick, sample)
+        self._tell_who_commands()
         applied = self._applied.message.sequence if self._applied is not None else 0
         self._states.publish(now_ns, tick, applied, self._applied_latency)
 
@@ -195,12 +200,17 @@ class RobotService:
                 self._control.press(press.message.by, press.message.reason)
         for renewal in self._renewal.take():
             self._control.lease.renew(renewal.message.holder, renewal.message.epoch, renewal.received_ns)
+        for request in self._request.take():
+            self._control.lease.ask(request.message, request.received_ns)
 
     def _answer_all(self, now_ns: int) -> None:
         control = self._control
-        lease_s = control.lease.duration_s
+        lease = control.lease
+        lease_s = lease.duration_s
         self._answer(self._acquire, lambda request: AuthorityGranted(control.acquire(request, now_ns), lease_s))
-        self._answer(self._release, _accepting(control.release))
+        self._answer(self._authority_answer, _accepting(lambda request: lease.answer(request, now_ns)))
+        self._answer(self._revoke, _accepting(lease.revoke))
+        self._answer(self._release, _accepting(lease.release))
         self._answer(self._execute, self._executed)
         self._answer(self._teleoperate, lambda request: EpisodeStarted(control.teleoperate(request)))
         self._answer(self._finish, _accepting(control.finish))
@@ -208,6 +218,14 @@ class RobotService:
         self._answer(self._resume, _accepting(control.resume))
         self._answer(self._reset, _accepting(control.reset))
         self._answer(self._release_stop, _accepting(control.release_stop))
+
+    def _tell_who_commands(self) -> None:
+        """Log who took the authority from whom, and why."""
+        lease = self._control.lease
+        if self._told_epoch != lease.epoch and lease.reason:
+            event = lease.event.value.replace("_", " ")
+            log.warning("%s", one_line(f"{lease.before}'s authority was {event} by {lease.by}: {lease.reason}"))
+        self._told_epoch = lease.epoch
 
     def _executed(self, request: Execute) -> EpisodeStarted:
         return EpisodeStarted(self._control.execute(request, self._predictions.motion(request.prediction)))

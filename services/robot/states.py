@@ -108,8 +108,20 @@ class States:
 
     def _authority_state(self, now_ns: int) -> messages.AuthorityState:
         lease = self._control.lease
+        question = lease.asking.question
         return messages.AuthorityState(
-            operator=lease.operator, holder=lease.holder, epoch=lease.epoch, expires_in=lease.expires_in_s(now_ns)
+            operator=lease.operator,
+            holder=lease.holder,
+            epoch=lease.epoch,
+            expires_in=lease.expires_in_s(now_ns),
+            event=lease.event,
+            by=lease.by,
+            before=lease.before,
+            reason=lease.reason,
+            asked_by=question.who if question is not None else "",
+            asked=question.number if question is not None else 0,
+            asked_left=lease.asking.left_s(now_ns),
+            kept_from=lease.asking.kept_from,
         )
 
     def _safety_state(self, tick: Tick, *, stop_latched: bool) -> messages.SafetyState:

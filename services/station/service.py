@@ -21,6 +21,7 @@ from services.process.clock import Clock
 from services.process.config import Configuration, StationSection
 from services.process.schedule import Schedule
 from services.station.ears import Ears, came_s, message, picture, young
+from services.station.handover import GIVE, KEEP, HandOver
 from services.station.live_view.stage import Stage
 from services.station.page.view import PageView
 from services.station.press import STOP, Press
@@ -96,6 +97,7 @@ class StationService:
         self._random = np.random.default_rng(seed)
         self._ears = Ears(bus)
         self._stop = StopButton(bus, self._ears.safety, workflow_settings.operator, workflow_settings.holder)
+        self._hand_over = HandOver(bus, workflow_settings.holder)
         self._stage = Stage(self._ears)
         self._workflow = Workflow()
         self._asked: tuple[int, Pending[Any]] | None = None
@@ -128,6 +130,7 @@ class StationService:
             if step.state.phase is Phase.RESETTING and step.state.placed is None:
                 self._drawn = None
         self._publish(held)
+        self._pass_authority(now_ns, pressed, view)
         told = self._schedule.due(topics.TEACHING_STATE, now_ns)
         if not told and self._page is None:
             return
@@ -153,6 +156,14 @@ class StationService:
         if STOP in actions:
             self._stop.press(now_ns)
         self._stop.step(now_ns)
+
+    def _pass_authority(self, now_ns: int, pressed: list[Press], view: View) -> None:
+        """Ask for the authority that another station has, and answer who asks this one for it."""
+        for press in pressed:
+            if press.action in (GIVE, KEEP):
+                self._hand_over.answer(view.authority, give=press.action == GIVE)
+        if self._workflow.asks and view.present:
+            self._hand_over.ask(self._workflow.asks, self._settings.operator, now_ns)
 
     def _view(self, now_ns: int, pressed: list[Press], held: OperatorInput) -> View:
         ears = self._ears

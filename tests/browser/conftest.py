@@ -160,15 +160,21 @@ def hand(tab, station):
 
 
 @pytest.fixture
-def pressed(station, eventually):
-    """A function that waits for a press to arrive, and says which did."""
+def presses(station, eventually):
+    """A function that waits for presses to arrive, and says which did."""
 
     def wait():
         taken = []
-        eventually(lambda: taken.extend(press.action for press in station[0].take_presses()) or taken)
+        eventually(lambda: taken.extend(station[0].take_presses()) or taken)
         return taken
 
     return wait
+
+
+@pytest.fixture
+def pressed(presses):
+    """A function that waits for presses to arrive, and says what was pressed."""
+    return lambda: [press.action for press in presses()]
 
 
 @pytest.fixture

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import msgspec
 import pytest
 
 pytestmark = pytest.mark.browser
@@ -61,6 +62,48 @@ def test_silence_gives_the_input(tab, second):
     take(tab)
     give(second)
     tab.wait("body[data-link=armed]")
+
+
+def test_who_commands_gives_the_robot_to_another_station_or_keeps_it(tab, station, pressed):
+    _, feed = station
+    asked = msgspec.structs.replace(feed.view.authority, asked=7, asked_by="bob", asked_left=9.0)
+    for action in ("keep_authority", "give_authority"):
+        feed.view = replace(feed.view, authority=asked)
+        tab.wait(".banner-asked:has-text('bob asks for the robot')")
+        tab.page.click(f"[data-action={action}]")
+        assert pressed() == [action]
+        feed.view = replace(feed.view, authority=msgspec.structs.replace(asked, asked=0))
+        tab.wait(".banner-asked[data-value=robot-asked]", state="hidden")
+
+
+def test_a_take_over_is_pressed_with_a_reason_and_typing_it_steers_nothing(tab, station, presses):
+    page, feed = station
+    watching = msgspec.structs.replace(feed.view.teaching, phase="watching", actions=("ask", "take_over"))
+    feed.view = replace(feed.view, teaching=watching, authority_is_mine=False)
+    tab.page.click("[data-action=take_over]:enabled")
+    tab.page.keyboard.type("ed")
+    tab.page.keyboard.press("Enter")
+    tab.wait(".reason:visible")
+    tab.page.keyboard.type(" is at home ")
+    assert page.take_input().keys == ()
+    tab.page.keyboard.press("Enter")
+    (press,) = presses()
+    assert (press.action, press.argument) == ("take_over", "ed is at home")
+    tab.wait(".reason", state="hidden")
+
+
+def test_a_take_over_that_was_thought_better_of_is_none(tab, station, eventually):
+    page, feed = station
+    watching = msgspec.structs.replace(feed.view.teaching, phase="watching", actions=("take_over",))
+    feed.view = replace(feed.view, teaching=watching)
+    tab.page.click("[data-action=take_over]:enabled")
+    tab.page.keyboard.type("bob is at home")
+    tab.page.click(".reason-cancel")
+    tab.wait(".reason", state="hidden")
+    tab.page.keyboard.down("e")
+    eventually(lambda: page.take_input().keys == ("KeyE",))
+    tab.page.keyboard.up("e")
+    assert page.take_presses() == []
 
 
 def test_a_tab_finds_its_seat_again_after_a_reload_and_resumes_nothing(tab, second, station, eventually, pressed):

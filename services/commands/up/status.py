@@ -5,6 +5,7 @@ from __future__ import annotations
 from rich.table import Table
 
 from protocol.messages import Heartbeat
+from protocol.topics import role
 from services.commands.up.child import Child
 
 
@@ -21,8 +22,8 @@ def status_table(children: list[Child], beats: dict[str, Heartbeat]) -> Table:
             continue
         state = "[green]runs[/]" if child.alive else "[red]down[/]"
         row = [name, state, str(child.pid or "-"), str(child.restarts)]
-        beat = beats.get(name)
-        if beat is not None and beat.pid == child.pid:
+        beat = next((b for b in beats.values() if b.pid == child.pid and role(b.process) == name), None)
+        if beat is not None:
             late = f"{100 * beat.late_ticks / max(1, beat.ticks):.1f} %"
             drops = str(sum(t.drops for t in beat.topics))
             row += [f"{beat.rate_hz:g}", f"{1e3 * beat.period_p99:.1f} ms", late, f"{beat.memory / 1e6:.0f}", drops]

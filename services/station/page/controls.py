@@ -21,12 +21,14 @@ class Button:
         label: what a person reads.
         hint: what it does.
         symbol: in assets/symbols.svg.
+        question: that is answered with a reason before it is pressed; empty where none is needed.
     """
 
     action: str
     label: str
     hint: str
     symbol: str
+    question: str = ""
 
 
 BUTTONS = (
@@ -38,8 +40,8 @@ BUTTONS = (
     Button("next", "Next object", "a new place", "place"),
     Button("undo", "Undo", "the last update", "undo"),
     Button("end", "End", "this run", "end"),
-    Button("ask", "Ask", "for the authority", "hand"),
-    Button("take_over", "Take over", "the authority", "hand"),
+    Button("ask", "Ask", "for the robot", "hand"),
+    Button("take_over", "Take over", "and say why", "hand", "Why do you take the robot over?"),
 )
 """In order; those for the authority are there only while somebody else may have it."""
 

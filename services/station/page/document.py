@@ -7,13 +7,27 @@ from html import escape
 from pathlib import Path
 from string import Template
 
+from protocol.messages import SHORTEST_REASON
 from services.station.page.controls import BUTTONS, KEYBOARDS, Button, Key
 from services.station.page.panels import CHIPS, COUNTERS, CRITERIA
 
 HERE = Path(__file__).parent
 ASSETS = HERE / "assets"
 
-_SHEETS = ("base", "light", "header", "cameras", "scene", "status", "keys", "actions", "stop", "banners", "compact")
+_SHEETS = (
+    "base",
+    "light",
+    "header",
+    "cameras",
+    "scene",
+    "status",
+    "keys",
+    "actions",
+    "stop",
+    "banners",
+    "roles",
+    "compact",
+)
 _SYMBOLS = {"retouch": "brand", "view": "", "red": "lamp", "amber": "lamp", "hold": "lamp", "green": "lamp", "stop": ""}
 """Those that stand in page.html, and the class by which the style sheet sizes them."""
 
@@ -37,6 +51,7 @@ def document(robot: str, description: str) -> str:
         "criteria": "".join(_criterion(name, title) for name, title in CRITERIA),
         "keyboards": "".join(_keyboard(rows) for rows in KEYBOARDS),
         "actions": "".join(_button(button) for button in BUTTONS),
+        "shortest": str(SHORTEST_REASON),
         **{f"icon_{name}": _icon(name, size) for name, size in _SYMBOLS.items()},
     }
     return Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(parts, version=version())
@@ -101,8 +116,9 @@ def _key(key: Key) -> str:
 
 
 def _button(button: Button) -> str:
+    asks = f'data-question="{button.question}" ' if button.question else ""
     return (
         f'<button type="button" class="action" data-action="{button.action}" data-value="action-{button.action}" '
-        f'disabled>{_icon(button.symbol)}<span class="action-label">{button.label}</span>'
+        f'{asks}disabled>{_icon(button.symbol)}<span class="action-label">{button.label}</span>'
         f'<span class="action-hint">{button.hint}</span></button>'
     )

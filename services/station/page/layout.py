@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from services.station.page.commanding import commanding
 from services.station.page.controls import actions, emergency_stop
 from services.station.page.input import Standing
 from services.station.page.panels import counters, header, scene, traffic_light, verdict
@@ -19,7 +20,8 @@ def values(shown: Shown, standing: Standing) -> Values:
         standing: of the tab.
     """
     return {
-        **header(shown, standing),
+        **header(shown),
+        **commanding(shown, standing),
         **scene(shown),
         **traffic_light(shown, standing),
         **counters(shown),

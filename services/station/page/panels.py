@@ -25,11 +25,9 @@ CRITERIA = (("reached", "Target reached"), ("kicked", "Not kicked over"), ("coll
 """The success criteria, each with a check or a cross and its evidence."""
 
 
-def header(shown: Shown, standing: Standing) -> Values:
-    """The figures, and who has the authority."""
+def header(shown: Shown) -> Values:
+    """The figures."""
     view, robot, model, prediction = shown.view, shown.view.robot, shown.view.model, shown.view.prediction
-    holder = view.authority.holder if view.authority is not None else ""
-    yours = view.authority_is_mine and standing.armed
     return {
         "chip-phase-text": "unknown" if robot is None else robot.phase.value,
         "chip-age-text": span(shown.robot_age_s),
@@ -39,8 +37,6 @@ def header(shown: Shown, standing: Standing) -> Values:
         "chip-model-text": "none" if model is None else f"v{model.version}, {model.updates} learnt",
         "chip-prediction-text": "none" if prediction is None else certainty(prediction),
         "chip-prediction@data-tone": _sureness(prediction),
-        "chip-authority-text": "yours" if yours else holder or "nobody",
-        "chip-authority@data-tone": "good" if yours else "warn",
     }
 
 

@@ -7,7 +7,7 @@ from typing import Annotated
 import msgspec
 
 from protocol.exceptions import MalformedMessage, OversizedMessage
-from protocol.messages import Count
+from protocol.messages import Count, Reason
 
 MAX_BYTES = 4_096
 
@@ -15,7 +15,6 @@ _SUBJECT = "the operator's page"
 
 KeyCode = Annotated[str, msgspec.Meta(pattern="^[A-Za-z0-9]{1,32}$")]
 ActionName = Annotated[str, msgspec.Meta(pattern="^[a-z_]{1,32}$")]
-Argument = Annotated[str, msgspec.Meta(max_length=64)]
 Token = Annotated[str, msgspec.Meta(pattern="^[A-Za-z0-9-]{8,64}$")]
 Milliseconds = Annotated[float, msgspec.Meta(ge=0.0, le=1e12)]
 Axis = Annotated[float, msgspec.Meta(ge=-1.0, le=1.0)]
@@ -74,7 +73,7 @@ class Pressed(_FromBrowser, frozen=True, tag="pressed"):
     stamp_ms: Milliseconds
     number: Count
     action: ActionName
-    argument: Argument = ""
+    argument: Reason = ""
 
 
 _DECODER: msgspec.json.Decoder[Hello | Held | Pressed] = msgspec.json.Decoder(Hello | Held | Pressed)

@@ -31,6 +31,8 @@ def to(state: Workflow, phase: Phase, view: View, **changes: Any) -> Workflow:
         "retry_s": 0.0,
         "wants": None,
         "going": None,
+        "why": "",
+        "asks": 0,
         "offered": frozenset(),
         "notice": "",
     }

@@ -1,10 +1,11 @@
-"""The authority to command: asking for it, watching another station that has it, losing it."""
+"""The authority to command: waiting for it, getting it, losing it."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
 from protocol import queries
+from protocol.messages import AuthorityEvent, AuthorityState
 from services.station.workflow.asking import RETRY_S, ask, not_done, to
 from services.station.workflow.state import Action, Phase, Settings, Workflow
 from services.station.workflow.view import Step, View
@@ -40,37 +41,26 @@ def waiting(state: Workflow, view: View, settings: Settings) -> Step:
         return Step(state)
     taker = another(view, settings)
     lingers_until_s = state.retry_s or view.now_s + LINGERS_S
-    if state.watches or (taker and (state.epoch or view.now_s >= lingers_until_s)):
+    if state.watches or is_revoked(view) or (taker and (state.epoch or view.now_s >= lingers_until_s)):
         return Step(to(state, Phase.WATCHING, view, watches=True))
     if taker:
         return Step(replace(state, retry_s=lingers_until_s))
     return Step(to(state, Phase.ACQUIRING, view) if view.now_s >= state.retry_s else state)
 
 
-def watching(state: Workflow, view: View, settings: Settings) -> Step:
-    """Another station commands: this one asks or takes over when its operator says so, and never by itself."""
-    offered = frozenset({Action.ASK, Action.TAKE_OVER})
-    if settings.scripted:
-        free = view.authority is not None and not view.authority.holder and view.now_s >= state.retry_s
-        chosen = Action.ASK if free else None
-    else:
-        chosen = next((action for action in Action if action in view.actions & offered), None)
-    if chosen is None or not view.present:
-        return Step(replace(state, offered=offered))
-    return Step(to(state, Phase.ACQUIRING, view, wants=chosen))
-
-
 def acquiring(state: Workflow, view: View, settings: Settings) -> Step:
     """Ask; where the robot waits in an episode of this station's, the operator is asked what becomes of it."""
     offered = frozenset({Action.TAKE_OVER})
     if Action.TAKE_OVER in view.actions and state.wants is not Action.TAKE_OVER:
-        state = to(state, Phase.ACQUIRING, view, wants=Action.TAKE_OVER)
+        state = to(state, Phase.ACQUIRING, view, wants=Action.TAKE_OVER, why=view.argument(Action.TAKE_OVER))
     take_over = state.wants is Action.TAKE_OVER
     reply = ask(
         state,
         view,
         queries.ACQUIRE,
-        lambda intent: queries.AcquireAuthority(settings.holder, settings.operator, take_over, request=intent),
+        lambda intent: queries.AcquireAuthority(
+            settings.holder, settings.operator, take_over, state.why, request=intent
+        ),
     )
     match reply:
         case Step(waits, asks):
@@ -128,7 +118,7 @@ def lost(state: Workflow, view: View, settings: Settings) -> Workflow | None:
         return None
     reason = _loss(state, view, settings)
     if reason:
-        watches = bool(another(view, settings))
+        watches = bool(another(view, settings)) or is_revoked(view)
         dropped = replace(state, holding=False, pressed=False, watches=watches)
         return to(dropped, Phase.WATCHING if watches else Phase.WAITING, view, event=reason)
     if state.pressed and view.now_s - state.heard_s > UNHEARD_S:
@@ -146,9 +136,30 @@ def _loss(state: Workflow, view: View, settings: Settings) -> str:
             return ""
         return f"The robot has forgotten the authority: it speaks of {authority.epoch}, not {state.epoch}."
     taker = another(view, settings)
-    if taker:
-        return f"{taker} has taken the authority over."
+    if taker or is_revoked(view):
+        return passed(authority, taker)
     return _LOST if authority.epoch > state.epoch or not authority.holder else ""
+
+
+def is_revoked(view: View) -> bool:
+    """Somebody did not want that anybody commands: nobody does without a press."""
+    return view.authority is not None and view.authority.event is AuthorityEvent.REVOKED
+
+
+def passed(authority: AuthorityState, who: str = "") -> str:
+    """How the authority went to who has it now: who caused it, and why."""
+    why = f": {authority.reason}" if authority.reason else "."
+    match authority.event:
+        case AuthorityEvent.TAKEN_OVER:
+            return f"{who} has taken the authority over{why}"
+        case AuthorityEvent.REVOKED:
+            return f"{authority.by} has revoked the authority{why}"
+        case AuthorityEvent.GIVEN:
+            return f"{who} asked for the authority, and was given it."
+        case AuthorityEvent.GIVEN_BY_SILENCE:
+            return f"{who} asked for the authority, and got it as nobody answered."
+        case _:
+            return f"{who} has the authority now."
 
 
 def another(view: View, settings: Settings) -> str:

@@ -177,6 +177,8 @@ class Workflow:
         retry_s: not to ask again before [s].
         refusals: since the operator asked for the episode.
         wants: what the operator asked for in this phase, until it is answered.
+        why: the operator's reason for it.
+        asks: number of the request to whoever commands for the authority, said on while it is not answered; 0 for none.
         pressed: the operator asked for the next episode; without it nothing moves.
         watches: another station took the authority over: it is asked for only upon a press.
         epoch: of the authority that was granted last.
@@ -215,6 +217,8 @@ class Workflow:
     retry_s: float = 0.0
     refusals: int = 0
     wants: Action | None = None
+    why: str = ""
+    asks: int = 0
     pressed: bool = False
     watches: bool = False
     epoch: int = 0

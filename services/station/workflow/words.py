@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from protocol.messages import Light, Mode, Outcome, RobotState, SafetyState, TeachingState
 from protocol.messages import Phase as RobotPhase
 from services.bus.predictions import certainty, way_taken
@@ -97,6 +99,9 @@ def _without(state: Workflow, view: View, taker: str) -> str:
     """Without the authority: what is waited for, or who has it and what can be done."""
     if state.phase is Phase.WAITING:
         return missing(view) or (f"{taker} commands the robot." if taker else "")
+    authority = view.authority
+    if authority is not None and state.asks and authority.asked == state.asks:
+        return f"{taker} is asked for the robot, and gives it by silence in {math.ceil(authority.asked_left)} s."
     return f"{taker} commands the robot. Ask, or take over." if taker else "Nobody commands the robot. Ask to."
 
 

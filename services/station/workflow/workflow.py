@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from services.station.workflow import authority
-from services.station.workflow.authority import acquiring, waiting, watching
+from services.station.workflow.authority import acquiring, waiting
 from services.station.workflow.deciding import deciding, finished
 from services.station.workflow.episode import executing, looking, predicting, resetting, starting
 from services.station.workflow.learning import learning, undoing
@@ -18,6 +18,7 @@ from services.station.workflow.state import Phase, Settings, Workflow
 from services.station.workflow.stop import caught, releasing, stopped
 from services.station.workflow.verdict import judged
 from services.station.workflow.view import Step, View
+from services.station.workflow.watching import watching
 
 
 def advance(state: Workflow, view: View, settings: Settings) -> Step:

@@ -24,8 +24,9 @@ class Desk:
 
     def __init__(self, silent_s=0.3):
         self.clock = ManualClock()
-        network = MemoryNetwork(self.clock)
+        self.network = network = MemoryNetwork(self.clock)
         self.others = network.bus()
+        self.station = network.bus("station-ann")
         self.states = network.bus().subscribe(MASTER_STATE)
         self.service = build(network.bus(), self.clock, Configuration(operator="ann"))
         self.listen(silent_s)
@@ -43,7 +44,7 @@ class Desk:
         for _ in range(round(seconds / PERIOD)):
             self.clock.advance(PERIOD)
             if page:
-                self.others.publish(OPERATOR_INPUT, OperatorInput(keys=keys, **named))
+                self.station.publish(OPERATOR_INPUT, OperatorInput(keys=keys, **named))
             if robot is not None:
                 self.others.publish(ROBOT_STATE, robot)
             if authority is not None:
@@ -77,7 +78,7 @@ def test_a_key_that_is_pressed_or_let_go_acts_between_ticks_and_nothing_else_doe
     named = {"focused": True, "operator": "ann", "holder": "station-a", "epoch": 7}
     for keys, told in (((), 0), (("KeyE",), 1), (("KeyE",), 1), ((), 2)):
         desk.clock.advance(0.002)
-        desk.others.publish(OPERATOR_INPUT, OperatorInput(keys=keys, **named))
+        desk.station.publish(OPERATOR_INPUT, OperatorInput(keys=keys, **named))
         assert desk.service.call.is_set()
         desk.service.step_early(desk.clock.now_ns())
         assert desk.states.latest().message.sequence == before + told
@@ -113,25 +114,33 @@ def test_the_authority_lost_in_the_middle_disengages_at_once():
     assert (state.engaged, state.epoch) == (False, 0)
 
 
-def test_it_follows_its_own_operator_whatever_other_stations_say():
+def test_it_follows_its_own_station_whatever_other_stations_say():
     desk = Desk()
     desk.run(0.1, keys=())
     for _ in range(20):
         desk.run(0.01)
-        stranger = OperatorInput(keys=("KeyS",), focused=True, operator="bob", holder="station-a", epoch=7)
+        stranger = OperatorInput(keys=("KeyS",), focused=True, operator="ann", holder="station-a", epoch=7)
         desk.others.publish(OPERATOR_INPUT, stranger)
     state = desk.run(0.5)
     assert state.displacement[0] > 0.05
     assert state.displacement[1] == 0.0
 
 
-def test_of_one_operators_two_stations_it_follows_the_one_that_holds_the_authority():
+def test_whoever_sits_at_its_station_is_followed_and_named():
+    desk = Desk()
+    desk.run(0.1, keys=(), operator="bob")
+    state = desk.run(0.5, operator="bob")
+    assert (state.engaged, state.operator) == (True, "bob")
+
+
+def test_of_a_station_and_the_one_before_it_it_follows_the_one_that_holds_the_authority():
     desk = Desk()
     desk.run(0.1, keys=())
+    before = desk.network.bus("station-ann")
     for _ in range(50):
         desk.run(0.01)
         idle = OperatorInput(keys=(), focused=False, operator="ann", holder="station-z", epoch=0)
-        desk.others.publish(OPERATOR_INPUT, idle)
+        before.publish(OPERATOR_INPUT, idle)
     state = desk.run(0.01)
     assert (state.engaged, state.holder) == (True, "station-a")
 

@@ -171,7 +171,9 @@ def test_after_an_absence_the_motion_waits_and_goes_on_upon_a_press(person, abse
 
 def test_a_station_that_was_taken_over_moves_nothing_after_the_other_has_gone(person):
     person.until("deciding")
-    pending = person.way_in.ask(queries.ACQUIRE, queries.AcquireAuthority("station-2", "bob", take_over=True))
+    pending = person.way_in.ask(
+        queries.ACQUIRE, queries.AcquireAuthority("station-2", "bob", take_over=True, reason="it burns")
+    )
     person.run(lambda: pending.poll() is not None)
     person.until("watching")
     assert person.phases(LONG) == {Phase.IDLE}

@@ -49,7 +49,8 @@ class Operated:
         return pending.poll()
 
     def acquire(self, holder="ann", *, take_over=False):
-        reply = self.ask(queries.ACQUIRE, queries.AcquireAuthority(holder, take_over=take_over))
+        request = queries.AcquireAuthority(holder, take_over=take_over, reason="it burns" if take_over else "")
+        reply = self.ask(queries.ACQUIRE, request)
         assert isinstance(reply, AuthorityGranted)
         self.epoch, self.holder = reply.epoch, holder
         return reply.epoch

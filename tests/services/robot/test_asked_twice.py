@@ -80,7 +80,7 @@ def test_a_release_of_the_authority_does_not_take_the_next_lease(site):
 
 
 def test_an_acquisition_gives_one_epoch(site):
-    asked = queries.AcquireAuthority("bob", take_over=True, request=7)
+    asked = queries.AcquireAuthority("bob", take_over=True, reason="it burns", request=7)
     granted = site.ask(queries.ACQUIRE, asked)
     site.acquire("ann", take_over=True)
     assert site.ask(queries.ACQUIRE, asked) == granted

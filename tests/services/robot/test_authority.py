@@ -4,6 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from protocol.messages import AuthorityEvent, AuthorityRequest
+from protocol.queries import AnswerRequest, ReleaseAuthority, RevokeAuthority
 from services.process.config import LONGEST_LEASE_S
 from services.robot.authority import NOBODY, Lease
 from services.robot.refusal import Refusal
@@ -16,6 +18,8 @@ ACTIONS = st.lists(
         st.tuples(st.just("release"), NAMES, st.booleans()),
         st.tuples(st.just("renew"), NAMES, st.booleans()),
         st.tuples(st.just("revoke"), NAMES, st.booleans()),
+        st.tuples(st.just("ask"), NAMES, st.booleans()),
+        st.tuples(st.just("answer"), NAMES, st.booleans()),
         st.tuples(st.just("wait"), NAMES, st.booleans()),
     )
 )
@@ -32,7 +36,7 @@ def test_another_holder_is_refused_by_name_while_the_lease_lives():
 def test_take_over_fences_the_former_holder_off():
     lease = Lease(1.0)
     former = lease.acquire("ann", 0)
-    present = lease.acquire("bob", 0, take_over=True)
+    present = lease.acquire("bob", 0, take_over=True, reason="it burns")
     lease.check(present)
     with pytest.raises(Refusal, match="bob"):
         lease.check(former)
@@ -59,7 +63,7 @@ def test_a_refusal_names_the_person_and_not_the_station():
     for refused in (
         lambda: lease.acquire("station-77b0", 0, operator="bob"),
         lambda: lease.check(epoch + 1),
-        lambda: lease.release("station-77b0", epoch),
+        lambda: lease.release(ReleaseAuthority("station-77b0", epoch)),
     ):
         with pytest.raises(Refusal, match="ann"):
             refused()
@@ -69,10 +73,10 @@ def test_only_the_holder_releases():
     lease = Lease(1.0)
     epoch = lease.acquire("ann", 0)
     with pytest.raises(Refusal, match="does not hold"):
-        lease.release("bob", epoch)
+        lease.release(ReleaseAuthority("bob", epoch))
     with pytest.raises(Refusal, match="epoch"):
-        lease.release("ann", epoch + 1)
-    lease.release("ann", epoch)
+        lease.release(ReleaseAuthority("ann", epoch + 1))
+    lease.release(ReleaseAuthority("ann", epoch))
     assert lease.expires_in_s(0) == 0.0
 
 
@@ -145,7 +149,7 @@ def test_only_the_holder_under_the_present_epoch_is_covered():
     assert lease.covers("ann", epoch)
     assert not lease.covers("bob", epoch)
     assert not lease.covers("ann", epoch - 1)
-    lease.revoke()
+    lease.end("eve")
     assert not lease.covers("ann", epoch)
     assert not lease.covers(NOBODY, lease.epoch)
 
@@ -154,20 +158,20 @@ def test_the_operator_goes_with_the_authority():
     lease = Lease(1.0)
     lease.acquire("station-1", 0, operator="Ann")
     assert lease.operator == "Ann"
-    lease.acquire("station-2", 0, take_over=True)
+    lease.acquire("station-2", 0, take_over=True, reason="it burns")
     assert lease.operator == ""
     lease.acquire("station-2", 0, operator="Bob")
-    lease.revoke()
+    lease.end("eve")
     assert lease.operator == ""
 
 
 def test_a_release_of_what_nobody_holds_says_so():
     with pytest.raises(Refusal, match="'ann' does not hold the authority: nobody does"):
-        Lease(1.0).release("ann", 0)
+        Lease(1.0).release(ReleaseAuthority("ann", 0))
     lease = Lease(1.0)
     lease.acquire("bob", 0)
     with pytest.raises(Refusal, match="'ann' does not hold the authority: bob does"):
-        lease.release("ann", 1)
+        lease.release(ReleaseAuthority("ann", 1))
 
 
 def test_the_first_epoch_that_is_given_out_is_above_the_one_to_start_from():
@@ -177,7 +181,7 @@ def test_the_first_epoch_that_is_given_out_is_above_the_one_to_start_from():
 def test_each_change_raises_the_epoch_by_one():
     lease = Lease(1.0, epoch=41)
     assert lease.acquire("ann", 0) == 42
-    lease.revoke()
+    lease.end("eve")
     assert lease.epoch == 43
 
 
@@ -186,28 +190,108 @@ def test_a_nameless_holder_is_refused():
         Lease(1.0).acquire("", 0)
 
 
+@pytest.mark.parametrize("reason", ["", "ok", "  .  "])
+def test_a_take_over_and_a_revocation_need_a_reason(reason):
+    lease = Lease(1.0)
+    epoch = lease.acquire("ann", 0)
+    with pytest.raises(Refusal, match="a take-over needs a reason of at least 3 characters"):
+        lease.acquire("bob", 0, take_over=True, reason=reason)
+    with pytest.raises(Refusal, match="a revocation needs a reason"):
+        lease.revoke(RevokeAuthority("eve", reason))
+    lease.check(epoch)
+
+
+def test_what_nobody_else_holds_needs_no_reason():
+    lease = Lease(1.0)
+    lease.acquire("ann", 0, take_over=True)
+    lease.acquire("ann", 0, take_over=True)
+    assert (lease.event, lease.reason) == (AuthorityEvent.ACQUIRED, "")
+
+
+def test_a_revocation_leaves_the_authority_with_nobody_and_says_who_and_why():
+    lease = Lease(1.0)
+    epoch = lease.acquire("station-1", 0, operator="Ann")
+    lease.revoke(RevokeAuthority("eve", " it is late "))
+    assert (lease.holder, lease.event, lease.by, lease.before, lease.reason) == (
+        NOBODY,
+        AuthorityEvent.REVOKED,
+        "eve",
+        "Ann",
+        "it is late",
+    )
+    with pytest.raises(Refusal, match="nobody holds"):
+        lease.check(epoch)
+
+
+def test_a_revocation_needs_a_name_and_somebody_who_holds_the_authority():
+    lease = Lease(1.0)
+    with pytest.raises(Refusal, match="nothing to revoke"):
+        lease.revoke(RevokeAuthority("eve", "it is late"))
+    lease.acquire("ann", 0)
+    with pytest.raises(Refusal, match="needs a name"):
+        lease.revoke(RevokeAuthority("", "it is late"))
+    assert lease.holder == "ann"
+
+
+def test_each_change_says_how_it_came_and_who_had_it_before():
+    lease, told = Lease(1.0), []
+    for change in (
+        lambda: lease.acquire("ann", 0),
+        lambda: lease.acquire("bob", 0, take_over=True, reason="she left"),
+        lambda: lease.release(ReleaseAuthority("bob", lease.epoch)),
+        lambda: lease.acquire("ann", 0),
+        lambda: lease.expire(2 * SECOND),
+        lambda: lease.acquire("ann", 2 * SECOND),
+        lambda: lease.end("eve"),
+    ):
+        change()
+        told.append((lease.event.value, lease.by, lease.before, lease.reason))
+    assert told == [
+        ("acquired", "ann", "", ""),
+        ("taken_over", "bob", "ann", "she left"),
+        ("released", "bob", "bob", ""),
+        ("acquired", "ann", "", ""),
+        ("expired", "ann", "ann", ""),
+        ("acquired", "ann", "", ""),
+        ("stopped", "eve", "ann", ""),
+    ]
+
+
+def carry_out(lease, what, number):
+    """One of the things that may happen to a lease."""
+    action, name, flag = what
+    now = number * SECOND // 2
+    question = lease.asking.question
+    match action:
+        case "acquire":
+            lease.acquire(name, now, take_over=flag, reason="it burns")
+        case "release":
+            lease.release(ReleaseAuthority(name, lease.epoch))
+        case "renew":
+            lease.renew(name, lease.epoch, now)
+        case "revoke":
+            lease.revoke(RevokeAuthority(name, "it burns"))
+        case "ask":
+            lease.ask(AuthorityRequest(holder=name, number=number), now)
+        case "answer":
+            lease.answer(AnswerRequest(name, lease.epoch, question.number if question else 0, flag), now)
+        case "wait":
+            lease.expire(now)
+
+
 @given(ACTIONS)
 def test_every_change_raises_the_epoch_and_no_epoch_commands_twice(actions):
-    lease, now, owner = Lease(1.0, epoch=7), 0, {}
-    for action, name, flag in actions:
-        before = (lease.holder, lease.epoch)
+    lease, owner = Lease(1.0, epoch=7), {}
+    for number, what in enumerate(actions, 1):
+        holder, epoch, asked = lease.holder, lease.epoch, lease.asking.question
         try:
-            if action == "acquire":
-                owner[lease.acquire(name, now, take_over=flag)] = name
-            elif action == "release":
-                lease.release(name, lease.epoch)
-            elif action == "renew":
-                lease.renew(name, lease.epoch, now)
-            elif action == "revoke":
-                lease.revoke()
-            else:
-                now += SECOND
-                lease.expire(now)
+            carry_out(lease, what, number)
         except Refusal:
-            if lease.holder == before[0]:
-                assert lease.epoch == before[1]
-        assert lease.epoch >= before[1]
-        if lease.holder != before[0]:
-            assert lease.epoch > before[1]
+            assert lease.holder != holder or lease.epoch == epoch
+        assert lease.epoch >= epoch
+        if lease.holder != holder:
+            assert lease.epoch > epoch
+            assert lease.asking.question is None
         if lease.holder != NOBODY:
-            assert owner[lease.epoch] == lease.holder
+            assert owner.setdefault(lease.epoch, lease.holder) == lease.holder
+        assert asked is None or asked.holder != holder, "nobody asks for what is their own"

@@ -163,7 +163,7 @@ def test_nothing_moves_before_anybody_asks():
 
 
 def test_the_authority_tells_who_holds_it(site):
-    site.ask(queries.ACQUIRE, queries.AcquireAuthority("station-1", operator="Ann", take_over=True))
+    site.ask(queries.ACQUIRE, queries.AcquireAuthority("station-1", operator="Ann", take_over=True, reason="it burns"))
     state = site.authority_states.latest().message
     assert (state.operator, state.holder) == ("Ann", "station-1")
     site.run(1.2, renew=False)

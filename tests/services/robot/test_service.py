@@ -96,7 +96,7 @@ def test_the_emergency_stop_latches_and_asks_for_release_and_a_new_authority(sit
     for refused in (
         site.execute(),
         site.ask(queries.RESET, queries.Reset(site.epoch)),
-        site.ask(queries.ACQUIRE, queries.AcquireAuthority("ann", take_over=True)),
+        site.ask(queries.ACQUIRE, queries.AcquireAuthority("ann", take_over=True, reason="it burns")),
     ):
         assert isinstance(refused, Refused)
         assert "smoke" in refused.reason

@@ -76,7 +76,7 @@ def test_nothing_is_carried_out_while_the_stop_is_latched():
     for refused in (
         site.ask_to_execute(),
         site.ask(queries.RESET, queries.Reset(site.epoch)),
-        site.ask(queries.ACQUIRE, queries.AcquireAuthority("ann", take_over=True)),
+        site.ask(queries.ACQUIRE, queries.AcquireAuthority("ann", take_over=True, reason="it burns")),
     ):
         assert isinstance(refused, Refused)
         assert refused.reason == "emergency stop by bob: smoke: release it first"

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import msgspec
 import pytest
 
 from protocol import queries, topics
@@ -77,6 +78,39 @@ def test_the_input_says_who_is_there_and_under_which_authority(scripted):
     site.run(0.1)
     said = held.latest().message
     assert (said.operator, said.holder, said.epoch, said.present) == ("ann", "station-1", 41, True)
+
+
+def test_whoever_commands_is_asked_while_the_operator_is_present():
+    page = Tab()
+    site = Site(page, settings=BY_HAND)
+    requests = site.other.subscribe(topics.AUTHORITY_REQUEST)
+    site.show_scene()
+    site.authority = AuthorityState(operator="bob", holder="station-2", epoch=42, expires_in=1.0)
+    site.run(3.0)
+    assert requests.take() == []
+    page.pressed = ["ask"]
+    site.run(1.0)
+    said = [received.message for received in requests.take()]
+    assert len(said) == topics.AUTHORITY_REQUEST.kept
+    assert {(message.operator, message.holder) for message in said} == {("ann", "station-1")}
+    page.held = OperatorInput(present=False)
+    site.run(1.0)
+    assert requests.take() == []
+
+
+@pytest.mark.parametrize(("action", "give"), [("give_authority", True), ("keep_authority", False)])
+def test_who_has_the_input_answers_who_asks_for_the_robot(action, give):
+    page = Tab()
+    site = Site(page, settings=BY_HAND)
+    answers = site.other.serve(queries.ANSWER)
+    site.grant()
+    site.run(0.1)
+    site.authority = msgspec.structs.replace(site.authority, asked=77, asked_by="bob", asked_left=9.0)
+    site.run(0.1)
+    page.pressed = [action]
+    site.run(0.1)
+    (call,) = answers.take()
+    assert (call.request.number, call.request.epoch, call.request.give) == (77, 41, give)
 
 
 def test_nothing_is_asked_of_the_robot_before_a_press_but_the_authority():

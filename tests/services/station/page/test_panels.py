@@ -6,7 +6,7 @@ import msgspec
 import pytest
 from views import SEATED, shown, teaching
 
-from protocol.messages import AuthorityState, Light, Recording, SafetyState, Verdict, Way
+from protocol.messages import Light, Recording, SafetyState, Verdict, Way
 from services.bus.arrays import motion_to_wire
 from services.station.page.panels import counters, header, scene, traffic_light, verdict
 from tests.services.predictions import prediction
@@ -53,20 +53,6 @@ def test_while_the_stop_is_latched_the_light_says_stopped():
 
 
 @pytest.mark.parametrize(
-    ("mine", "standing", "words", "tone"),
-    [(True, SEATED, "yours", "good"), (True, LOOKING_ON, "station-1", "warn"), (False, SEATED, "station-1", "warn")],
-)
-def test_the_authority_is_the_reader_s_only_where_s_he_has_the_input(mine, standing, words, tone):
-    authority = AuthorityState(holder="station-1", epoch=1, expires_in=1.0)
-    values = header(shown(authority=authority, authority_is_mine=mine), standing)
-    assert (values["chip-authority-text"], values["chip-authority@data-tone"]) == (words, tone)
-
-
-def test_an_authority_that_nobody_holds_is_nobody_s():
-    assert header(shown(), SEATED)["chip-authority-text"] == "nobody"
-
-
-@pytest.mark.parametrize(
     ("certainty", "words", "tone"),
     [
         ({}, "100 % known", "good"),
@@ -77,12 +63,12 @@ def test_an_authority_that_nobody_holds_is_nobody_s():
 )
 def test_a_prediction_is_told_by_what_is_known_and_which_way_it_takes(certainty, words, tone):
     told = msgspec.structs.replace(prediction(MOTION), **certainty)
-    values = header(shown(prediction=told), SEATED)
+    values = header(shown(prediction=told))
     assert (values["chip-prediction-text"], values["chip-prediction@data-tone"]) == (words, tone)
 
 
 def test_without_a_prediction_nothing_is_said_of_it():
-    values = header(shown(), SEATED)
+    values = header(shown())
     assert (values["chip-prediction-text"], values["chip-prediction@data-tone"]) == ("none", "none")
 
 

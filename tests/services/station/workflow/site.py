@@ -77,13 +77,13 @@ class Site:
             drawn=Place((0.85, 0.05, 0.5)),
         )
 
-    def step(self, *actions, seconds=1.0, **seen):
-        """Advance in time; `seen` is what is different in this step only."""
+    def step(self, *actions, seconds=1.0, argument="", **seen):
+        """Advance in time; `argument` is what is said with the presses, `seen` what is different in this step only."""
         self.now_s += seconds
         self.numbers += 1
         before = self.state.phase
         now = {"now_s": self.now_s, "seen_s": self.now_s, "scene_s": self.now_s, "number": self.numbers}
-        now["presses"] = tuple(Press(action.value) for action in actions)
+        now["presses"] = tuple(Press(action.value, argument) for action in actions)
         step = advance(self.state, replace(self.view, **(now | seen)), self.settings)
         self.state = step.state
         if step.ask is not None:

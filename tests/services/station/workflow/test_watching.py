@@ -1,11 +1,13 @@
 """Where another station commands this one watches: its operator asks or takes over, and nothing happens by itself."""
 
+import msgspec
 import pytest
 
 from protocol import queries
+from protocol.messages import AuthorityEvent
 from services.station.workflow.state import Action, Phase
 from services.station.workflow.words import teaching_state
-from tests.services.station.workflow.site import BY_HAND, SCRIPTED, STOPPED, Site, authority
+from tests.services.station.workflow.site import BY_HAND, HOLD, SCRIPTED, STOPPED, Site, authority
 
 
 def text(site):
@@ -37,31 +39,155 @@ def test_another_station_of_the_same_person_is_named_as_such():
     assert "Another station" in site.state.event
 
 
-@pytest.mark.parametrize(("action", "take_over"), [(Action.ASK, False), (Action.TAKE_OVER, True)])
-def test_a_watching_operator_asks_or_takes_over_and_nothing_moves(action, take_over):
+def test_a_watching_operator_takes_over_with_a_reason_and_nothing_moves():
     site = Site(BY_HAND)
     site.run_to(Phase.DECIDING)
     taken_over(site)
-    site.step(action)
+    site.step(Action.TAKE_OVER, argument="bob has left")
     site.run_to(Phase.DECIDING)
-    assert site.requests(queries.ACQUIRE)[-1].take_over is take_over
+    asked = site.requests(queries.ACQUIRE)[-1]
+    assert (asked.take_over, asked.reason) == (True, "bob has left")
     assert site.names() == ["authority/acquire"] * 2
     assert site.state.held_epoch == site.epoch
 
 
-def test_who_asks_and_is_refused_watches_on():
+def asking(site):
+    """Bob commands, and is asked; the number of the request."""
+    site.run_to(Phase.DECIDING)
+    taken_over(site)
+    site.step(Action.ASK)
+    site.step()
+    assert site.state.asks
+    return site.state.asks
+
+
+def commands(site, holder, operator, **told):
+    """What the robot says of the authority from now on."""
+    site.epoch += 1
+    site.sees(authority=msgspec.structs.replace(authority(holder, site.epoch, operator), **told))
+
+
+def test_whoever_commands_is_asked_and_the_robot_is_not():
+    site = Site(BY_HAND)
+    number = asking(site)
+    site.sees(authority=msgspec.structs.replace(site.view.authority, asked=number, asked_by="ann", asked_left=7.2))
+    assert site.stay(60) == []
+    assert site.state.asks == number
+    assert site.state.offered == {Action.TAKE_OVER}
+    assert "bob is asked for the robot, and gives it by silence in 8 s." in text(site)
+
+
+def test_who_is_given_the_authority_gets_it_and_nothing_moves():
+    site = Site(BY_HAND)
+    asking(site)
+    commands(site, "station", "ann", event=AuthorityEvent.GIVEN)
+    site.run_to(Phase.DECIDING)
+    assert site.names() == ["authority/acquire"] * 2
+    assert not site.requests(queries.ACQUIRE)[-1].take_over
+    assert site.state.held_epoch == site.epoch
+    assert not site.state.asks
+
+
+def test_who_asks_gets_the_authority_once_nobody_has_it():
+    site = Site(BY_HAND)
+    asking(site)
+    commands(site, "", "", event=AuthorityEvent.RELEASED)
+    site.run_to(Phase.DECIDING)
+    assert site.state.held_epoch == site.epoch
+
+
+def test_who_asks_and_leaves_gets_nothing_by_itself():
+    site = Site(BY_HAND)
+    asking(site)
+    commands(site, "", "", event=AuthorityEvent.RELEASED)
+    assert site.stay(present=False) == []
+    assert site.state.phase is Phase.WATCHING
+
+
+def test_who_asks_and_is_refused_is_told_and_may_ask_again():
+    site = Site(BY_HAND)
+    number = asking(site)
+    site.sees(authority=msgspec.structs.replace(site.view.authority, kept_from=number))
+    site.step()
+    assert not site.state.asks
+    assert "bob keeps the authority." in text(site)
+    assert site.stay() == []
+    site.step(Action.ASK)
+    assert site.state.asks not in (0, number)
+
+
+def test_a_robot_that_refuses_is_quoted_and_watched_on():
     site = Site(BY_HAND)
     site.run_to(Phase.DECIDING)
     taken_over(site)
-    site.fail(queries.ACQUIRE, queries.Refused("bob holds it"))
-    site.step(Action.ASK)
+    site.fail(queries.ACQUIRE, queries.Refused("a take-over needs a reason"))
+    site.step(Action.TAKE_OVER)
     site.run_to(Phase.WATCHING)
-    assert "bob holds it" in site.state.notice
+    assert "a take-over needs a reason" in site.state.notice
     assert site.stay() == []
+
+
+def test_a_stop_ends_the_asking():
+    site = Site(BY_HAND)
+    asking(site)
     site.step(safety=STOPPED)
+    assert not site.state.asks
     site.sees(authority=authority("", site.epoch + 1))
     assert site.stay() == []
     assert site.state.phase is Phase.WATCHING
+
+
+@pytest.mark.parametrize(
+    ("told", "words"),
+    [
+        ({"event": AuthorityEvent.TAKEN_OVER, "reason": "it burns"}, "bob has taken the authority over: it burns"),
+        ({"event": AuthorityEvent.GIVEN}, "bob asked for the authority, and was given it."),
+        ({"event": AuthorityEvent.GIVEN_BY_SILENCE}, "got it as nobody answered."),
+        ({"event": AuthorityEvent.ACQUIRED}, "bob has the authority now."),
+    ],
+)
+def test_who_loses_the_authority_is_told_to_whom_and_why(told, words):
+    site = Site(BY_HAND)
+    site.run_to(Phase.DECIDING)
+    commands(site, "station-b", "bob", **told)
+    site.step()
+    assert words in site.state.event
+
+
+REVOKED = {"event": AuthorityEvent.REVOKED, "by": "eve", "reason": "it is late"}
+
+
+def test_a_revoked_authority_comes_back_upon_a_press_only():
+    site = Site(BY_HAND)
+    site.press(Action.EXECUTE, Phase.EXECUTING)
+    site.step()
+    asked = len(site.asked)
+    site.robot(phase=HOLD, waiting=True)
+    commands(site, "", "", **REVOKED)
+    site.step()
+    assert site.state.phase is Phase.WATCHING
+    assert "eve has revoked the authority: it is late" in text(site)
+    assert site.stay(60) == []
+    site.step(Action.ASK)
+    site.run_to(Phase.EXECUTING)
+    site.step()
+    assert site.names()[asked:] == ["authority/acquire"]
+    assert site.state.offered == {Action.GO_ON, Action.FINISH}
+
+
+def test_a_station_that_comes_after_a_revocation_asks_for_nothing_by_itself():
+    site = Site(BY_HAND)
+    commands(site, "", "", **REVOKED)
+    assert site.stay(60) == []
+    assert site.state.phase is Phase.WATCHING
+
+
+def test_a_script_ends_with_a_revocation():
+    site = Site(SCRIPTED)
+    site.run_to(Phase.EXECUTING)
+    commands(site, "", "", **REVOKED)
+    site.run_to(Phase.FINISHED)
+    assert "eve has revoked the authority: it is late" in site.state.reason
 
 
 def test_an_absent_operator_asks_for_nothing():

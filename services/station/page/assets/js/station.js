@@ -7,6 +7,7 @@ import { Link } from "/assets/js/link.js";
 import { LiveView, MOMENT } from "/assets/js/live_view.js";
 import { Pictures } from "/assets/js/pictures.js";
 import { Presses } from "/assets/js/presses.js";
+import { Reasons } from "/assets/js/reasons.js";
 import { Tab } from "/assets/js/tab.js";
 import { show } from "/assets/js/values.js";
 
@@ -21,6 +22,7 @@ const presses = new Presses(tab);
 window.addEventListener("keydown", stopByKey, { capture: true });
 window.addEventListener("pointerdown", stopByHand, { capture: true });
 
+const reasons = new Reasons(presses);
 const pictures = new Pictures();
 const keyboard = new Keyboard();
 const held = new Held(changed);
@@ -105,7 +107,9 @@ function clicked(event) {
 }
 
 function pressButton(button) {
-  if (button && !button.disabled) presses.press(button.dataset.action, button.dataset.argument);
+  if (!button || button.disabled) return;
+  if (button.dataset.question) reasons.ask(button);
+  else presses.press(button.dataset.action, button.dataset.argument);
 }
 
 function showAges() {

@@ -1,0 +1,56 @@
+"""The authority between two stations: this one asks for it, is asked for it, or ends whoever has it."""
+
+from __future__ import annotations
+
+from protocol import queries, topics
+from protocol.messages import AuthorityRequest, AuthorityState
+from services.bus.bus import Bus, Failed, Pending
+from services.bus.identity import new_number
+from services.process.schedule import Schedule
+
+GIVE, KEEP, REVOKE = "give_authority", "keep_authority", "revoke"
+"""What is pressed for it."""
+
+ANSWERED_WITHIN_S = 2.0
+
+
+class HandOver:
+    """Says the request of this station's operator on, and the answer to another's.
+
+    Args:
+        bus: to the robot and the other stations.
+        holder: this station's name.
+    """
+
+    def __init__(self, bus: Bus, holder: str) -> None:
+        self._bus = bus
+        self._holder = holder
+        self._schedule = Schedule()
+        self._revoked: Pending[queries.Accepted] | None = None
+
+    def ask(self, number: int, operator: str, now_ns: int) -> None:
+        """Ask whoever commands, in the rhythm of the topic."""
+        if self._schedule.due(topics.AUTHORITY_REQUEST, now_ns):
+            request = AuthorityRequest(operator=operator, holder=self._holder, number=number)
+            self._bus.publish(topics.AUTHORITY_REQUEST, request)
+
+    def answer(self, authority: AuthorityState | None, *, give: bool) -> None:
+        """Give the authority to who asks this station for it, or keep it; what is lost on the way is asked on."""
+        if authority is None or not authority.asked or authority.holder != self._holder:
+            return
+        answer = queries.AnswerRequest(self._holder, authority.epoch, authority.asked, give, request=new_number())
+        self._bus.ask(queries.ANSWER, answer, ANSWERED_WITHIN_S)
+
+    def revoke(self, by: str, reason: str) -> None:
+        """End the authority of whoever commands."""
+        request = queries.RevokeAuthority(by, reason, request=new_number())
+        self._revoked = self._bus.ask(queries.REVOKE, request, ANSWERED_WITHIN_S)
+
+    @property
+    def fault(self) -> str:
+        """Why the newest revocation was not done; empty where it was, or is not known yet."""
+        match self._revoked.poll() if self._revoked is not None else None:
+            case queries.Refused(reason) | Failed(reason):
+                return f"Not revoked: {reason}."
+            case _:
+                return ""

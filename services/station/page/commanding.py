@@ -1,0 +1,29 @@
+"""Who commands, as a tab says it: nothing else on the page claims it."""
+
+from __future__ import annotations
+
+import math
+
+from services.station.page.input import Standing
+from services.station.page.values import Values
+from services.station.page.view import Shown
+
+
+def commanding(shown: Shown, standing: Standing) -> Values:
+    """Who commands, and who asks this tab's person for the robot."""
+    authority = shown.view.authority
+    mine = shown.view.authority_is_mine and standing.armed
+    asked = mine and authority is not None and authority.asked > 0
+    left_s = max(0.0, authority.asked_left - shown.elapsed_s) if authority is not None else 0.0
+    who = authority.asked_by if authority is not None else ""
+    return {
+        "chip-authority-text": "You command" if mine else f"{_who(shown)} commands",
+        "chip-authority@data-tone": "good" if mine else "warn",
+        "robot-asked@data-open": asked,
+        "robot-asked-text": f"{who} asks for the robot and gets it in {math.ceil(left_s)} s." if asked else "",
+    }
+
+
+def _who(shown: Shown) -> str:
+    authority = shown.view.authority
+    return (authority.operator or authority.holder or "nobody") if authority is not None else "nobody"
