@@ -110,12 +110,12 @@ OPERATOR_INPUT = Topic(  # kept: between two steps of the master another station
     50.0,
     QoS.REALTIME,
     "station",
-    10_240,
+    15_360,
     "who is at the page, and what is held there",
     kept=8,
 )
 MASTER_STATE = Topic(  # kept: between two steps of the robot a master without authority must not hide the holder's
-    "cmd/master_state", messages.MasterState, 100.0, QoS.REALTIME, "master", 1_920, "the operator's correction", kept=8
+    "cmd/master_state", messages.MasterState, 100.0, QoS.REALTIME, "master", 4_608, "the operator's correction", kept=8
 )
 AUTHORITY_RENEWAL = Topic(
     "authority/renewal", messages.AuthorityRenewal, 50.0, QoS.STATE, "station", 1_536, "an operator is present", kept=8

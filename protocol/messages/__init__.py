@@ -14,7 +14,7 @@ from protocol.messages.authority import (
     AuthorityState,
 )
 from protocol.messages.camera import CameraImage
-from protocol.messages.command import MasterState, OperatorInput
+from protocol.messages.command import Controller, MasterState, OperatorInput, Trouble
 from protocol.messages.health import Figure, Heartbeat, TopicFigures
 from protocol.messages.model import Method, ModelState, Prediction, Purpose, Way
 from protocol.messages.safety import EmergencyStop, SafetyState
@@ -65,6 +65,7 @@ __all__ = [
     "Box",
     "CameraImage",
     "Condition",
+    "Controller",
     "Count",
     "Cut",
     "Duration",
@@ -101,6 +102,7 @@ __all__ = [
     "TeachingState",
     "Text",
     "TopicFigures",
+    "Trouble",
     "Vector3",
     "Verdict",
     "Way",

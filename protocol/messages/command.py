@@ -2,11 +2,50 @@
 
 from __future__ import annotations
 
+from enum import Enum
 from typing import Annotated
 
 import msgspec
 
-from protocol.messages.values import Count, Message, Name, Real, Vector3
+from protocol.messages.values import Count, Fraction, Message, Name, Vector3
+
+Reading = Annotated[float, msgspec.Meta(ge=-1e3, le=1e3)]
+
+
+class Controller(msgspec.Struct, frozen=True):
+    """A device beside the keys, as it is read: nothing is scaled, and nothing left out.
+
+    Attributes:
+        kind: "gamepad", "spacemouse", or "pointer", which is the pad on the page.
+        number: tells two of a kind apart.
+        name: as browser or driver call it.
+        standard: axes and buttons come in the order of the W3C's standard gamepad.
+        axes: each from -1 to 1; a pointer's count on without end, in halves of its pad.
+        buttons: how far each is pressed.
+    """
+
+    kind: Name
+    number: Annotated[int, msgspec.Meta(ge=0, le=99)] = 0
+    name: Name = ""
+    standard: bool = False
+    axes: Annotated[tuple[Reading, ...], msgspec.Meta(max_length=16)] = ()
+    buttons: Annotated[tuple[Fraction, ...], msgspec.Meta(max_length=32)] = ()
+
+
+class Trouble(Enum):
+    """Why a master counts for nothing though its operator is there, or what of it does not count.
+
+    TWO: two devices are used at once.
+    GONE: the device that was used last is there no more.
+    NOT_AT_REST: a device has not been at rest since it came.
+    ABSENT: the device that is configured is not there.
+    """
+
+    NONE = "none"
+    TWO = "two"
+    GONE = "gone"
+    NOT_AT_REST = "not_at_rest"
+    ABSENT = "absent"
 
 
 class OperatorInput(Message, frozen=True, kw_only=True):
@@ -19,7 +58,7 @@ class OperatorInput(Message, frozen=True, kw_only=True):
         present: the page is alive, visible and was heard within the last second.
         keys: the physical keys held down, by their `KeyboardEvent.code`.
         focused: the page has the focus; without it no key counts.
-        axes: gamepad or pointer axes, each from -1 to 1.
+        controllers: what else the page reads beside the keys.
     """
 
     operator: Name = ""
@@ -28,7 +67,7 @@ class OperatorInput(Message, frozen=True, kw_only=True):
     present: bool = False
     keys: Annotated[tuple[Name, ...], msgspec.Meta(max_length=32)] = ()
     focused: bool = False
-    axes: Annotated[tuple[Real, ...], msgspec.Meta(max_length=16)] = ()
+    controllers: Annotated[tuple[Controller, ...], msgspec.Meta(max_length=4)] = ()
 
 
 class MasterState(Message, frozen=True, kw_only=True):
@@ -43,7 +82,10 @@ class MasterState(Message, frozen=True, kw_only=True):
         operator: the person whose hand it is, as the station says.
         holder: of the authority under which the master commands.
         epoch: of that authority.
-        device: what kind of device this is.
+        device: what kind of device this is; where there are several, the one in use.
+        actions: of the teaching workflow, whose buttons on the device are held down.
+        trouble: why the device counts for nothing, or what of it.
+        trouble_with: the device that the trouble is with.
     """
 
     displacement: Vector3 = (0.0, 0.0, 0.0)
@@ -55,3 +97,6 @@ class MasterState(Message, frozen=True, kw_only=True):
     holder: Name = ""
     epoch: Count = 0
     device: Name = ""
+    actions: Annotated[tuple[Name, ...], msgspec.Meta(max_length=8)] = ()
+    trouble: Trouble = Trouble.NONE
+    trouble_with: Name = ""

@@ -22,10 +22,10 @@ from services.commands.terminal import Terminal
 from services.model.learning import learn_all
 from services.model.skill import binding_of
 from services.offline.first_demonstrations import first_demonstrations
-from services.process.config import Scripted
 from services.process.exceptions import CommandFailed
 from services.process.exit_codes import Exit
 from services.process.files import write_whole
+from services.process.master_devices import Scripted
 from services.process.runner import interruptible
 from services.reproduction.exceptions import CannotKeep, NothingToMap
 from services.reproduction.models import BY_NAME

@@ -8,7 +8,8 @@ import msgspec
 
 from protocol.topics import checked_name
 from services.process.addresses import EVERYWHERE, in_url
-from services.process.config import Configuration, Scripted, load
+from services.process.config import Configuration, load
+from services.process.master_devices import Scripted
 from services.process.processes import PROCESSES
 
 _FLAGS = {"robot": "name", "operator": "operator", "connect": "connect", "listen": "listen", "seed": "seed"}

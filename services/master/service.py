@@ -10,15 +10,22 @@ lost process is silent, and so is one that has not taken over yet: the robot hol
 from __future__ import annotations
 
 import threading
+from collections.abc import Sequence
 
 from protocol.messages import Figure, MasterState
 from protocol.topics import MASTER_STATE, ROBOT_STATE
 from services.bus.bus import Bus
+from services.master.devices.controllers import Controllers
 from services.master.devices.device import Device, Moment, Sample
-from services.master.devices.keyboard import KeyboardMaster
+from services.master.devices.hand import Source
+from services.master.devices.keys import Keys
+from services.master.devices.led import LedMaster
+from services.master.devices.pointer import Pad
+from services.master.devices.profiles import Profiles
 from services.master.seat import Seat, Sitting
 from services.process.clock import Clock
-from services.process.config import Configuration, Keyboard, Scripted
+from services.process.config import Configuration
+from services.process.master_devices import Gamepad, Keyboard, Led, Page, Pointer, Scripted
 from services.process.processes import process
 
 _LONGEST_STEP_S = 0.1
@@ -37,13 +44,28 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> MasterService
 
 def _device(bus: Bus, clock: Clock, configuration: Configuration) -> Device:
     match configuration.master.device:
-        case Keyboard() as law:
-            return KeyboardMaster(law)
         case Scripted() as settings:
-            # Imported here, so that a keyboard needs no simulation packages.
+            # Imported here, so that whoever sits at a page needs no simulation packages.
             from services.master.devices.scripted import ScriptedMaster  # noqa: PLC0415
 
             return ScriptedMaster(bus, clock, settings, configuration.seed)
+        case led:
+            return LedMaster(led, _sources(led))
+
+
+def _sources(led: Led) -> Sequence[Source]:
+    """Whose hands count, of all that the page reads."""
+    profiles = Profiles()
+    match led:
+        case Keyboard():
+            return (Keys(),)
+        case Gamepad():
+            return (Controllers("gamepad", profiles),)
+        case Pointer():
+            return (Pad(profiles),)
+        case Page():
+            controllers = (Controllers(kind, profiles) for kind in ("gamepad", "spacemouse"))
+            return (Keys(), *controllers, Pad(profiles))
 
 
 class MasterService:
@@ -115,4 +137,7 @@ class MasterService:
             holder=operator.holder if operator is not None else "",
             epoch=operator.epoch if operator is not None else 0,
             device=self._device.name,
+            actions=sample.actions if operator is not None else (),
+            trouble=sample.trouble,
+            trouble_with=sample.trouble_with,
         )

@@ -19,8 +19,9 @@ from services.model.learning import MODELS, Fit
 from services.offline.pool import Progress, each, overall
 from services.offline.result import Arrangement, Attempt, Course
 from services.offline.stage import Stage
-from services.process.config import Configuration, MasterSection, ModelSection, RobotSection, Scripted, StationSection
+from services.process.config import Configuration, MasterSection, ModelSection, RobotSection, StationSection
 from services.process.exceptions import CommandFailed
+from services.process.master_devices import Scripted
 from sim.tasks import AnyScene
 from sim.tasks import scene as find_scene
 

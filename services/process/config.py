@@ -13,8 +13,10 @@ from protocol.queries import Adapt
 from services.process import endpoint
 from services.process.exceptions import BadEndpoint, ConfigurationError
 from services.process.files import write_whole
+from services.process.master_devices import MasterDevice, Page
 from services.process.misfit import told
 from services.process.processes import NOBODY_IN_PARTICULAR
+from services.process.section import Positive, Section
 
 LARGEST = 1 << 20
 """Of a configuration file [byte]; more is some other file."""
@@ -22,7 +24,6 @@ LARGEST = 1 << 20
 _BYTE = re.compile(r"\(byte (\d+)\)")
 
 Port = Annotated[int, msgspec.Meta(ge=1, le=65535)]
-Positive = Annotated[float, msgspec.Meta(gt=0.0)]
 
 LONGEST_SILENCE_S = 0.25
 """After this long without the operator or the master no file can let a robot move on [s]."""
@@ -33,11 +34,7 @@ LONGEST_LEASE_S = 3.0
 Silence = Annotated[float, msgspec.Meta(gt=0.0, le=LONGEST_SILENCE_S)]
 
 
-class _Section(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A part of the configuration; a key that it does not know is an error."""
-
-
-class RobotSection(_Section, frozen=True):
+class RobotSection(Section, frozen=True):
     """The robot process.
 
     Attributes:
@@ -61,7 +58,7 @@ class RobotSection(_Section, frozen=True):
     master_gain: Annotated[float, msgspec.Meta(gt=0.0, le=10.0)] = 1.0
 
 
-class CameraSection(_Section, frozen=True):
+class CameraSection(Section, frozen=True):
     """The camera process: pictures a second and their size [pixel], JPEG quality."""
 
     rate_hz: Positive = 15.0
@@ -70,58 +67,19 @@ class CameraSection(_Section, frozen=True):
     quality: Annotated[int, msgspec.Meta(ge=10, le=100)] = 80
 
 
-class PerceptionSection(_Section, frozen=True):
+class PerceptionSection(Section, frozen=True):
     """The perception process: over how many pictures the pose is filtered."""
 
     window: Annotated[int, msgspec.Meta(ge=1, le=100)] = 9
 
 
-class Keyboard(_Section, frozen=True, tag_field="kind", tag="keyboard"):
-    """The keys of the operator's page.
+class MasterSection(Section, frozen=True):
+    """The master process: which device it owns; by default whichever is used in the page."""
 
-    Attributes:
-        growth: of the displacement while a key is held [m/s].
-        decay: of the displacement without [m/s].
-        reach: largest displacement along each axis [m].
-        turn_growth: of the rotation while a key is held [rad/s].
-        turn_decay: of the rotation without [rad/s].
-        turn_reach: largest rotation about each axis [rad].
-    """
-
-    growth: Positive = 0.12
-    decay: Positive = 0.05
-    reach: Positive = 0.25
-    turn_growth: Positive = 0.4
-    turn_decay: Positive = 0.2
-    turn_reach: Positive = 0.8
+    device: MasterDevice = msgspec.field(default_factory=Page)
 
 
-class Scripted(_Section, frozen=True, tag_field="kind", tag="scripted"):
-    """A simulated haptic stylus moved by the forces of a simulated hand.
-
-    Attributes:
-        stiffness: of the force feedback (eq. 14) [N/m].
-        damping: of the force feedback [N s/m].
-        exaggeration: of the correction; 1 is natural.
-        scatter: root mean square of the distance between two ways that the person means alike; people's are 0.018 to
-            0.052 [m].
-        misjudgement: standard deviation of the error of the depth that they see [m].
-    """
-
-    stiffness: Positive = 50.0
-    damping: Positive = 2.0
-    exaggeration: Positive = 1.0
-    scatter: Annotated[float, msgspec.Meta(ge=0.0, le=0.2)] = 0.030
-    misjudgement: Annotated[float, msgspec.Meta(ge=0.0, le=0.1)] = 0.010
-
-
-class MasterSection(_Section, frozen=True):
-    """The master process: which device it owns."""
-
-    device: Keyboard | Scripted = msgspec.field(default_factory=Keyboard)
-
-
-class ModelSection(_Section, frozen=True):
+class ModelSection(Section, frozen=True):
     """The model process.
 
     Attributes:
@@ -133,7 +91,7 @@ class ModelSection(_Section, frozen=True):
     database: str = ""
 
 
-class StationSection(_Section, frozen=True):
+class StationSection(Section, frozen=True):
     """The station process.
 
     Attributes:
@@ -167,7 +125,7 @@ FOLDER_SETTING = "[viewer] folder"
 """Where the folders of runs are to be, as an error names it."""
 
 
-class ViewerSection(_Section, frozen=True):
+class ViewerSection(Section, frozen=True):
     """The viewer process: where it serves its page, and the folder for recordings."""
 
     host: str = "127.0.0.1"
@@ -176,7 +134,7 @@ class ViewerSection(_Section, frozen=True):
     folder: str = "runs"
 
 
-class Configuration(_Section, frozen=True):
+class Configuration(Section, frozen=True):
     """Everything that can be set.
 
     Attributes:

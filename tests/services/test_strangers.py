@@ -15,7 +15,8 @@ from services.master.service import build as build_master
 from services.model.service import build as build_model
 from services.perception.service import build as build_perception
 from services.process.clock import ManualClock
-from services.process.config import Configuration, MasterSection, ModelSection, Scripted
+from services.process.config import Configuration, MasterSection, ModelSection
+from services.process.master_devices import Scripted
 from services.station.service import StationService
 from tests.services.extremes import Extremes, encoded
 from tests.services.predictions import announce

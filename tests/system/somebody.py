@@ -54,7 +54,7 @@ class Somebody:
     def _stay(self, link):
         pressed = 0
         while not self._over.is_set():
-            self._say(link, Held(keys=(), visible=True, focused=True, axes=(), drawn=(0, 0, 0), **self._stamp()))
+            self._say(link, Held(keys=(), visible=True, focused=True, controllers=(), drawn=(0, 0, 0), **self._stamp()))
             while pressed < len(self._presses):
                 pressed += 1
                 self._say(link, Pressed(number=pressed, action=self._presses[pressed - 1], **self._stamp()))

@@ -274,7 +274,12 @@ def test_sound_messages_with_senseless_content_stop_nobody(network, unmoved):
         (topics.OBJECT_POSE, replace(decode[topics.OBJECT_POSE.name], tag=2**53, error=-1e9)),
         (topics.MASTER_STATE, replace(decode[topics.MASTER_STATE.name], displacement=(1e9, 1e9, 1e9), engaged=True)),
         (topics.MASTER_STATE, replace(decode[topics.MASTER_STATE.name], rotation=(1e9, -1e9, 1e9), engaged=True)),
-        (topics.OPERATOR_INPUT, messages.OperatorInput(keys=("\0",) * 32, focused=True, axes=(1e9,) * 16)),
+        (
+            topics.OPERATOR_INPUT,
+            messages.OperatorInput(
+                keys=("\0",) * 32, focused=True, controllers=(messages.Controller("x" * 64, axes=(1e3,) * 16),) * 4
+            ),
+        ),
         (topics.AUTHORITY_RENEWAL, messages.AuthorityRenewal(holder="stranger", epoch=2**53)),
         (topics.EMERGENCY_STOP, messages.EmergencyStop(pressed=False, by="")),
         (

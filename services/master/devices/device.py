@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
-from protocol.messages import Figure, Mode, OperatorInput, RobotState, Vector3
+from protocol.messages import Figure, Mode, OperatorInput, RobotState, Trouble, Vector3
 
 ZERO: Vector3 = (0.0, 0.0, 0.0)
 
@@ -54,6 +54,9 @@ class Sample:
         rotation: from neutral, rotation vector [rad].
         force: rendered to the hand [N].
         engaged: a hand is on the device, and displacement and rotation count.
+        actions: of the teaching workflow, whose buttons on the device are held.
+        trouble: why the device counts for nothing, or what of it.
+        trouble_with: the device that the trouble is with.
     """
 
     displacement: Vector3 = ZERO
@@ -61,6 +64,9 @@ class Sample:
     rotation: Vector3 = ZERO
     force: Vector3 = ZERO
     engaged: bool = False
+    actions: tuple[str, ...] = ()
+    trouble: Trouble = Trouble.NONE
+    trouble_with: str = ""
 
 
 class Device(Protocol):
@@ -68,7 +74,7 @@ class Device(Protocol):
 
     @property
     def name(self) -> str:
-        """What kind of device it is."""
+        """What kind of device it is; where there are several, the one in use."""
         ...
 
     def step(self, moment: Moment) -> Sample | None:

@@ -17,8 +17,8 @@ from services.bus.predictions import Predictions
 from services.master.devices.device import Moment, Sample
 from services.master.haptics import HapticLoop, HapticThread
 from services.process.clock import Clock, SystemClock
-from services.process.config import Scripted
 from services.process.exceptions import ServiceError
+from services.process.master_devices import Scripted
 from sim import tasks as scenes
 from sim.exceptions import SimError
 from sim.person.hand import Hand, Seen

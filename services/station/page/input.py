@@ -147,7 +147,7 @@ class Desk:
             held = self._held
             if held is None or self._let_go:
                 return OperatorInput(present=present)
-            return OperatorInput(present=present, keys=held.keys, focused=True, axes=held.axes)
+            return OperatorInput(present=present, keys=held.keys, focused=True, controllers=held.controllers)
 
     def take_presses(self) -> list[Press]:
         """The buttons pressed since the last call, in order, a stop first."""

@@ -7,7 +7,7 @@ from typing import Annotated
 import msgspec
 
 from protocol.exceptions import MalformedMessage, OversizedMessage
-from protocol.messages import Count, Reason
+from protocol.messages import Controller, Count, Reason
 
 MAX_BYTES = 4_096
 
@@ -17,7 +17,6 @@ KeyCode = Annotated[str, msgspec.Meta(pattern="^[A-Za-z0-9]{1,32}$")]
 ActionName = Annotated[str, msgspec.Meta(pattern="^[a-z_]{1,32}$")]
 Token = Annotated[str, msgspec.Meta(pattern="^[A-Za-z0-9-]{8,64}$")]
 Milliseconds = Annotated[float, msgspec.Meta(ge=0.0, le=1e12)]
-Axis = Annotated[float, msgspec.Meta(ge=-1.0, le=1.0)]
 
 
 class _FromBrowser(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_field="kind"):
@@ -45,7 +44,7 @@ class Held(_FromBrowser, frozen=True, tag="held"):
         keys: held down, by `KeyboardEvent.code`.
         visible: a person can see the tab.
         focused: it has the focus as well.
-        axes: of the gamepad.
+        controllers: what else is read in the browser.
         drawn: number of the newest picture that was drawn, by camera, and of the newest moment in the live view.
     """
 
@@ -54,7 +53,7 @@ class Held(_FromBrowser, frozen=True, tag="held"):
     keys: Annotated[tuple[KeyCode, ...], msgspec.Meta(max_length=32)]
     visible: bool
     focused: bool
-    axes: Annotated[tuple[Axis, ...], msgspec.Meta(max_length=16)]
+    controllers: Annotated[tuple[Controller, ...], msgspec.Meta(max_length=4)]
     drawn: tuple[Count, Count, Count]
 
 

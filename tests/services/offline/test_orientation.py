@@ -17,7 +17,8 @@ from services.bus.memory import MemoryNetwork
 from services.master import service as master
 from services.model.service import ModelService
 from services.process.clock import ManualClock
-from services.process.config import Configuration, MasterSection, RobotSection, Scripted
+from services.process.config import Configuration, MasterSection, RobotSection
+from services.process.master_devices import Scripted
 from services.robot import service as robot
 from sim.person.intention import plan
 from sim.person.steering import steer

@@ -6,8 +6,9 @@ import pytest
 
 from services.cli import parser
 from services.commands.settings import configuration
-from services.process.config import LARGEST, Configuration, Keyboard, Scripted, load, save
+from services.process.config import LARGEST, Configuration, load, save
 from services.process.exceptions import ConfigurationError
+from services.process.master_devices import Keyboard, Page, Scripted
 from sim.exceptions import UnknownVariant
 from sim.tasks import SCENES
 
@@ -39,14 +40,14 @@ def test_what_is_saved_is_what_is_loaded(tmp_path):
         ("[robot]\nscnee = 'table'", "[robot]: unknown key scnee; did you mean scene?"),
         ("[viewer]\nqqq = 1", "[viewer]: unknown key qqq; one of "),
         ("[master.device]\nkind = 'keyboard'\ngrwoth = 1", "[master.device]: unknown key grwoth; did you mean growth?"),
-        ("[master.device]\ngrowth = 1.0", "[master] device: the key is missing: `kind`; one of keyboard, scripted"),
+        ("[master.device]\ngrowth = 1.0", "[master] device: the key is missing: `kind`; one of page, keyboard, gamepad, pointer, scripted"),
         ("[model]\nkind = 'magic'", "[model] kind: expected a text; one of adaptive, promp"),
         ("[station]\nadapt = 'x'", "[station] adapt: invalid value 'x'; one of next, current"),
         ("robot = 3", "robot: expected a section, got a whole number"),
         ("seed = 'one'", "seed: "),
         ("seed = -1", "seed: "),
         ("[station]\nport = 70000", "[station] port: "),
-        ("[master.device]\nkind = 'mouse'", "[master.device] kind: invalid value 'mouse'; one of keyboard, scripted"),
+        ("[master.device]\nkind = 'mouse'", "[master.device] kind: invalid value 'mouse'; one of page, keyboard, gamepad, pointer, scripted"),
         ("[robot]\nvelocity_scale = 2.0", "[robot] velocity_scale: "),
         ("[robot]\nhold_after_s = 0.26", "[robot] hold_after_s: "),
         ("[robot]\npresence_after_s = 0.26", "[robot] presence_after_s: "),
@@ -122,8 +123,8 @@ def test_flags_go_before_the_file(write):
     assert (result.name, result.seed, result.robot.scene) == ("kitchen", 5, "table")
 
 
-def test_a_person_has_the_keyboard_and_a_headless_run_the_script():
-    assert isinstance(parsed("up").master.device, Keyboard)
+def test_a_person_has_what_the_page_reads_and_a_headless_run_the_script():
+    assert isinstance(parsed("up").master.device, Page)
     headless = parsed("up", "--headless", "--once")
     assert isinstance(headless.master.device, Scripted)
     assert headless.station.scripted

@@ -8,8 +8,9 @@ import pytest
 from services.cli import parser
 from services.commands.settings import configuration, reachable
 from services.commands.up.launch import Launch, check_ports
-from services.process.config import Configuration, Keyboard, Scripted, StationSection, ViewerSection
+from services.process.config import Configuration, StationSection, ViewerSection
 from services.process.exceptions import CommandFailed, EndpointInUse, PortInUse
+from services.process.master_devices import Keyboard, Scripted
 from services.process.processes import PROCESS_NAMES
 from sim.exceptions import SimError
 

@@ -28,7 +28,8 @@ from services.bus.arrays import motion_to_wire, quaternion, to_wire, vector3
 from services.bus.memory import MemoryNetwork
 from services.master.service import build
 from services.process.clock import ManualClock
-from services.process.config import Configuration, MasterSection, Scripted
+from services.process.config import Configuration, MasterSection
+from services.process.master_devices import Scripted
 from sim.rotations import rotated
 from sim.tasks import DISHWASHER
 

@@ -5,7 +5,7 @@ from browser_tab import MS, BrowserTab
 from hypothesis import given
 from hypothesis import strategies as st
 
-from protocol.messages import OperatorInput
+from protocol.messages import Controller, OperatorInput
 from services.station.page.input import Desk
 from services.station.page.said import MAX_BYTES
 
@@ -14,6 +14,7 @@ HEARD_MS = 1_000
 SETTLED_S = 1.0
 BEATS = 3
 NOTHING = OperatorInput()
+PAD = Controller("gamepad", 1, "Some pad", True, (-1.0, 0.4), (0.0, 1.0))
 
 
 @pytest.fixture
@@ -32,8 +33,8 @@ def test_at_a_desk_where_nobody_sits_nothing_is_held_and_nobody_is_present():
 
 
 def test_the_full_state_arrives(browser):
-    browser.hold("KeyE", "KeyQ", axes=(0.5, -1.0))
-    assert browser.input() == OperatorInput(keys=("KeyE", "KeyQ"), focused=True, axes=(0.5, -1.0))
+    browser.hold("KeyE", "KeyQ", controllers=(PAD,))
+    assert browser.input() == OperatorInput(keys=("KeyE", "KeyQ"), focused=True, controllers=(PAD,))
 
 
 def test_every_state_replaces_the_one_before(browser):
@@ -106,10 +107,10 @@ def test_a_tab_that_opens_with_a_key_down_has_to_let_go_first():
     assert browser.input() == NOTHING
 
 
-@pytest.mark.parametrize("state", [{"axes": (-1.0, 0.4)}, {"keys": ("F13", "ControlLeft")}])
+@pytest.mark.parametrize("state", [{"controllers": (PAD,)}, {"keys": ("F13", "ControlLeft")}])
 def test_what_steers_nothing_keeps_nobody_waiting(state):
     browser = BrowserTab(Desk())
-    browser.hold(*state.get("keys", ()), axes=state.get("axes", ()))
+    browser.hold(*state.get("keys", ()), controllers=state.get("controllers", ()))
     browser.hold("KeyE")
     assert browser.input().keys == ("KeyE",)
 
@@ -218,9 +219,9 @@ def test_after_its_computer_has_slept_a_tab_counts_again_within_two_seconds(brow
         '{"kind":"hello","seat":"short","load":"abcdefgh"}',
         '{"kind":"pressed","sequence":9,"stamp_ms":9,"number":1,"action":"<script>"}',
         '{"kind":"pressed","sequence":9,"stamp_ms":9,"number":1,"action":"stop","extra":1}',
-        '{"kind":"held","sequence":9,"stamp_ms":9,"keys":[],"visible":true,"focused":true,"axes":[2],"drawn":[0,0,0]}',
-        '{"kind":"held","sequence":9,"stamp_ms":NaN,"keys":[],"visible":true,"focused":true,"axes":[],"drawn":[0,0,0]}',
-        '{"kind":"held","sequence":9,"stamp_ms":1,"keys":["+"],"visible":true,"focused":true,"axes":[],"drawn":[0,0,0]}',
+        '{"kind":"held","sequence":9,"stamp_ms":9,"keys":[],"visible":true,"focused":true,"controllers":[2],"drawn":[0,0,0]}',
+        '{"kind":"held","sequence":9,"stamp_ms":NaN,"keys":[],"visible":true,"focused":true,"controllers":[],"drawn":[0,0,0]}',
+        '{"kind":"held","sequence":9,"stamp_ms":1,"keys":["+"],"visible":true,"focused":true,"controllers":[],"drawn":[0,0,0]}',
     ],
 )
 def test_garbage_is_dropped_and_counted_and_changes_nothing(browser, payload):

@@ -1,0 +1,146 @@
+"""The master that a hand leads through devices of the operator's page: whichever of them it uses."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+from protocol.messages import Figure, OperatorInput, Phase, RobotState, Trouble, Vector3
+from services.master.devices.device import ZERO, Moment, Sample
+from services.master.devices.hand import Hand, Source
+from services.master.devices.lever import Law, Lever
+from services.process.master_devices import Led
+
+NOBODY = OperatorInput()
+
+
+class _Trouble(NamedTuple):
+    """What is wrong, and with which device."""
+
+    kind: Trouble
+    device: str
+
+
+NO_TROUBLE = _Trouble(Trouble.NONE, "")
+
+
+class LedMaster:
+    """Turns what a hand does into a displacement and a rotation.
+
+    A device counts only while an episode is being refined and the page's newest state is fresh and focused. Otherwise
+    nobody is at it: it disengages at once and both fall to zero within `lever.LET_GO_S`. Whoever engages it takes over
+    the correction as the robot applies it then: a held robot does not jump back because its operator, or this process,
+    was away. While the robot does not execute yet, on its way to the start or held, the device follows the correction
+    that it applies.
+
+    Of several devices that is in use which a hand used last. A device counts once it was seen at rest: what is held
+    on the way to the start, what was plugged in deflected, or a stick that drifts asks for nothing. Two devices that
+    are used at once, and one that is pulled out while it is in use, disengage.
+
+    Args:
+        law: growth, decay and reach of both.
+        sources: of what hands do; the first one's device is in use until another is used.
+    """
+
+    def __init__(self, law: Led, sources: Sequence[Source]) -> None:
+        self._push = Lever(Law(law.growth, law.decay, law.reach))
+        self._turn = Lever(Law(law.turn_growth, law.turn_decay, law.turn_reach))
+        self._sources = sources
+        self._engaged = False
+        self._rested: set[str] = set()
+        self._quarrel: set[str] = set()
+        self._met: set[str] = set()
+        self.name = sources[0].kind
+
+    def step(self, moment: Moment) -> Sample:
+        """Advance by the time that has passed."""
+        robot, hands = moment.refining, self._look(moment.operator)
+        trouble = self._choose(hands, robot) if _is_at(moment.operator) else NO_TROUBLE
+        hand = hands.get(self.name)
+        if robot is None or hand is None or not hand.coupled or trouble.kind is Trouble.TWO:
+            sample = self._let_go(moment.dt)
+        elif not self._engaged or robot.phase is not Phase.EXECUTE:
+            sample = self._follow(robot)
+        else:
+            sample = self._lead(hand if self.name in self._rested else Hand(), moment.dt)
+        if not _executes(robot) or not sample.engaged:
+            self._rested.clear()
+        self._rested |= {name for name, one in hands.items() if not one.held}
+        actions = tuple(sorted({action for one in hands.values() for action in one.actions}))
+        return replace(sample, actions=actions, trouble=trouble.kind, trouble_with=trouble.device)
+
+    def figures(self) -> tuple[Figure, ...]:
+        """What the page reads is measured by the page."""
+        return ()
+
+    def close(self) -> None:
+        """There is no hardware to let go of."""
+
+    def _look(self, operator: OperatorInput | None) -> dict[str, Hand]:
+        if operator is None or not operator.focused:
+            operator = NOBODY  # what was dragged meanwhile was not dragged for the robot
+        hands = {name: hand for source in self._sources for name, hand in source.look(operator).items()}
+        return hands if operator is not NOBODY else {}
+
+    def _choose(self, hands: Mapping[str, Hand], robot: RobotState | None) -> _Trouble:
+        """Settle which device is in use; what is wrong, and with which."""
+        self._rested &= hands.keys()
+        held = {name for name, hand in hands.items() if hand.held}
+        used = held & self._rested
+        self._quarrel &= held
+        if len(self._quarrel) < 2:
+            self._quarrel = used if len(used) > 1 else set()
+        if self._quarrel:
+            return _Trouble(Trouble.TWO, " and ".join(sorted(self._quarrel)))
+        self.name = next(iter(used), self.name)
+        if self.name not in self._met:
+            self.name = next(iter(hands), self.name)
+        self._met |= hands.keys()
+        if self.name not in hands:
+            return _Trouble(Trouble.GONE if self.name in self._met else Trouble.ABSENT, self.name)
+        restless = sorted(held - used) if _executes(robot) else ()
+        return _Trouble(Trouble.NOT_AT_REST, restless[0]) if restless else NO_TROUBLE
+
+    def _follow(self, robot: RobotState) -> Sample:
+        """Stand where the correction is that the robot applies, whatever is held."""
+        x, y, z = robot.offset
+        self._push.take_over((x / robot.master_gain, y / robot.master_gain, z / robot.master_gain))
+        self._turn.take_over(robot.turn)
+        self._engaged = True
+        return Sample(self._push.value, ZERO, self._turn.value, engaged=True)
+
+    def _lead(self, hand: Hand, dt: float) -> Sample:
+        before = self._push.value
+        if hand.grips:
+            self._push.drag(hand.drag)
+            self._turn.drag(hand.twist)
+        else:
+            self._push.push(hand.push, dt)
+            self._turn.push(hand.turn, dt)
+        return self._sample(before, dt)
+
+    def _let_go(self, dt: float) -> Sample:
+        self._engaged = False
+        before = self._push.value
+        self._push.let_go(dt)
+        self._turn.let_go(dt)
+        return self._sample(before, dt)
+
+    def _sample(self, before: Vector3, dt: float) -> Sample:
+        velocity = _velocity(before, self._push.value, dt)
+        return Sample(self._push.value, velocity, self._turn.value, engaged=self._engaged)
+
+
+def _is_at(operator: OperatorInput | None) -> bool:
+    return operator is not None and operator.focused
+
+
+def _executes(robot: RobotState | None) -> bool:
+    return robot is not None and robot.phase is Phase.EXECUTE
+
+
+def _velocity(before: Vector3, after: Vector3, dt: float) -> Vector3:
+    if dt <= 0.0:
+        return ZERO
+    return (after[0] - before[0]) / dt, (after[1] - before[1]) / dt, (after[2] - before[2]) / dt
