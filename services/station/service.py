@@ -20,6 +20,7 @@ from services.bus.identity import new_number
 from services.process.clock import Clock
 from services.process.config import Configuration, StationSection
 from services.process.schedule import Schedule
+from services.station.device_buttons import DeviceButtons
 from services.station.ears import Ears, came_s, message, picture, young
 from services.station.handover import GIVE, KEEP, HandOver
 from services.station.live_view.stage import Stage
@@ -99,6 +100,7 @@ class StationService:
         self._stop = StopButton(bus, self._ears.safety, workflow_settings.operator, workflow_settings.holder)
         self._hand_over = HandOver(bus, workflow_settings.holder)
         self._stage = Stage(self._ears)
+        self._buttons = DeviceButtons(self._ears.master, workflow_settings.holder)
         self._workflow = Workflow()
         self._asked: tuple[int, Pending[Any]] | None = None
         self._drawn: Place | None = None
@@ -117,6 +119,7 @@ class StationService:
     def step(self, now_ns: int) -> None:
         """A stop before all; then look, advance the workflow, ask, tell."""
         pressed = self._page.take_presses() if self._page is not None else []
+        pressed += self._buttons.take(now_ns)
         self._press_stop(now_ns, pressed)
         held = self._page.take_input() if self._page is not None else OperatorInput(present=True)
         view = self._view(now_ns, pressed, held)
@@ -235,6 +238,7 @@ class StationService:
             spoilt=self._stage.spoilt(now_ns),
             drawing=self._stage.drawing(now_ns),
             force=self._stage.force(now_ns),
+            master=ears.master.fresh(now_ns),
             recording=message(ears.recording.latest()),
             head=picture(ears.head, now_ns),
             wrist=picture(ears.wrist, now_ns),

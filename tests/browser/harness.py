@@ -108,6 +108,7 @@ def working_view() -> PageView:
         object_pose=messages.ObjectPose(pose=OBJECT, tag=582, error=0.0021, pictures=9),
         drawing=drawing(),
         force=(0.0, 0.0, 2.5),
+        master=messages.MasterState(device="keyboard"),
         head=Picture(picture("head"), 0.02),
         wrist=Picture(picture("wrist"), 0.02),
         latencies=(Figure("hand_to_robot", 0.024, "s"),),

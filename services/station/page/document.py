@@ -9,6 +9,7 @@ from string import Template
 
 from protocol.messages import SHORTEST_REASON
 from services.station.page.controls import BUTTONS, KEYBOARDS, Button, Key
+from services.station.page.devices import PADS
 from services.station.page.panels import CHIPS, COUNTERS, CRITERIA
 
 HERE = Path(__file__).parent
@@ -22,6 +23,7 @@ _SHEETS = (
     "scene",
     "status",
     "keys",
+    "devices",
     "actions",
     "stop",
     "banners",
@@ -49,7 +51,7 @@ def document(robot: str, description: str) -> str:
         "cameras": "".join(_camera(name, title) for name, title in _CAMERAS),
         "counters": "".join(_counter(name, title) for name, title in COUNTERS),
         "criteria": "".join(_criterion(name, title) for name, title in CRITERIA),
-        "keyboards": "".join(_keyboard(rows) for rows in KEYBOARDS),
+        "devices": _devices(),
         "actions": "".join(_button(button) for button in BUTTONS),
         "shortest": str(SHORTEST_REASON),
         **{f"icon_{name}": _icon(name, size) for name, size in _SYMBOLS.items()},
@@ -59,7 +61,7 @@ def document(robot: str, description: str) -> str:
 
 def version() -> str:
     """Changes with the page's files: a tab that was loaded from others says that it is to be loaded anew."""
-    files = [HERE / "page.html", *sorted(path for path in ASSETS.rglob("*") if path.is_file())]
+    files = [HERE / "page.html", HERE / "devices.html", *sorted(path for path in ASSETS.rglob("*") if path.is_file())]
     return hashlib.sha256(b"".join(path.read_bytes() for path in files)).hexdigest()[:12]
 
 
@@ -101,6 +103,16 @@ def _criterion(name: str, title: str) -> str:
         f'<div class="criterion-title">{title}</div>'
         f'<div class="criterion-evidence" data-value="{name}-evidence"></div></div>'
     )
+
+
+def _devices() -> str:
+    """The panel of the devices."""
+    tabs = "".join(
+        f'<button type="button" class="device-tab" role="tab" data-pad-for="{name}">{words}</button>'
+        for name, words in PADS
+    )
+    keyboards = "".join(_keyboard(rows) for rows in KEYBOARDS)
+    return Template((HERE / "devices.html").read_text(encoding="utf-8")).substitute(tabs=tabs, keyboards=keyboards)
 
 
 def _keyboard(rows: tuple[tuple[Key, ...], ...]) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from services.station.page.commanding import commanding
 from services.station.page.controls import actions, emergency_stop
+from services.station.page.devices import devices
 from services.station.page.input import Standing
 from services.station.page.panels import counters, header, scene, traffic_light, verdict
 from services.station.page.seating import seating
@@ -30,4 +31,5 @@ def values(shown: Shown, standing: Standing) -> Values:
         **timeline(shown),
         **emergency_stop(shown, standing),
         **seating(standing),
+        **devices(shown),
     }

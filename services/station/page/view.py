@@ -12,6 +12,7 @@ from protocol.messages import (
     ExecutionState,
     Figure,
     Light,
+    MasterState,
     ModelState,
     ObjectPose,
     Prediction,
@@ -53,6 +54,7 @@ class PageView:
         spoilt: shares of the motion that is shown at which something was touched or kicked over.
         drawing: what the live view shows.
         force: that the operator feels [N].
+        master: what the operator's device says of itself.
         authority_is_mine: this station holds the authority.
         latencies: measured delays worth showing, in seconds.
         notice: one line about what went wrong last; empty where nothing did.
@@ -72,6 +74,7 @@ class PageView:
     spoilt: tuple[float, ...] = ()
     drawing: Drawing = field(default_factory=Drawing)
     force: Vector3 = (0.0, 0.0, 0.0)
+    master: MasterState | None = None
     recording: Recording | None = None
     head: Picture | None = None
     wrist: Picture | None = None

@@ -6,11 +6,12 @@ import msgspec
 import pytest
 
 from protocol import queries, topics
-from protocol.messages import AuthorityState, Light, OperatorInput, SafetyState
+from protocol.messages import AuthorityState, Light, MasterState, OperatorInput, SafetyState
 from services.bus.memory import MemoryNetwork
 from services.process.clock import ManualClock
 from services.process.config import Configuration, StationSection
 from services.station import service
+from services.station.workflow.state import Action
 from tests.services.station.site import BY_HAND, REGION, SETTINGS, Site, Tab
 
 
@@ -305,3 +306,38 @@ def test_the_teaching_state_says_who_is_missing():
     teaching = site.other.subscribe(topics.TEACHING_STATE)
     site.run(0.2)
     assert "Waiting for the robot" in teaching.latest().message.text
+
+
+def test_a_button_of_the_operators_device_is_one_press_while_it_is_held(monkeypatch):
+    seen = spied(service, "advance", monkeypatch)
+    site = Site(Tab(), settings=BY_HAND)
+
+    def say(*actions, holder="station-1"):
+        site.other.publish(topics.MASTER_STATE, MasterState(holder=holder, actions=actions))
+        site.run(0.02)
+        return seen[-1][1].actions
+
+    assert say("finish") == frozenset()
+    assert say() == frozenset()
+    assert say("finish") == {Action.FINISH}
+    assert say("finish") == frozenset()
+    assert say("finish", holder="station-2") == frozenset()
+    assert say("finish") == frozenset()
+
+
+def test_the_stop_on_a_device_stops(monkeypatch):
+    site = Site(Tab(), settings=BY_HAND)
+    stops = site.other.subscribe(topics.EMERGENCY_STOP)
+    site.run(0.02)
+    for actions in ((), ("stop",)):
+        site.other.publish(topics.MASTER_STATE, MasterState(holder="station-1", actions=actions))
+        site.run(0.02)
+    assert stops.latest().message.pressed
+
+
+def test_the_page_is_told_what_the_device_says_of_itself():
+    page = Tab()
+    site = Site(page, settings=BY_HAND)
+    site.other.publish(topics.MASTER_STATE, MasterState(device="gamepad"))
+    site.run(0.02)
+    assert page.shown.master.device == "gamepad"

@@ -1,12 +1,11 @@
-// What is held down in this tab: keys by their physical place, whether it is seen and has the focus, the gamepad's axes.
-
-import { gamepadAxes } from "/assets/js/gamepads.js";
+// What is held down in this tab: keys by their physical place, whether it is seen and has the focus, what else is there.
 
 const KEYS_AT_MOST = 32;
 
 export class Held {
-  constructor(changed) {
+  constructor(changed, controllers) {
     this.keys = new Set();
+    this.controllers = controllers;
     this.changed = changed;
     window.addEventListener("blur", () => this.clear());
     window.addEventListener("focus", () => this.changed());
@@ -36,6 +35,6 @@ export class Held {
   state() {
     const visible = document.visibilityState === "visible";
     const focused = visible && document.hasFocus();
-    return { keys: [...this.keys], visible, focused, axes: focused ? gamepadAxes() : [] };
+    return { keys: [...this.keys], visible, focused, controllers: focused ? this.controllers() : [] };
   }
 }

@@ -1,5 +1,6 @@
 // The operator's page in the browser: the input state out at 50 Hz; pictures, and what to show, in.
 
+import { Devices } from "/assets/js/devices.js";
 import { Held } from "/assets/js/held.js";
 import { showInspection } from "/assets/js/inspection.js";
 import { Keyboard, isSpace, isStop } from "/assets/js/keyboard.js";
@@ -13,6 +14,7 @@ import { show } from "/assets/js/values.js";
 
 const INPUT_PERIOD_MS = 20;
 const AGES_PERIOD_MS = 100;
+const DRAW_PERIOD_MS = 40;
 const TAKES_KEYS = "button, a, input, textarea, select, [contenteditable]";
 
 const tab = new Tab();
@@ -25,13 +27,15 @@ window.addEventListener("pointerdown", stopByHand, { capture: true });
 const reasons = new Reasons(presses);
 const pictures = new Pictures();
 const keyboard = new Keyboard();
-const held = new Held(changed);
+const devices = new Devices(() => changed());
+const held = new Held(changed, () => devices.controllers());
 const liveView = new LiveView();
 const link = new Link(tab, { onOpen, onNews, onFrame, onSilence });
 presses.link = link;
 
 setInterval(say, INPUT_PERIOD_MS);
 setInterval(showAges, AGES_PERIOD_MS);
+setInterval(() => devices.draw(), DRAW_PERIOD_MS);
 window.addEventListener("keydown", down, { capture: true });
 window.addEventListener("keyup", (event) => held.release(keyboard.placeOf(event)), { capture: true });
 document.addEventListener("click", clicked);
@@ -46,6 +50,7 @@ function onOpen() {
 function onNews(news) {
   presses.settle(news);
   show(news.values);
+  devices.follow();
   liveView.show(news.drawing);
   showInspection();
   document.body.dataset.link = news.armed ? "armed" : "view-only";

@@ -1,0 +1,38 @@
+"""What the page says of the device in use."""
+
+from dataclasses import replace
+
+import pytest
+from views import shown
+
+from protocol.messages import MasterState, Trouble
+from services.station.page.devices import TROUBLES, devices
+
+
+def told(**master):
+    view = shown()
+    return devices(replace(view, view=replace(view.view, master=MasterState(**master))))
+
+
+def test_without_a_master_there_is_no_device():
+    assert devices(shown())["device-name"] == "no device"
+    assert devices(shown())["device-trouble"] == ""
+
+
+def test_a_second_device_of_a_kind_is_told_by_its_number():
+    assert told(device="gamepad 2") == {
+        "device@data-device": "gamepad",
+        "device-name": "gamepad 2",
+        "device-trouble": "",
+    }
+
+
+def test_a_device_that_has_no_other_name_is_called_by_its_own():
+    assert told(device="lever")["device-name"] == "lever"
+
+
+@pytest.mark.parametrize("trouble", [trouble for trouble in Trouble if trouble is not Trouble.NONE])
+def test_every_trouble_is_one_sentence_that_names_the_device(trouble):
+    said = told(trouble=trouble, trouble_with="gamepad and keyboard")["device-trouble"]
+    assert "gamepad and keys" in said
+    assert trouble in TROUBLES
