@@ -21,6 +21,7 @@ class Hand:
         twist: by how much it has twisted since, in reaches.
         held: it holds something that leads the robot.
         grips: it holds what is dragged, which stays where it is then.
+        lifted: it does not hold what can be dragged: where the hand leads alone it is decoupled then.
         coupled: the clutch lets it count.
         actions: of the teaching workflow, whose buttons it holds.
     """
@@ -31,6 +32,7 @@ class Hand:
     twist: Vector3 = ZERO
     held: bool = False
     grips: bool = False
+    lifted: bool = False
     coupled: bool = True
     actions: tuple[str, ...] = ()
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from protocol.messages import Figure, OperatorInput, Phase, RobotState, Trouble, Vector3
 from services.master.devices.device import ZERO, Moment, Sample
 from services.master.devices.hand import Hand, Source
-from services.master.devices.lever import Law, Lever
+from services.master.devices.lever import Law, Lever, TurnLever
 from services.process.master_devices import Led
 
 NOBODY = OperatorInput()
@@ -28,8 +28,11 @@ NO_TROUBLE = _Trouble(Trouble.NONE, "")
 class LedMaster:
     """Turns what a hand does into a displacement and a rotation.
 
-    A device counts only while an episode is being refined and the page's newest state is fresh and focused. Otherwise
-    nobody is at it: it disengages at once and both fall to zero within `lever.LET_GO_S`. Whoever engages it takes over
+    Where the hand leads the robot without a prediction nothing decays: what was moved stays, as far as it goes, and
+    only what changes counts; a pen that is lifted decouples.
+
+    A device counts only while an episode is led or refined and the page's newest state is fresh and focused. Otherwise
+    nobody is at it: it disengages at once, and both fall to zero within `lever.LET_GO_S`. Whoever engages it takes over
     the correction as the robot applies it then: a held robot does not jump back because its operator, or this process,
     was away. While the robot does not execute yet, on its way to the start or held, the device follows the correction
     that it applies.
@@ -45,7 +48,7 @@ class LedMaster:
 
     def __init__(self, law: Led, sources: Sequence[Source]) -> None:
         self._push = Lever(Law(law.growth, law.decay, law.reach))
-        self._turn = Lever(Law(law.turn_growth, law.turn_decay, law.turn_reach))
+        self._turn = TurnLever(Law(law.turn_growth, law.turn_decay, law.turn_reach))
         self._sources = sources
         self._engaged = False
         self._rested: set[str] = set()
@@ -55,15 +58,13 @@ class LedMaster:
 
     def step(self, moment: Moment) -> Sample:
         """Advance by the time that has passed."""
-        robot, hands = moment.refining, self._look(moment.operator)
+        robot = moment.teaching or moment.refining
+        hands = self._look(moment.operator)
         trouble = self._choose(hands, robot) if _is_at(moment.operator) else NO_TROUBLE
         hand = hands.get(self.name)
-        if robot is None or hand is None or not hand.coupled or trouble.kind is Trouble.TWO:
-            sample = self._let_go(moment.dt)
-        elif not self._engaged or robot.phase is not Phase.EXECUTE:
-            sample = self._follow(robot)
-        else:
-            sample = self._lead(hand if self.name in self._rested else Hand(), moment.dt)
+        if hand is not None and (not hand.coupled or trouble.kind is Trouble.TWO):
+            hand = None
+        sample = self._teach(robot, hand, moment.dt) if moment.teaching else self._refine(robot, hand, moment.dt)
         if not _executes(robot) or not sample.engaged:
             self._rested.clear()
         self._rested |= {name for name, one in hands.items() if not one.held}
@@ -102,6 +103,38 @@ class LedMaster:
         restless = sorted(held - used) if _executes(robot) else ()
         return _Trouble(Trouble.NOT_AT_REST, restless[0]) if restless else NO_TROUBLE
 
+    def _refine(self, robot: RobotState | None, hand: Hand | None, dt: float) -> Sample:
+        """What the hand adds to a prediction: it returns to nothing where the hand does nothing."""
+        if robot is None or hand is None:
+            return self._let_go(dt)
+        if not self._engaged or robot.phase is not Phase.EXECUTE:
+            return self._follow(robot)
+        before, counts = self._push.value, self._rested_hand(hand)
+        if counts.grips:
+            self._push.drag(counts.drag)
+            self._turn.drag(counts.twist)
+        else:
+            self._push.push(counts.push, dt)
+            self._turn.push(counts.turn, dt)
+        return self._sample(before, dt)
+
+    def _teach(self, robot: RobotState | None, hand: Hand | None, dt: float) -> Sample:
+        """Where the hand leads alone: what it moved stays, as far as it goes, and only what changes counts."""
+        before = self._push.value
+        if hand is None or hand.lifted:
+            self._engaged = False
+        elif self._engaged and _executes(robot):
+            counts = self._rested_hand(hand)
+            self._push.lead(counts.push, counts.drag, dt)
+            self._turn.lead(counts.turn, counts.twist, dt)
+        else:
+            self._engaged = True
+        return self._sample(before, dt)
+
+    def _rested_hand(self, hand: Hand) -> Hand:
+        """The hand, or one that does nothing until the device was seen at rest."""
+        return hand if self.name in self._rested else Hand()
+
     def _follow(self, robot: RobotState) -> Sample:
         """Stand where the correction is that the robot applies, whatever is held."""
         x, y, z = robot.offset
@@ -109,16 +142,6 @@ class LedMaster:
         self._turn.take_over(robot.turn)
         self._engaged = True
         return Sample(self._push.value, ZERO, self._turn.value, engaged=True)
-
-    def _lead(self, hand: Hand, dt: float) -> Sample:
-        before = self._push.value
-        if hand.grips:
-            self._push.drag(hand.drag)
-            self._turn.drag(hand.twist)
-        else:
-            self._push.push(hand.push, dt)
-            self._turn.push(hand.turn, dt)
-        return self._sample(before, dt)
 
     def _let_go(self, dt: float) -> Sample:
         self._engaged = False

@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
+from lfd.motion.rotations import exp_map, log_map, multiply
 from protocol.messages import Vector3
+from services.bus.arrays import vector3
 from services.master.devices.device import ZERO
 
 LET_GO_S = 0.2
@@ -42,7 +46,7 @@ def _within(value: float, reach: float) -> float:
 
 
 class Lever:
-    """Three numbers, zero at first.
+    """Three numbers, zero at first, each by itself.
 
     Args:
         law: by which they answer.
@@ -69,7 +73,25 @@ class Lever:
         )
         self.value = (x, y, z)
 
+    def lead(self, deflections: Vector3, distances: Vector3, dt: float) -> None:
+        """Be pushed and dragged as far as it goes, and stay where nothing does either."""
+        x, y, z = (
+            v + way * self._law.growth * dt + far * self._law.reach
+            for v, way, far in zip(self.value, deflections, distances, strict=True)
+        )
+        self.value = (x, y, z)
+
     def let_go(self, dt: float) -> None:
-        """Return to zero, within `LET_GO_S` from anywhere."""
+        """Return to zero, within `LET_GO_S` from anywhere that it reaches."""
+        self.take_over(self.value)
         x, y, z = (_towards_zero(v, self._law.reach / LET_GO_S * dt) for v in self.value)
         self.value = (x, y, z)
+
+
+class TurnLever(Lever):
+    """The same of a rotation vector: what leads alone turns about the base axes, however far it has turned."""
+
+    def lead(self, deflections: Vector3, distances: Vector3, dt: float) -> None:
+        """See `Lever`."""
+        step = dt * self._law.growth * np.array(deflections) + self._law.reach * np.array(distances)
+        self.value = vector3(log_map(multiply(exp_map(step), exp_map(np.array(self.value)))))

@@ -48,7 +48,7 @@ class Pad:
         )
         before, self._before = self._before, place if gripped else None
         if before is None or not gripped:
-            return {self.kind: Hand(held=gripped, grips=gripped)}
+            return {self.kind: Hand(held=gripped, grips=gripped, lifted=not gripped)}
         drag, twist = (_difference(now, then) for now, then in zip(place, before, strict=True))
         return {self.kind: Hand(ZERO, ZERO, drag, twist, held=True, grips=True)}
 
