@@ -1,4 +1,4 @@
-"""How the recording is laid out: the scene large, the two cameras beside it, numbers and words below."""
+"""How the recording is laid out: the scene large, the cameras and numbers beside it, what holds and happened below."""
 
 from __future__ import annotations
 
@@ -18,30 +18,31 @@ def blueprint(eye: Eye) -> rrb.Blueprint:
         eye: from where the scene is seen at first.
     """
     return rrb.Blueprint(
-        rrb.Vertical(
-            rrb.Horizontal(
+        rrb.Horizontal(
+            rrb.Vertical(
                 _scene(eye),
-                rrb.Vertical(_camera("head"), _camera("wrist")),
-                column_shares=[3.4, 1],
+                rrb.StateTimelineView(origin=entities.STATES, name="What holds", time_ranges=_window()),
+                row_shares=[1.55, 1],
             ),
-            rrb.Horizontal(
+            rrb.Vertical(
+                rrb.Horizontal(_camera("head"), _camera("wrist")),
                 rrb.Tabs(
-                    _series("Joints", entities.JOINTS),
-                    _series("Force", entities.FORCE_SERIES),
-                    _series("Correction", entities.CORRECTION),
-                    _series("Latency and error", entities.LATENCY),
+                    _series("Master", entities.SERIES_MASTER),
+                    _series("Input", entities.SERIES_INPUT),
+                    _series("Correction", entities.SERIES_CORRECTION),
                     active_tab=0,
                 ),
-                rrb.TextLogView(
-                    origin=entities.JOURNAL,
-                    name="Journal",
-                    columns=rrb.TextLogColumns(
-                        timeline_columns=[entities.TIMELINE], text_log_columns=["loglevel", "body"]
-                    ),
+                rrb.Tabs(
+                    _series("Error", entities.SERIES_ERROR),
+                    _series("Commanded, measured", entities.SERIES_FOLLOWING),
+                    _series("Joints", entities.JOINTS),
+                    active_tab=0,
                 ),
-                column_shares=[1.6, 1],
+                _series("Safety", entities.SERIES_SAFETY),
+                rrb.Tabs(_journal(), rrb.TextDocumentView(origin=entities.ATTEMPTS, name="Attempts"), active_tab=0),
+                row_shares=[1.1, 1, 1, 0.8, 1.1],
             ),
-            row_shares=[2.6, 1],
+            column_shares=[1.7, 1],
         ),
         rrb.TimePanel(state="collapsed", timeline=entities.TIMELINE, play_state="following"),
         rrb.BlueprintPanel(state="collapsed"),
@@ -73,12 +74,26 @@ def _camera(name: str) -> rrb.Spatial2DView:
     )
 
 
+def _journal() -> rrb.TextLogView:
+    return rrb.TextLogView(
+        origin=entities.JOURNAL,
+        name="Journal",
+        columns=rrb.TextLogColumns(timeline_columns=[entities.TIMELINE], text_log_columns=["loglevel", "body"]),
+    )
+
+
 def _series(name: str, origin: str) -> rrb.TimeSeriesView:
-    window = rrb.VisibleTimeRange(
+    return rrb.TimeSeriesView(
+        origin=origin,
+        name=name,
+        time_ranges=_window(),
+        plot_legend=rrb.PlotLegend(rr.blueprint.Corner2D.LeftTop),
+    )
+
+
+def _window() -> rrb.VisibleTimeRange:
+    return rrb.VisibleTimeRange(
         entities.TIMELINE,
         start=rrb.TimeRangeBoundary.cursor_relative(seconds=-_WINDOW_S),
         end=rrb.TimeRangeBoundary.cursor_relative(),
-    )
-    return rrb.TimeSeriesView(
-        origin=origin, name=name, time_ranges=window, plot_legend=rrb.PlotLegend(rr.blueprint.Corner2D.LeftTop)
     )

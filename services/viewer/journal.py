@@ -6,11 +6,17 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from protocol.messages import Phase, Prediction, RobotState, TeachingState, Verdict
+from protocol.messages import Phase, Prediction, RobotState, SafetyState, TeachingState, Verdict
 from services.bus.predictions import LITTLE, certainty
 
 SETTLED_NS = 500_000_000
 """What changes sooner is only counted."""
+
+AGAIN_NS = 3_000_000_000
+"""Once a hold was said, another one is only counted, too, where it lasts no longer than this."""
+
+SOON_NS = 10_000_000_000
+"""Until there was none for so long."""
 
 
 class Entry(NamedTuple):
@@ -40,6 +46,8 @@ class Journal:
     def __init__(self) -> None:
         self._said: dict[str, str] = {}
         self._pending: dict[str, _Pending] = {}
+        self._held_ns = -SOON_NS
+        self._hold_settled_ns = SETTLED_NS
 
     def robot(self, state: RobotState, now_ns: int) -> Iterator[Entry]:
         """What is new about the robot."""
@@ -48,7 +56,27 @@ class Journal:
             yield from self._changed("robot", Entry(phase, "ERROR"))
             return
         text = f"{phase}: {state.hold_reason}" if state.hold_reason else phase
-        yield from self._settled("robot", Entry(text, "INFO"), now_ns)
+        if state.phase is not Phase.HOLD:
+            yield from self._settled("robot", Entry(text, "INFO"), now_ns)
+            return
+        if now_ns - self._held_ns >= SOON_NS:
+            self._hold_settled_ns = SETTLED_NS
+        self._held_ns = now_ns
+        for entry in self._settled("robot", Entry(text, "INFO"), now_ns, self._hold_settled_ns):
+            self._hold_settled_ns = AGAIN_NS
+            yield entry
+
+    def safety(self, state: SafetyState) -> Iterator[Entry]:
+        """What is new about the emergency stop."""
+        if state.emergency_stop:
+            text = f"emergency stop by {state.by}" + (f": {state.reason}" if state.reason else "")
+            yield from self._changed("stop", Entry(text, "ERROR"))
+        elif "stop" in self._said:
+            yield from self._changed("stop", Entry(f"emergency stop released by {state.released_by}", "WARN"))
+
+    def authority(self, who: str, now_ns: int) -> Iterator[Entry]:
+        """What is new about who may command; `who` is empty for nobody."""
+        yield from self._settled("authority", Entry(f"authority: {who or 'nobody'}", "INFO"), now_ns)
 
     def verdict(self, verdict: Verdict, now_ns: int) -> Iterator[Entry]:
         """What is new about the criteria."""
@@ -70,14 +98,14 @@ class Journal:
         if state.reason:
             yield from self._changed("reason", Entry(state.reason, "WARN"))
 
-    def _settled(self, subject: str, entry: Entry, now_ns: int) -> Iterator[Entry]:
+    def _settled(self, subject: str, entry: Entry, now_ns: int, settled_ns: int = SETTLED_NS) -> Iterator[Entry]:
         """The entry where it has been so for a while: a robot that holds for moments would fill the journal."""
         pending = self._pending.setdefault(subject, _Pending())
         said = self._said.get(subject)
         if entry.text != pending.text:
             pending.passed += pending.text not in ("", said)
             pending.text, pending.since_ns = entry.text, now_ns
-        if entry.text == said or (said is not None and now_ns - pending.since_ns < SETTLED_NS):
+        if entry.text == said or (said is not None and now_ns - pending.since_ns < settled_ns):
             return
         self._said[subject] = entry.text
         moments, pending.passed = pending.passed, 0

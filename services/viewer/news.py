@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import Generic, TypeVar
 
-from protocol.messages import Message
+from protocol.messages import MasterState, Message, OperatorInput
 from services.bus.subscription import Subscription
 
 M = TypeVar("M", bound=Message)
+H = TypeVar("H", OperatorInput, MasterState)
 
 
 class News(Generic[M]):
@@ -40,6 +41,23 @@ class News(Generic[M]):
             return None
         self._taken, self._taken_ns = identity, now_ns
         return message
+
+
+class NewsOfHolder(Generic[H]):
+    """A subscription to what several people's processes tell, of which one may command.
+
+    Args:
+        subscription: where the messages come from.
+    """
+
+    def __init__(self, subscription: Subscription[H]) -> None:
+        self._subscription: Subscription[H] = subscription
+
+    def take(self, holder: str) -> H | None:
+        """The newest message since the last call, of who holds the authority; anybody's where nobody does."""
+        messages = [received.message for received in self._subscription.take()]
+        theirs = [message for message in messages if holder in ("", message.holder)]
+        return theirs[-1] if theirs else None
 
 
 class Changes:

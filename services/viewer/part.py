@@ -14,11 +14,11 @@ import rerun as rr
 
 from services.viewer.live import APPLICATION, only_our_time
 
-# A second's rows in each chunk: with a tenth, half of the file would be the chunks' headers.
-_BATCHER = rr.ChunkBatcherConfig(flush_tick=1.0)
-
 # A disk that does not answer for so long does not take what is logged.
 _HUNG_S = 5.0
+
+# A chunk ends where it is brought to the disk: a clock of its own would only cut it in two.
+_BATCHER = rr.ChunkBatcherConfig(flush_tick=_HUNG_S)
 
 # As much as a file takes that holds nothing but what stays for the whole run.
 _LEAST = 2**20

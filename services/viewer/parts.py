@@ -25,7 +25,8 @@ Painter = Callable[[rr.RecordingStream], None]
 """Draws what stays for the whole run."""
 
 CHECK_S = 1.0
-"""What was logged is on the disk within this time, and a disk that does not take it is noticed."""
+"""What was logged is on the disk within this time, or as soon as it was asked for; a disk that does not take it is
+noticed then."""
 
 _CLOSE_S = 1.0
 
@@ -57,6 +58,7 @@ class Parts:
         except OSError as error:
             raise FolderUnusable(folder, FOLDER_SETTING, error.strerror or str(error)) from None
         self._stop = threading.Event()
+        self._asked = threading.Event()
         self._thread = threading.Thread(target=self._watch, args=(check_s,), name="recording", daemon=True)
         if check_s > 0.0:
             self._thread.start()
@@ -80,6 +82,10 @@ class Parts:
             if self._part is not None:
                 painter(self._part.stream)
 
+    def ask(self) -> None:
+        """Let the thread bring what was logged to the disk now."""
+        self._asked.set()
+
     def check(self) -> None:
         """Bring what was logged to the disk, notice where it is not taken, and try again."""
         part = self._part
@@ -93,13 +99,16 @@ class Parts:
     def close(self, within_s: float) -> None:
         """Finish the file; a disk that does not answer is left to itself after this time [s]."""
         self._stop.set()
+        self._asked.set()
         if self._thread.is_alive():
             self._thread.join(within_s)
         else:
             self._finish()
 
     def _watch(self, check_s: float) -> None:
-        while not self._stop.wait(check_s):
+        while not self._stop.is_set():
+            self._asked.wait(check_s)
+            self._asked.clear()
             self.check()
         self._finish()
 

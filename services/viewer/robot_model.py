@@ -40,11 +40,10 @@ class RobotModel:
         base = rr.Transform3D(parent_frame=f"tf#{entities.WORLD}", child_frame=self._tree.root_link().name)
         run.log_always(f"{entities.ROBOT}/base", base)
 
-    def move(self, time_s: float, names: Sequence[str], q: Sequence[float]) -> None:
+    def move(self, names: Sequence[str], q: Sequence[float]) -> None:
         """Put the joints where they are; those that the description does not have are left out.
 
         Args:
-            time_s: on the run's time line [s].
             names: of the joints.
             q: positions, in the order of `names` [rad, m].
         """
@@ -52,17 +51,12 @@ class RobotModel:
             return
         if tuple(names) != self._joints.names:
             self._joints = _Joints(self._tree, tuple(names))
-        translations, quaternions = self._joints.transforms(np.asarray(q, dtype=np.float64))
-        if not len(translations):
-            return
-        columns = rr.Transform3D.columns(translation=translations, quaternion=quaternions)
-        times = rr.TimeColumn(entities.TIMELINE, duration=[time_s] * len(translations))
-        # One call for all joints: a third of the time of one call each.
-        self._run.send_columns(_MOVING, times, [*columns, *self._joints.frames])
+        if self._joints.rows:
+            self._run.row(_MOVING, self._joints, q)
 
 
 class _Joints:
-    """Where the links of some joints are, each in its parent's frame.
+    """Where the links of some joints are, each in its parent's frame; of the kind whose values are their positions.
 
     Args:
         tree: the description.
@@ -73,34 +67,42 @@ class _Joints:
         self.names = names
         pairs = [(i, joint) for i, name in enumerate(names) if (joint := tree.get_joint_by_name(name)) is not None]
         joints = [joint for _, joint in pairs]
+        self.rows = len(joints)
+        self._parents, self._children = [joint.parent_link for joint in joints], [joint.child_link for joint in joints]
         self._index = np.array([i for i, _ in pairs], dtype=int)
         self._slides = np.array([joint.joint_type == "prismatic" for joint in joints], dtype=bool)[:, None]
         self._axes = np.array([joint.axis for joint in joints]).reshape(-1, 3)
         self._origins = np.array([joint.origin_xyz for joint in joints]).reshape(-1, 3)
         self._rotations = _quaternions(np.array([joint.origin_rpy for joint in joints]).reshape(-1, 3))
-        # The same in every call, and the dearest to convert.
-        self.frames = list(
+
+    def columns(self, values: Sequence[Sequence[float]]) -> list[rr.ComponentColumn]:
+        """A row for each joint, as often as there are values [rad, m]."""
+        translations, quaternions = self.transforms(np.array(values))
+        return list(
             rr.Transform3D.columns(
-                parent_frame=[joint.parent_link for joint in joints], child_frame=[joint.child_link for joint in joints]
+                translation=translations.reshape(-1, 3),
+                quaternion=quaternions.reshape(-1, 4),
+                parent_frame=self._parents * len(values),
+                child_frame=self._children * len(values),
             )
         )
 
     def transforms(self, q: Floats) -> tuple[Floats, Floats]:
-        """Translations, shape (n, 3) [m], and quaternions as Rerun has them, scalar last, shape (n, 4)."""
-        value = q[self._index][:, None]
+        """Translations, shape (..., n, 3) [m], and quaternions as Rerun has them, scalar last, shape (..., n, 4)."""
+        value = q[..., self._index, None]
         slide = np.where(self._slides, value, 0.0) * self._axes
         half = np.where(self._slides, 0.0, value) / 2
-        turned = _product(self._rotations, np.hstack([np.sin(half) * self._axes, np.cos(half)]))
+        turned = _product(self._rotations, np.concatenate([np.sin(half) * self._axes, np.cos(half)], axis=-1))
         conjugate = self._rotations * [-1.0, -1.0, -1.0, 1.0]
-        along = _product(_product(self._rotations, np.hstack([slide, np.zeros_like(half)])), conjugate)
-        return self._origins + along[:, :3], turned
+        along = _product(_product(self._rotations, np.concatenate([slide, np.zeros_like(half)], axis=-1)), conjugate)
+        return self._origins + along[..., :3], turned
 
 
 def _product(p: Floats, q: Floats) -> Floats:
-    """Hamilton products of quaternions, scalar last, shapes (n, 4)."""
-    pv, pw, qv, qw = p[:, :3], p[:, 3:], q[:, :3], q[:, 3:]
-    scalar = pw * qw - np.sum(pv * qv, axis=1, keepdims=True)
-    return np.hstack([pw * qv + qw * pv + np.cross(pv, qv), scalar])
+    """Hamilton products of quaternions, scalar last, shapes (..., n, 4)."""
+    pv, pw, qv, qw = p[..., :3], p[..., 3:], q[..., :3], q[..., 3:]
+    scalar = pw * qw - np.sum(pv * qv, axis=-1, keepdims=True)
+    return np.concatenate([pw * qv + qw * pv + np.cross(pv, qv), scalar], axis=-1)
 
 
 def _quaternions(rpy: Floats) -> Floats:

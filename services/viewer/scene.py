@@ -40,11 +40,6 @@ def log_object_truth(run: Run, pose: Pose, size: Vector3) -> None:
     run.log(entities.OBJECT_TRUTH, _box(pose, size, palette.TRUTH, "majorwireframe"))
 
 
-def log_grasp(run: Run, pose: Pose) -> None:
-    """Move the grasping frame."""
-    run.log(entities.GRASP, rr.Transform3D(translation=pose.position, quaternion=_xyzw(pose.orientation)))
-
-
 def log_point(run: Run, radius: float) -> None:
     """Draw a robot that has no shape as a ball of this radius [m]; it moves with the grasping frame."""
     run.log_always(entities.POINT, rr.Points3D([(0.0, 0.0, 0.0)], radii=[radius], colors=[palette.TRUTH]))

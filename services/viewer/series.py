@@ -2,61 +2,126 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
 import rerun as rr
 
+from protocol.messages import MasterState, Pose, Vector3
 from services.viewer import entities, palette
+from services.viewer.kinds import SCALARS
 from services.viewer.run import Run
 
 _AXES = ("x", "y", "z")
-_LATENCIES = ("operator to robot [ms]", "object pose error [mm]")
+_WIDTH = 1.5
+
+_LEGENDS = {
+    entities.INPUT_AXES: [f"axis {number}" for number in range(1, 17)],
+    entities.MASTER_DISPLACEMENT: [f"displacement {axis} [mm]" for axis in _AXES],
+    entities.MASTER_ROTATION: [f"rotation about {axis} [deg]" for axis in _AXES],
+    entities.MASTER_FORCE: [f"force {axis} [N]" for axis in _AXES],
+    entities.CORRECTION_OFFSET: [f"offset {axis} [mm]" for axis in _AXES],
+    entities.CORRECTION_TURN: [f"turn about {axis} [deg]" for axis in _AXES],
+    entities.COMMANDED: [f"commanded {axis} [m]" for axis in _AXES],
+    entities.MEASURED: [f"measured {axis} [m]" for axis in _AXES],
+    entities.POSITION_ERROR: [f"position {axis} [mm]" for axis in _AXES],
+    entities.ORIENTATION_ERROR: ["orientation [deg]"],
+    entities.OBJECT_ERROR: ["object as seen [mm]"],
+    entities.SELF_DISTANCE: ["between the robot's parts [mm]"],
+    entities.LATENCY: ["operator to robot [ms]"],
+}
+
+_COLOURS = {
+    entities.INPUT_AXES: palette.MANY,
+    entities.MASTER_ROTATION: palette.AXES_PALE,
+    entities.MASTER_FORCE: palette.AXES_DARK,
+    entities.CORRECTION_TURN: palette.AXES_PALE,
+    entities.COMMANDED: palette.AXES_PALE,
+    entities.ORIENTATION_ERROR: palette.ALONE,
+    entities.OBJECT_ERROR: palette.MANY,
+    entities.SELF_DISTANCE: palette.MANY,
+    entities.LATENCY: palette.ALONE,
+}
+"""Where they are not those of the axes."""
 
 
 def log_legends(run: Run) -> None:
     """Name and colour what has a fixed number of lines."""
-    force = rr.SeriesLines(names=[f"{axis} [N]" for axis in _AXES], colors=palette.AXES, widths=[1.5])
-    offset = rr.SeriesLines(names=[f"{axis} [mm]" for axis in _AXES], colors=palette.AXES, widths=[1.5])
-    turn = rr.SeriesLines(names=[f"about {axis} [deg]" for axis in _AXES], colors=palette.AXES_TURNED, widths=[1.5])
-    run.log_always(entities.FORCE_SERIES, force)
-    run.log_always(f"{entities.CORRECTION}/offset", offset)
-    run.log_always(f"{entities.CORRECTION}/turn", turn)
-    for name, colour in zip(_LATENCIES, (palette.REFINED, palette.PREDICTED), strict=True):
-        line = rr.SeriesLines(names=[name], colors=[colour], widths=[1.5])
-        run.log_always(f"{entities.LATENCY}/{name.split(' [')[0].replace(' ', '_')}", line)
+    for path, names in _LEGENDS.items():
+        _log_legend(run, path, names, _COLOURS.get(path, palette.AXES))
 
 
 def log_joint_legend(run: Run, names: Sequence[str]) -> None:
     """Name and colour the joints."""
-    colours = np.resize(palette.JOINTS, len(names))
-    line = rr.SeriesLines(names=[name.removesuffix("_joint") for name in names], colors=colours, widths=[1.5])
-    run.log_always(entities.JOINTS, line)
+    _log_legend(run, entities.JOINTS, [name.removesuffix("_joint") for name in names], palette.MANY)
 
 
 def log_joints(run: Run, q: Sequence[float]) -> None:
     """Joint positions [rad, torso m]."""
-    run.log(entities.JOINTS, rr.Scalars(q))
+    if q:
+        run.row(entities.JOINTS, SCALARS, q)
 
 
-def log_force(run: Run, force: Sequence[float]) -> None:
-    """What the master renders to the hand, base axes [N]."""
-    run.log(entities.FORCE_SERIES, rr.Scalars(force))
+def log_axes(run: Run, axes: Sequence[float]) -> None:
+    """A gamepad's or pointer's axes, each from -1 to 1; nothing where it has none."""
+    if axes:
+        run.row(entities.INPUT_AXES, SCALARS, axes)
 
 
-def log_correction(run: Run, offset: Sequence[float], turn: Sequence[float]) -> None:
+def log_master(run: Run, master: MasterState) -> None:
+    """What the hand does with the device, and the force that it feels, in base axes."""
+    run.row(entities.MASTER_DISPLACEMENT, SCALARS, _milli(master.displacement))
+    run.row(entities.MASTER_ROTATION, SCALARS, _degrees(master.rotation))
+    run.row(entities.MASTER_FORCE, SCALARS, master.force)
+
+
+def log_correction(run: Run, offset: Vector3, turn: Vector3) -> None:
     """The correction as the robot applies it, in base axes: offset [m] and rotation vector [rad]."""
-    run.log(f"{entities.CORRECTION}/offset", rr.Scalars(1e3 * np.asarray(offset)))
-    run.log(f"{entities.CORRECTION}/turn", rr.Scalars(np.degrees(turn)))
+    run.row(entities.CORRECTION_OFFSET, SCALARS, _milli(offset))
+    run.row(entities.CORRECTION_TURN, SCALARS, _degrees(turn))
+
+
+def log_following(run: Run, commanded: Pose, measured: Pose) -> None:
+    """Where the grasping frame was told to be, where it is, and by how much it is off, measured less commanded."""
+    run.row(entities.COMMANDED, SCALARS, commanded.position)
+    run.row(entities.MEASURED, SCALARS, measured.position)
+    pairs = zip(measured.position, commanded.position, strict=True)
+    run.row(entities.POSITION_ERROR, SCALARS, _milli([is_ - told for is_, told in pairs]))
+    run.row(entities.ORIENTATION_ERROR, SCALARS, [math.degrees(_angle(commanded, measured))])
+
+
+def log_object_error(run: Run, error: float) -> None:
+    """Distance of the object as seen from where it is [m]; negative where it is not known."""
+    if error >= 0.0:
+        run.row(entities.OBJECT_ERROR, SCALARS, _milli([error]))
+
+
+def log_self_distance(run: Run, distance: float) -> None:
+    """The least distance between parts of the robot [m]."""
+    run.row(entities.SELF_DISTANCE, SCALARS, _milli([distance]))
 
 
 def log_latency(run: Run, latency_s: float) -> None:
     """From the operator's sample to its effect [s]; negative where it is not known."""
     if latency_s >= 0.0:
-        run.log(f"{entities.LATENCY}/operator_to_robot", rr.Scalars([1e3 * latency_s]))
+        run.row(entities.LATENCY, SCALARS, _milli([latency_s]))
 
 
-def log_pose_error(run: Run, error: float) -> None:
-    """Distance of the object as seen from where it is [m]; negative where it is not known."""
-    if error >= 0.0:
-        run.log(f"{entities.LATENCY}/object_pose_error", rr.Scalars([1e3 * error]))
+def _log_legend(run: Run, path: str, names: Sequence[str], colours: palette.Colours) -> None:
+    line = rr.SeriesLines(names=names, colors=np.resize(colours, len(names)), widths=[_WIDTH])
+    run.log_always(path, line)
+
+
+def _milli(values: Sequence[float]) -> list[float]:
+    return [1e3 * value for value in values]
+
+
+def _degrees(rotation: Vector3) -> list[float]:
+    return [math.degrees(angle) for angle in rotation]
+
+
+def _angle(one: Pose, other: Pose) -> float:
+    """Between two orientations [rad]."""
+    dot = sum(p * q for p, q in zip(one.orientation, other.orientation, strict=True))
+    return 2.0 * math.acos(min(abs(dot), 1.0))

@@ -7,16 +7,13 @@ import logging
 import numpy as np
 import rerun as rr
 
-from protocol.messages import CameraImage, Figure, Pose, Recording
+from protocol.messages import CameraImage, Figure, Pose, Prediction, Recording
 from protocol.topics import (
     EXECUTION,
     HEAD_IMAGE,
-    MASTER_STATE,
     OBJECT_POSE,
     RECORDING,
-    ROBOT_STATE,
     SCENE_STATE,
-    TEACHING_STATE,
     VERDICT,
     WORLD_STATE,
     WRIST_IMAGE,
@@ -29,12 +26,16 @@ from services.process.clock import Clock
 from services.process.config import Configuration
 from services.process.runner import Service
 from services.viewer import entities, motions, scene, series
-from services.viewer.journal import Entry, Journal
+from services.viewer.journal import Journal
 from services.viewer.news import Changes, News
+from services.viewer.robot import Robot
 from services.viewer.robot_model import RobotModel
 from services.viewer.run import Run
+from services.viewer.teaching import Teaching
+from services.viewer.teleoperation import Teleoperation
 from services.viewer.web import WebServer
 from services.viewer.web_files import web_files
+from services.viewer.words import Words
 from sim.exceptions import SimError
 from sim.robots.description import prepare
 from sim.tasks import SCENES
@@ -45,10 +46,9 @@ log = logging.getLogger(__name__)
 RATE_HZ = 30.0
 
 # What stands still is drawn again this often: whoever opens the page late has not seen the first time.
-_REPEAT_S = 1.0
+_REPEAT_S = 5.0
 
-# Numbers over time and the force's arrow: every second step, since nobody sees more and each costs as much as a joint.
-_SERIES_S = 0.06
+_ANNOUNCE_S = 1.0
 
 # The whole way so far is drawn each time.
 _TRACE_S = 0.2
@@ -91,27 +91,26 @@ class ViewerService:
         self._run = run
         self._web = web
         self._journal = Journal()
-        self._robot = News(bus.subscribe(ROBOT_STATE))
-        self._master = News(bus.subscribe(MASTER_STATE))
+        self._words = Words(run)
         self._world = News(bus.subscribe(WORLD_STATE))
-        self._scene = News(bus.subscribe(SCENE_STATE), _REPEAT_S)
+        self._scene = News(bus.subscribe(SCENE_STATE))
         self._object = News(bus.subscribe(OBJECT_POSE))
         self._verdict = News(bus.subscribe(VERDICT))
         self._predictions = Predictions(bus)
         self._execution = bus.subscribe(EXECUTION)
         self._trace = Trace()
-        self._teaching = News(bus.subscribe(TEACHING_STATE))
         self._images = (News(bus.subscribe(HEAD_IMAGE)), News(bus.subscribe(WRIST_IMAGE)))
         self._changes = Changes(_REPEAT_S)
-        self._pace = Changes(_SERIES_S)
         self._tracing = Changes(_TRACE_S)
-        self._joint_names: tuple[str, ...] = ()
+        self._announcing = Changes(_ANNOUNCE_S)
         self._unusable = 0
         run.at(0)
-        series.log_legends(self._run)
-        self._model = _robot_model(run) if point is None else None
+        series.log_legends(run)
+        self._robot = Robot(bus, run, self._words, self._journal, _robot_model(run) if point is None else None)
+        self._teleoperation = Teleoperation(bus, run, self._words, self._journal)
+        self._teaching = Teaching(bus, run, self._words, self._journal)
         if point is not None:
-            scene.log_point(self._run, point)
+            scene.log_point(run, point)
 
     @property
     def rate_hz(self) -> float:
@@ -120,20 +119,23 @@ class ViewerService:
 
     def step(self, now_ns: int) -> None:
         """Draw what is new."""
-        time_s = self._run.at(now_ns)
-        self._log_robot(time_s, now_ns)
-        self._log_master(now_ns)
+        self._run.at(now_ns)
+        robot = self._robot.draw(now_ns)
+        if robot is not None:
+            self._trace.see(robot)
+        known = self._robot.known
+        self._teleoperation.draw(known.measured.position if known is not None else None, now_ns)
         self._log_scene(now_ns)
-        self._log_motions(now_ns)
         self._log_verdict(now_ns)
         for images in self._images:
             image = images.take(now_ns)
             if image is not None:
                 _log_image(self._run, image)
-        teaching = self._teaching.take(now_ns)
-        if teaching is not None:
-            self._write(*self._journal.teaching(teaching))
-        if self._changes.due("announcement", None, now_ns):
+        shown = self._predictions.shown(self._execution.fresh(now_ns))
+        self._log_motions(shown, now_ns)
+        self._teaching.draw(shown, now_ns)
+        self._run.send()
+        if self._announcing.due("announcement", None, now_ns):
             self._announce()
 
     def figures(self) -> tuple[Figure, ...]:
@@ -148,36 +150,9 @@ class ViewerService:
         self._run.close()
         self._web.close()
 
-    def _log_robot(self, time_s: float, now_ns: int) -> None:
-        robot = self._robot.take(now_ns)
-        if robot is None:
-            return
-        self._trace.see(robot)
-        if robot.joint_names != self._joint_names:
-            self._joint_names = robot.joint_names
-            series.log_joint_legend(self._run, robot.joint_names)
-        if self._changes.due("joints", tuple(round(value, 5) for value in robot.q), now_ns):
-            if self._model is not None:
-                self._model.move(time_s, robot.joint_names, robot.q)
-            scene.log_grasp(self._run, robot.measured)
-        self._write(*self._journal.robot(robot, now_ns))
-        if self._pace.due("robot", None, now_ns):
-            series.log_joints(self._run, robot.q)
-            series.log_correction(self._run, robot.offset, robot.turn)
-            series.log_latency(self._run, robot.applied_latency)
-
-    def _log_master(self, now_ns: int) -> None:
-        master = self._master.take(now_ns)
-        if master is None or not self._pace.due("master", None, now_ns):
-            return
-        series.log_force(self._run, master.force)
-        robot = self._robot.known
-        if robot is not None and self._changes.due("force", (master.force, robot.measured.position), now_ns):
-            scene.log_force(self._run, robot.measured.position, master.force)
-
     def _log_scene(self, now_ns: int) -> None:
         arrangement = self._scene.take(now_ns)
-        if arrangement is not None:
+        if arrangement is not None and self._changes.due("environment", arrangement.boxes, now_ns):
             scene.log_environment(self._run, arrangement)
         world, seen = self._world.take(now_ns), self._object.take(now_ns)
         if self._scene.known is None:
@@ -186,13 +161,11 @@ class ViewerService:
         if world is not None and any(size) and self._changes.due("truth", _rounded(world.object_pose), now_ns):
             scene.log_object_truth(self._run, world.object_pose, size)
         if seen is not None:
-            scene.log_object_seen(self._run, seen.pose, size)
-            series.log_pose_error(self._run, seen.error)
+            series.log_object_error(self._run, seen.error)
+            if self._changes.due("seen", _rounded(seen.pose), now_ns):
+                scene.log_object_seen(self._run, seen.pose, size)
 
-    def _log_motions(self, now_ns: int) -> None:
-        prediction = self._predictions.shown(self._execution.fresh(now_ns))
-        if prediction is not None:
-            self._write(*self._journal.prediction(prediction))
+    def _log_motions(self, prediction: Prediction | None, now_ns: int) -> None:
         if prediction is not None and self._changes.due("prediction", prediction, now_ns):
             positions = drawable(prediction.motion.positions)
             deviations = drawable(prediction.deviations)
@@ -208,7 +181,7 @@ class ViewerService:
         verdict = self._verdict.take(now_ns)
         if verdict is None:
             return
-        self._write(*self._journal.verdict(verdict, now_ns))
+        self._words.write(*self._journal.verdict(verdict, now_ns))
         if self._changes.due("collision", verdict.collision_position, now_ns):
             scene.log_collision(self._run, verdict.collision_position, verdict.collision_force)
         known, thing = self._scene.known, self._object_pose()
@@ -228,10 +201,6 @@ class ViewerService:
         if self._world.known is not None:
             return self._world.known.object_pose
         return None if self._object.known is None else self._object.known.pose
-
-    def _write(self, *entries: Entry) -> None:
-        for entry in entries:
-            self._run.log(entities.JOURNAL, rr.TextLog(entry.text, level=entry.level))
 
     def _announce(self) -> None:
         robot, parts = self._robot.known, self._run.parts

@@ -40,6 +40,26 @@ def test_holds_of_a_moment_are_counted_and_said_when_the_robot_settles():
     assert [entry.text for entry in entries] == ["robot: hold, episode 2 (after 9 changes of a moment)"]
 
 
+def test_holds_that_come_again_and_again_are_said_once_and_then_when_one_lasts():
+    journal = Journal()
+    states = [(0.1 * i, robot((Phase.EXECUTE, Phase.HOLD)[i // 8 % 2])) for i in range(600)]
+    entries = said(journal, *states, *((60.0 + 0.1 * i, robot(Phase.HOLD)) for i in range(40)))
+    assert [entry.text for entry in entries] == [
+        "robot: execute, episode 2",
+        "robot: hold, episode 2",
+        "robot: execute, episode 2",
+        "robot: hold, episode 2 (after 36 changes of a moment)",
+    ]
+
+
+def test_a_hold_long_after_another_one_is_said_as_soon():
+    journal = Journal()
+    for start in (0.0, 20.0):
+        said(journal, (start, robot(Phase.EXECUTE)), (start + 5.0, robot(Phase.EXECUTE)))
+        entries = said(journal, (start + 6.0, robot(Phase.HOLD)), (start + 6.6, robot(Phase.HOLD)))
+        assert [entry.text for entry in entries] == ["robot: hold, episode 2"]
+
+
 def test_a_stop_is_said_at_once_and_as_an_error():
     journal = Journal()
     said(journal, (0.0, robot(Phase.EXECUTE)))

@@ -1,12 +1,13 @@
 """What is drawn is drawn live and in the file; who listens where."""
 
+import shutil
 import socket
 
 import msgspec
-import numpy as np
 import pytest
 
 from services.process.exceptions import PortInUse
+from tests.services.viewer.read import Read
 
 pytestmark = pytest.mark.sim
 
@@ -19,12 +20,6 @@ def recording(configuration):
     recording = Run(configuration.viewer, "testbed", 0, Eye())
     yield recording
     recording.close()
-
-
-def rows(path, entity):
-    from rerun.chunk import RrdReader
-
-    return [c.to_record_batch().to_pydict() for c in RrdReader(str(path)).stream() if c.entity_path == entity]
 
 
 def test_the_stream_is_served_at_its_port(recording, configuration):
@@ -50,8 +45,7 @@ def test_what_stands_is_on_the_files_time_line_each_time(recording):
         recording.at(second * 1_000_000_000)
         recording.stand("/box", rr.Scalars([1.0]), value=1.0)
     recording.close()
-    (batch,) = rows(recording.parts.path, "/box")
-    assert len(batch["time"]) == 3
+    assert Read(recording.parts.path).moving("/box") == [3]
 
 
 @pytest.mark.parametrize(
@@ -67,13 +61,28 @@ def test_the_stream_is_read_by_the_viewers_own_page_only(configuration, host, or
     assert page_origins(msgspec.structs.replace(configuration.viewer, host=host, web_port=9090)) == origins
 
 
-def test_the_correction_is_shown_in_millimetres_and_degrees(recording):
-    from services.viewer import entities, series
+def test_a_run_that_is_killed_loses_no_more_than_a_second_of_rows(recording, tmp_path):
+    from services.viewer.kinds import SCALARS
 
-    recording.at(0)
-    series.log_correction(recording, (0.05, 0.0, -0.01), (0.0, np.pi / 6, 0.0))
+    ticks = 310
+    for tick in range(ticks):
+        recording.at(round(tick * 1e9 / 30))
+        recording.row("/number", SCALARS, [float(tick)])
+        recording.send()
+    recording.parts.check()
+    written = Read(shutil.copy(recording.parts.path, tmp_path / "as_if_killed.rrd")).values("/number")
+    assert written == [[float(tick)] for tick in range(len(written))]
+    assert ticks - 30 <= len(written) < ticks
+
+
+def test_a_run_that_is_closed_loses_nothing(recording):
+    from services.viewer.kinds import SCALARS
+
+    for tick in range(7):
+        recording.at(round(tick * 1e9 / 30))
+        recording.row("/number", SCALARS, [float(tick)])
+        recording.send()
     recording.close()
-    shown = {name: rows(recording.parts.path, f"{entities.CORRECTION}/{name}") for name in ("offset", "turn")}
-    (offset,), (turn,) = ([b["Scalars:scalars"] for b in batches if "time" in b] for batches in shown.values())
-    np.testing.assert_allclose(offset, [[50.0, 0.0, -10.0]])
-    np.testing.assert_allclose(turn, [[0.0, 30.0, 0.0]])
+    assert Read(recording.parts.path).rows("/number", "Scalars:scalars") == [
+        (pytest.approx(tick / 30, abs=1e-9), [float(tick)]) for tick in range(7)
+    ]

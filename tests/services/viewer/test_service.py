@@ -115,8 +115,9 @@ def test_the_recording_is_sound_and_holds_what_was_published(system):
         entities.FORCE,
         entities.JOINTS,
         entities.JOURNAL,
-        f"{entities.CORRECTION}/offset",
-        f"{entities.CORRECTION}/turn",
+        entities.CORRECTION_OFFSET,
+        entities.CORRECTION_TURN,
+        entities.GRASP,
         f"{entities.CAMERAS}/head",
         f"{entities.ROBOT}/moving",
     )
