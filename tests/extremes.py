@@ -6,16 +6,25 @@ from hypothesis import strategies as st
 
 from protocol.messages import (
     Array,
+    Attempt,
+    AuthorityState,
     Box,
     CameraImage,
+    Light,
     MasterState,
+    Mode,
+    ModelState,
     Motion,
     ObjectPose,
+    OperatorInput,
+    Outcome,
     Phase,
     Pose,
     Prediction,
     RobotState,
+    SafetyState,
     SceneState,
+    TeachingState,
     Verdict,
     WorldState,
 )
@@ -134,4 +143,49 @@ predictions = st.builds(
     deviations=arrays(((), (0,), (2, 3), (3, 3), (3, 5), (10_000, 3))),
     model_version=counts,
     object_position=vectors,
+)
+inputs = st.builds(
+    OperatorInput,
+    operator=names,
+    holder=names,
+    present=st.booleans(),
+    keys=st.lists(names, max_size=32).map(tuple),
+    focused=st.booleans(),
+    axes=st.lists(reals, max_size=16).map(tuple),
+)
+authorities = st.builds(AuthorityState, operator=names, holder=names, epoch=counts, expires_in=reals)
+safeties = st.builds(
+    SafetyState,
+    emergency_stop=st.booleans(),
+    by=names,
+    reason=texts,
+    released_by=names,
+    standing=st.booleans(),
+    self_distance=reals,
+)
+models = st.builds(ModelState, kind=names, version=counts, demonstrations=counts, updates=counts, scene=names)
+_outcomes = st.builds(Outcome, st.booleans(), st.booleans(), st.booleans())
+attempts = st.builds(
+    Attempt,
+    scene=names,
+    object_position=vectors,
+    model_version=counts,
+    operator_input=st.booleans(),
+    verdict=_outcomes,
+    duration_s=reals,
+    variant=names,
+    mode=st.sampled_from(Mode),
+    number=counts,
+)
+teachings = st.builds(
+    TeachingState,
+    phase=names,
+    text=texts,
+    light=st.sampled_from(Light),
+    refinements=counts,
+    refinements_allowed=counts,
+    updates=counts,
+    updates_allowed=counts,
+    attempts=st.lists(attempts, max_size=3).map(tuple),
+    reason=texts,
 )

@@ -1,4 +1,4 @@
-"""How the recording is laid out: the scene large, the cameras and numbers beside it, what holds and happened below."""
+"""How the recording is laid out: the scene large, cameras and numbers beside it, below it what holds and happened."""
 
 from __future__ import annotations
 
@@ -21,28 +21,51 @@ def blueprint(eye: Eye) -> rrb.Blueprint:
         rrb.Horizontal(
             rrb.Vertical(
                 _scene(eye),
-                rrb.StateTimelineView(origin=entities.STATES, name="What holds", time_ranges=_window()),
-                row_shares=[1.55, 1],
+                rrb.Horizontal(
+                    _states("Operator and robot", entities.STATES_LOOP),
+                    rrb.Vertical(
+                        _states("Teaching", entities.STATES_TEACHING),
+                        rrb.Tabs(
+                            _journal(),
+                            rrb.TextDocumentView(origin=entities.ATTEMPTS, name="Attempts"),
+                            active_tab=0,
+                        ),
+                        row_shares=[1.3, 1],
+                    ),
+                    column_shares=[1.1, 1],
+                ),
+                row_shares=[1.4, 1],
             ),
             rrb.Vertical(
                 rrb.Horizontal(_camera("head"), _camera("wrist")),
                 rrb.Tabs(
-                    _series("Master", entities.SERIES_MASTER),
-                    _series("Input", entities.SERIES_INPUT),
-                    _series("Correction", entities.SERIES_CORRECTION),
+                    _series("Hand", entities.MASTER_DISPLACEMENT),
+                    _series("Rotation", entities.MASTER_ROTATION),
+                    _series("Force", entities.MASTER_FORCE),
+                    _series("Axes", entities.INPUT_AXES),
                     active_tab=0,
                 ),
                 rrb.Tabs(
-                    _series("Error", entities.SERIES_ERROR),
+                    _series("Correction", entities.CORRECTION_OFFSET),
+                    _series("Turn", entities.CORRECTION_TURN),
                     _series("Commanded, measured", entities.SERIES_FOLLOWING),
                     _series("Joints", entities.JOINTS),
                     active_tab=0,
                 ),
-                _series("Safety", entities.SERIES_SAFETY),
-                rrb.Tabs(_journal(), rrb.TextDocumentView(origin=entities.ATTEMPTS, name="Attempts"), active_tab=0),
-                row_shares=[1.1, 1, 1, 0.8, 1.1],
+                rrb.Tabs(
+                    _series("Error", entities.POSITION_ERROR),
+                    _series("Of orientation", entities.ORIENTATION_ERROR),
+                    _series("Of the object as seen", entities.OBJECT_ERROR),
+                    active_tab=0,
+                ),
+                rrb.Tabs(
+                    _series("Self-distance", entities.SELF_DISTANCE),
+                    _series("Latency", entities.LATENCY),
+                    active_tab=0,
+                ),
+                row_shares=[1.3, 1, 1, 1, 0.8],
             ),
-            column_shares=[1.7, 1],
+            column_shares=[1.9, 1],
         ),
         rrb.TimePanel(state="collapsed", timeline=entities.TIMELINE, play_state="following"),
         rrb.BlueprintPanel(state="collapsed"),
@@ -71,6 +94,18 @@ def _scene(eye: Eye) -> rrb.Spatial3DView:
 def _camera(name: str) -> rrb.Spatial2DView:
     return rrb.Spatial2DView(
         origin=f"{entities.CAMERAS}/{name}", name=f"{name.capitalize()} camera", background=palette.BACKGROUND
+    )
+
+
+def _states(name: str, origin: str) -> rrb.StateTimelineView:
+    window = rrb.TimeRange(
+        start=rrb.TimeRangeBoundary.cursor_relative(seconds=-_WINDOW_S), end=rrb.TimeRangeBoundary.cursor_relative()
+    )
+    return rrb.StateTimelineView(
+        origin=origin,
+        name=name,
+        time_ranges=_window(),
+        time_view=rrb.archetypes.TimeAxis(view_range=window),
     )
 
 

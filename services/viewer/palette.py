@@ -19,12 +19,8 @@ BACKGROUND = 0x0E1116FF
 AXES = np.array([STOP, GO, OBJECT], dtype=np.uint32)
 """x, y, z."""
 AXES_PALE = np.array([0xF2A2A5FF, 0x96E0BDFF, 0x9AC2F2FF], dtype=np.uint32)
-"""The same, paler: turns about them, and what was told."""
-AXES_DARK = np.array([0xA31621FF, 0x13693FFF, 0x1A4F96FF], dtype=np.uint32)
-"""The same, darker: forces."""
+"""The same, paler."""
 MANY = np.array(
     [TRUTH, PREDICTED, REFINED, 0x009E73FF, 0xF0E442FF, OBJECT, 0xD55E00FF, FORCE],
     dtype=np.uint32,
 )
-ALONE = np.array([FORCE], dtype=np.uint32)
-"""A line beside those of three axes."""

@@ -18,30 +18,27 @@ _WIDTH = 1.5
 
 _LEGENDS = {
     entities.INPUT_AXES: [f"axis {number}" for number in range(1, 17)],
-    entities.MASTER_DISPLACEMENT: [f"displacement {axis} [mm]" for axis in _AXES],
-    entities.MASTER_ROTATION: [f"rotation about {axis} [deg]" for axis in _AXES],
-    entities.MASTER_FORCE: [f"force {axis} [N]" for axis in _AXES],
-    entities.CORRECTION_OFFSET: [f"offset {axis} [mm]" for axis in _AXES],
-    entities.CORRECTION_TURN: [f"turn about {axis} [deg]" for axis in _AXES],
+    entities.MASTER_DISPLACEMENT: [f"{axis} [mm]" for axis in _AXES],
+    entities.MASTER_ROTATION: [f"about {axis} [deg]" for axis in _AXES],
+    entities.MASTER_FORCE: [f"{axis} [N]" for axis in _AXES],
+    entities.CORRECTION_OFFSET: [f"{axis} [mm]" for axis in _AXES],
+    entities.CORRECTION_TURN: [f"about {axis} [deg]" for axis in _AXES],
     entities.COMMANDED: [f"commanded {axis} [m]" for axis in _AXES],
     entities.MEASURED: [f"measured {axis} [m]" for axis in _AXES],
-    entities.POSITION_ERROR: [f"position {axis} [mm]" for axis in _AXES],
-    entities.ORIENTATION_ERROR: ["orientation [deg]"],
-    entities.OBJECT_ERROR: ["object as seen [mm]"],
-    entities.SELF_DISTANCE: ["between the robot's parts [mm]"],
+    entities.POSITION_ERROR: [f"{axis} [mm]" for axis in _AXES],
+    entities.ORIENTATION_ERROR: ["angle [deg]"],
+    entities.OBJECT_ERROR: ["distance [mm]"],
+    entities.SELF_DISTANCE: ["distance [mm]"],
     entities.LATENCY: ["operator to robot [ms]"],
 }
 
 _COLOURS = {
     entities.INPUT_AXES: palette.MANY,
-    entities.MASTER_ROTATION: palette.AXES_PALE,
-    entities.MASTER_FORCE: palette.AXES_DARK,
-    entities.CORRECTION_TURN: palette.AXES_PALE,
     entities.COMMANDED: palette.AXES_PALE,
-    entities.ORIENTATION_ERROR: palette.ALONE,
+    entities.ORIENTATION_ERROR: palette.MANY,
     entities.OBJECT_ERROR: palette.MANY,
     entities.SELF_DISTANCE: palette.MANY,
-    entities.LATENCY: palette.ALONE,
+    entities.LATENCY: palette.MANY,
 }
 """Where they are not those of the axes."""
 

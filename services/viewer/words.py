@@ -16,12 +16,22 @@ from services.viewer.run import Run
 _REPEAT_S = 10.0
 
 _PHASES = {
-    Phase.IDLE: palette.QUIET,
-    Phase.RAMP: palette.REFINED,
-    Phase.EXECUTE: palette.GO,
-    Phase.HOLD: palette.PREDICTED,
-    Phase.STOPPED: palette.STOP,
+    Phase.RAMP.value: palette.REFINED,
+    Phase.EXECUTE.value: palette.GO,
+    Phase.HOLD.value: palette.PREDICTED,
+    Phase.STOPPED.value: palette.STOP,
 }
+
+_LANES = {
+    entities.CLAMPED: palette.FORCE,
+    entities.ENGAGED: palette.GO,
+    entities.HOLD: palette.PREDICTED,
+    entities.KEYS: palette.OBJECT,
+    entities.STOP: palette.STOP,
+}
+
+# Colours are kept for so many texts of a lane; Rerun has its own for the others.
+_COLOURED = 64
 
 
 class Words:
@@ -34,16 +44,24 @@ class Words:
     def __init__(self, run: Run) -> None:
         self._run = run
         self._changes = Changes(_REPEAT_S)
-        colours = np.array(list(_PHASES.values()), dtype=np.uint32)
-        phases = rr.StateConfiguration(values=[phase.value for phase in _PHASES], colors=colours)
-        run.log_always(entities.PHASE, phases)
+        self._colours: dict[str, dict[str, int]] = {}
 
     def state(self, lane: str, text: str, now_ns: int) -> None:
         """Tell what holds from now on; nothing does where the text is empty."""
         if self._changes.due(lane, text, now_ns):
+            self._colour(lane, text)
             self._run.row(lane, WORDS, text)
 
     def write(self, *entries: Entry) -> None:
         """Add to the journal."""
         for entry in entries:
             self._run.log(entities.JOURNAL, rr.TextLog(entry.text, level=entry.level))
+
+    def _colour(self, lane: str, text: str) -> None:
+        """Give a text of a lane its colour: Rerun's own would make an alarm of anything."""
+        known = self._colours.setdefault(lane, {})
+        if not text or text in known or len(known) == _COLOURED:
+            return
+        known[text] = _PHASES.get(text, _LANES.get(lane, palette.QUIET))
+        colours = np.array(list(known.values()), dtype=np.uint32)
+        self._run.log_always(lane, rr.StateConfiguration(values=list(known), colors=colours))

@@ -8,12 +8,17 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from protocol.topics import (
+    AUTHORITY_STATE,
     HEAD_IMAGE,
     MASTER_STATE,
+    MODEL_STATE,
     OBJECT_POSE,
+    OPERATOR_INPUT,
     PREDICTION,
     ROBOT_STATE,
+    SAFETY_STATE,
     SCENE_STATE,
+    TEACHING_STATE,
     VERDICT,
     WORLD_STATE,
 )
@@ -30,6 +35,11 @@ STRANGE = st.one_of(
     st.tuples(st.just(OBJECT_POSE), extremes.object_poses),
     st.tuples(st.just(VERDICT), extremes.verdicts),
     st.tuples(st.just(PREDICTION), extremes.predictions),
+    st.tuples(st.just(OPERATOR_INPUT), extremes.inputs),
+    st.tuples(st.just(AUTHORITY_STATE), extremes.authorities),
+    st.tuples(st.just(SAFETY_STATE), extremes.safeties),
+    st.tuples(st.just(TEACHING_STATE), extremes.teachings),
+    st.tuples(st.just(MODEL_STATE), extremes.models),
 )
 
 

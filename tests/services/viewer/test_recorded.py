@@ -98,12 +98,12 @@ def changed(message, **values):
 
 def test_the_keys_that_are_held_are_told_by_their_places(record):
     read = record([held()], [held("KeyE")], [held("KeyE", "ArrowUp")], [held()])
-    assert read.states("/states/input/keys") == ["", "E", "E + ArrowUp", ""]
+    assert read.states("/states/loop/keys") == ["", "E", "E + ArrowUp", ""]
 
 
 def test_who_is_at_the_page_and_whether_keys_count_there(record):
     read = record([held()], [held(focused=False)], [held(present=False)])
-    assert read.states("/states/input/page") == ["anna", "anna, the keys elsewhere", ""]
+    assert read.states("/states/loop/operator") == ["anna", "anna, the keys elsewhere", ""]
 
 
 def test_the_axes_are_numbers_over_time(record):
@@ -123,7 +123,7 @@ def test_the_masters_state_is_in_millimetres_degrees_and_newtons(record):
     np.testing.assert_allclose(read.values("/series/master/displacement"), [[50.0, 0.0, -10.0]] * 2)
     np.testing.assert_allclose(read.values("/series/master/rotation"), [[0.0, 30.0, 0.0]] * 2)
     np.testing.assert_allclose(read.values("/series/master/force"), [[0.0, 1.5, 0.0]] * 2)
-    assert read.states("/states/master") == ["stylus", ""]
+    assert read.states("/states/loop/master") == ["stylus", ""]
 
 
 def test_of_several_operators_the_one_who_may_command_is_recorded(record):
@@ -131,12 +131,12 @@ def test_of_several_operators_the_one_who_may_command_is_recorded(record):
         [(AUTHORITY_STATE, ANNA), held("KeyE"), held("KeyQ", holder="station-bert")],
         [held("KeyQ", holder="station-bert")],
     )
-    assert read.states("/states/input/keys") == ["E"]
+    assert read.states("/states/loop/keys") == ["E"]
 
 
 def test_the_authority_is_told_with_its_epoch(record):
     read = record([(AUTHORITY_STATE, ANNA)], *[[(AUTHORITY_STATE, NOBODY)]] * 20)
-    assert read.states("/states/authority") == ["anna at station-anna, epoch 3", ""]
+    assert read.states("/states/loop/authority") == ["anna at station-anna, epoch 3", ""]
     assert read.journal() == ["authority: anna at station-anna, epoch 3", "authority: nobody"]
 
 
@@ -148,7 +148,7 @@ def test_a_stop_is_told_with_who_and_why_and_whether_the_robot_stands(record):
         [(SAFETY_STATE, changed(stopped, standing=True))],
         [(SAFETY_STATE, SafetyState(emergency_stop=False, released_by="bert", self_distance=0.04))],
     )
-    assert read.states("/states/safety/stop") == ["", "anna: a cup, still moving", "anna: a cup, standing", ""]
+    assert read.states("/states/loop/stop") == ["", "anna: a cup, still moving", "anna: a cup, standing", ""]
     assert read.journal() == ["emergency stop by anna: a cup", "emergency stop released by bert"]
     np.testing.assert_allclose(read.values("/series/safety/self_distance"), [[50.0], [40.0], [40.0], [40.0]])
 
@@ -160,10 +160,10 @@ def test_what_is_clamped_and_why_the_robot_holds_is_told(record):
         [(ROBOT_STATE, changed(ROBOT, phase=Phase.HOLD, hold_reason="nobody is there"))],
         [(ROBOT_STATE, changed(ROBOT, phase=Phase.HOLD, hold_reason="nobody is there", waiting=True))],
     )
-    assert read.states("/states/robot/clamped") == ["", "reach, speed", ""]
-    assert read.states("/states/robot/phase") == ["execute", "hold"]
-    assert read.states("/states/robot/hold") == ["", "nobody is there", "nobody is there, waits to be asked"]
-    assert read.states("/states/robot/episode") == ["2, refine"]
+    assert read.states("/states/loop/robot/clamped") == ["", "reach, speed", ""]
+    assert read.states("/states/loop/robot/phase") == ["execute", "hold"]
+    assert read.states("/states/loop/robot/hold") == ["", "nobody is there", "nobody is there, waits to be asked"]
+    assert read.states("/states/loop/robot/episode") == ["2, refine"]
 
 
 def test_what_was_commanded_lies_beside_what_was_measured_and_their_difference(record):
@@ -210,8 +210,8 @@ def test_the_models_version_is_told_and_that_of_the_prediction_that_is_seen(reco
             (PREDICTION, changed(prediction(motion), model_version=3, known=0.2)),
         ]
     )
-    assert read.states("/states/model/version") == ["adaptive 4: 5 shown, 2 learnt since"]
-    assert read.states("/states/model/prediction") == ["by version 3, 20 % known"]
+    assert read.states("/states/teaching/model") == ["adaptive 4: 5 shown, 2 learnt since"]
+    assert read.states("/states/teaching/prediction") == ["by version 3, 20 % known"]
 
 
 def test_a_minute_is_few_chunks_of_many_rows_and_few_words(record):
