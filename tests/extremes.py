@@ -10,6 +10,7 @@ from protocol.messages import (
     AuthorityState,
     Box,
     CameraImage,
+    Controller,
     Light,
     MasterState,
     Mode,
@@ -144,6 +145,14 @@ predictions = st.builds(
     model_version=counts,
     object_position=vectors,
 )
+_readings = st.floats(-1e3, 1e3)
+_controllers = st.builds(
+    Controller,
+    kind=names,
+    number=st.sampled_from((0, 99)),
+    axes=st.lists(_readings, max_size=16).map(tuple),
+    buttons=st.lists(st.floats(0.0, 1.0), max_size=32).map(tuple),
+)
 inputs = st.builds(
     OperatorInput,
     operator=names,
@@ -151,7 +160,7 @@ inputs = st.builds(
     present=st.booleans(),
     keys=st.lists(names, max_size=32).map(tuple),
     focused=st.booleans(),
-    axes=st.lists(reals, max_size=16).map(tuple),
+    controllers=st.lists(_controllers, max_size=4).map(tuple),
 )
 authorities = st.builds(AuthorityState, operator=names, holder=names, epoch=counts, expires_in=reals)
 safeties = st.builds(

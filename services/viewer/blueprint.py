@@ -42,7 +42,7 @@ def blueprint(eye: Eye) -> rrb.Blueprint:
                     _series("Hand", entities.MASTER_DISPLACEMENT),
                     _series("Rotation", entities.MASTER_ROTATION),
                     _series("Force", entities.MASTER_FORCE),
-                    _series("Axes", entities.INPUT_AXES),
+                    _series("Axes", entities.INPUT),
                     active_tab=0,
                 ),
                 rrb.Tabs(

@@ -6,7 +6,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from protocol.messages import Phase, Prediction, RobotState, SafetyState, TeachingState, Verdict
+from protocol.messages import (
+    AuthorityEvent,
+    AuthorityState,
+    Phase,
+    Prediction,
+    RobotState,
+    SafetyState,
+    TeachingState,
+    Verdict,
+)
 from services.bus.predictions import LITTLE, certainty
 
 SETTLED_NS = 500_000_000
@@ -74,9 +83,14 @@ class Journal:
         elif "stop" in self._said:
             yield from self._changed("stop", Entry(f"emergency stop released by {state.released_by}", "WARN"))
 
-    def authority(self, who: str, now_ns: int) -> Iterator[Entry]:
-        """What is new about who may command; `who` is empty for nobody."""
-        yield from self._settled("authority", Entry(f"authority: {who or 'nobody'}", "INFO"), now_ns)
+    def authority(self, state: AuthorityState, now_ns: int) -> Iterator[Entry]:
+        """What is new about who may command, and how that came to be."""
+        text = f"authority: {who_commands(state) or 'nobody'}"
+        if state.event is not AuthorityEvent.NONE:
+            text += f", {state.event.value.replace('_', ' ')}"
+        if state.reason:
+            text += f" by {state.by}: {state.reason}"
+        yield from self._settled("authority", Entry(text, "INFO"), now_ns)
 
     def verdict(self, verdict: Verdict, now_ns: int) -> Iterator[Entry]:
         """What is new about the criteria."""
@@ -115,3 +129,8 @@ class Journal:
         if self._said.get(subject) != entry.text:
             self._said[subject] = entry.text
             yield entry
+
+
+def who_commands(authority: AuthorityState) -> str:
+    """Who holds the authority, where, and its epoch; empty for nobody."""
+    return f"{authority.operator} at {authority.holder}, epoch {authority.epoch}" if authority.holder else ""

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from protocol.messages import RobotState
-from protocol.topics import ROBOT_STATE, SAFETY_STATE
+from protocol.messages import ExecutionState, Part, RobotState
+from protocol.topics import EXECUTION, ROBOT_STATE, SAFETY_STATE
 from services.bus.bus import Bus
 from services.viewer import entities, series
 from services.viewer.journal import Journal
@@ -32,6 +32,7 @@ class Robot:
         self._run, self._words, self._journal, self._model = run, words, journal, model
         self._states = News(bus.subscribe(ROBOT_STATE))
         self._safety = News(bus.subscribe(SAFETY_STATE))
+        self._execution = bus.subscribe(EXECUTION)
         self._changes = Changes(_REPEAT_S)
         self._joint_names: tuple[str, ...] = ()
 
@@ -61,10 +62,10 @@ class Robot:
         return robot
 
     def _tell(self, robot: RobotState, now_ns: int) -> None:
-        episode = f"{robot.episode}, {robot.mode.value}" if robot.phase.running else ""
+        execution = self._execution.fresh(now_ns) if robot.phase.running else None
         reason = f"{robot.hold_reason}, waits to be asked" if robot.waiting else robot.hold_reason
         self._words.state(entities.PHASE, robot.phase.value, now_ns)
-        self._words.state(entities.EPISODE, episode, now_ns)
+        self._words.state(entities.EPISODE, episode(robot, execution), now_ns)
         self._words.state(entities.HOLD, reason, now_ns)
         self._words.state(entities.CLAMPED, ", ".join(sorted(robot.clamped)), now_ns)
         self._words.write(*self._journal.robot(robot, now_ns))
@@ -80,3 +81,15 @@ class Robot:
             stop = f"{safety.by}{reason}, {'standing' if safety.standing else 'still moving'}"
         self._words.state(entities.STOP, stop, now_ns)
         self._words.write(*self._journal.safety(safety))
+
+
+def episode(robot: RobotState, execution: ExecutionState | None) -> str:
+    """The episode that runs, who shapes it, its pace and the part that is corrected; empty where none runs."""
+    if not robot.phase.running:
+        return ""
+    said = [str(robot.episode), robot.mode.value]
+    if execution is not None and execution.pace != 1.0:
+        said.append(f"pace {execution.pace:g}")
+    if execution is not None and execution.part != Part():
+        said.append(f"from {100.0 * execution.part.first:.0f} to {100.0 * execution.part.last:.0f} %")
+    return ", ".join(said)

@@ -17,7 +17,6 @@ _AXES = ("x", "y", "z")
 _WIDTH = 1.5
 
 _LEGENDS = {
-    entities.INPUT_AXES: [f"axis {number}" for number in range(1, 17)],
     entities.MASTER_DISPLACEMENT: [f"{axis} [mm]" for axis in _AXES],
     entities.MASTER_ROTATION: [f"about {axis} [deg]" for axis in _AXES],
     entities.MASTER_FORCE: [f"{axis} [N]" for axis in _AXES],
@@ -33,7 +32,6 @@ _LEGENDS = {
 }
 
 _COLOURS = {
-    entities.INPUT_AXES: palette.MANY,
     entities.COMMANDED: palette.AXES_PALE,
     entities.ORIENTATION_ERROR: palette.MANY,
     entities.OBJECT_ERROR: palette.MANY,
@@ -60,10 +58,16 @@ def log_joints(run: Run, q: Sequence[float]) -> None:
         run.row(entities.JOINTS, SCALARS, q)
 
 
-def log_axes(run: Run, axes: Sequence[float]) -> None:
-    """A gamepad's or pointer's axes, each from -1 to 1; nothing where it has none."""
+def log_axes(run: Run, controller: str, axes: Sequence[float]) -> None:
+    """A controller's axes as they are read; nothing where it has none."""
     if axes:
-        run.row(entities.INPUT_AXES, SCALARS, axes)
+        run.row(f"{entities.INPUT}/{controller}", SCALARS, axes)
+
+
+def log_axes_legend(run: Run, controller: str, count: int) -> None:
+    """Name and colour as many axes of a controller."""
+    names = [f"{controller} axis {number}" for number in range(count)]
+    _log_legend(run, f"{entities.INPUT}/{controller}", names, palette.MANY)
 
 
 def log_master(run: Run, master: MasterState) -> None:

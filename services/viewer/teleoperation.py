@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from protocol.messages import AuthorityState, OperatorInput
+from protocol.messages import Controller, MasterState, OperatorInput, Trouble
 from protocol.topics import AUTHORITY_STATE, MASTER_STATE, OPERATOR_INPUT
 from services.bus.bus import Bus
 from services.viewer import entities, scene, series
-from services.viewer.journal import Journal
+from services.viewer.journal import Journal, who_commands
 from services.viewer.news import Changes, News, NewsOfHolder
 from services.viewer.run import Run
 from services.viewer.words import Words
 
 # The force's arrow: every second step, since nobody sees more and each costs as much as a joint.
 _ARROW_S = 0.06
+
+_KINDS = ("gamepad", "spacemouse", "pointer")
+
+# A button that is pressed by half counts as held here.
+_HELD = 0.5
 
 
 class Teleoperation:
@@ -31,6 +36,7 @@ class Teleoperation:
         self._input = NewsOfHolder(bus.subscribe(OPERATOR_INPUT))
         self._master = NewsOfHolder(bus.subscribe(MASTER_STATE))
         self._pace = Changes(_ARROW_S)
+        self._axes: dict[str, int] = {}
 
     def draw(self, at: tuple[float, float, float] | None, now_ns: int) -> None:
         """Draw what is new.
@@ -42,30 +48,54 @@ class Teleoperation:
         authority = self._authority.take(now_ns)
         if authority is not None:
             self._words.state(entities.AUTHORITY, who_commands(authority), now_ns)
-            self._words.write(*self._journal.authority(who_commands(authority), now_ns))
+            self._words.write(*self._journal.authority(authority, now_ns))
         holder = self._authority.known.holder if self._authority.known is not None else ""
         held = self._input.take(holder)
         if held is not None:
             self._words.state(entities.KEYS, keys_held(held), now_ns)
             self._words.state(entities.PAGE, who_is_there(held), now_ns)
-            series.log_axes(self._run, held.axes)
+            self._draw_axes(held.controllers)
         master = self._master.take(holder)
         if master is None:
             return
-        self._words.state(entities.ENGAGED, (master.device or "engaged") if master.engaged else "", now_ns)
+        self._words.state(entities.ENGAGED, hand(master), now_ns)
         series.log_master(self._run, master)
         if at is not None and self._pace.due("force", (master.force, at), now_ns):
             scene.log_force(self._run, at, master.force)
 
+    def _draw_axes(self, controllers: tuple[Controller, ...]) -> None:
+        for controller in controllers:
+            name, count = named(controller), len(controller.axes)
+            if self._axes.get(name, 0) < count:
+                self._axes[name] = count
+                series.log_axes_legend(self._run, name, count)
+            series.log_axes(self._run, name, controller.axes)
 
-def who_commands(authority: AuthorityState) -> str:
-    """Who holds the authority, where, and its epoch; empty for nobody."""
-    return f"{authority.operator} at {authority.holder}, epoch {authority.epoch}" if authority.holder else ""
+
+def named(controller: Controller) -> str:
+    """A controller by its kind and number; one of a kind that is not known here is another one."""
+    return f"{controller.kind if controller.kind in _KINDS else 'other'}{controller.number}"
 
 
 def keys_held(held: OperatorInput) -> str:
-    """The keys that are held down, by their places; empty where none is."""
-    return " + ".join(key.removeprefix("Key") for key in held.keys)
+    """The keys and buttons that are held down, by their places; empty where none is."""
+    keys = [key.removeprefix("Key") for key in held.keys]
+    buttons = [
+        f"{named(controller)} {number}"
+        for controller in held.controllers
+        for number, pressed in enumerate(controller.buttons)
+        if pressed > _HELD
+    ]
+    return " + ".join(keys + buttons)
+
+
+def hand(master: MasterState) -> str:
+    """The device that a hand is on, and what is wrong with one; empty where neither is."""
+    device = (master.device or "engaged") if master.engaged else ""
+    if master.trouble is Trouble.NONE:
+        return device
+    trouble = f"{master.trouble.value.replace('_', ' ')}: {master.trouble_with}"
+    return f"{device}, {trouble}" if device else trouble
 
 
 def who_is_there(held: OperatorInput) -> str:

@@ -8,7 +8,10 @@ import pytest
 
 from protocol.messages import (
     Attempt,
+    AuthorityEvent,
     AuthorityState,
+    Controller,
+    ExecutionState,
     Light,
     MasterState,
     Mode,
@@ -16,15 +19,18 @@ from protocol.messages import (
     ObjectPose,
     OperatorInput,
     Outcome,
+    Part,
     Phase,
     Pose,
     RobotState,
     SafetyState,
     TeachingState,
+    Trouble,
     Verdict,
 )
 from protocol.topics import (
     AUTHORITY_STATE,
+    EXECUTION,
     MASTER_STATE,
     MODEL_STATE,
     OBJECT_POSE,
@@ -106,9 +112,22 @@ def test_who_is_at_the_page_and_whether_keys_count_there(record):
     assert read.states("/states/loop/operator") == ["anna", "anna, the keys elsewhere", ""]
 
 
-def test_the_axes_are_numbers_over_time(record):
-    read = record([held(axes=(0.5, -1.0))], [held(axes=(0.25, 0.0))], [held()])
-    assert read.values("/series/input/axes") == [[0.5, -1.0], [0.25, 0.0]]
+def test_the_axes_of_a_controller_are_numbers_and_its_buttons_are_told_as_keys_are(record):
+    pad = Controller(kind="gamepad", number=1, axes=(0.5, -1.0), buttons=(0.0, 1.0))
+    moved = changed(pad, axes=(0.25, 0.0), buttons=(0.0, 0.0))
+    read = record([held("KeyE", controllers=(pad,))], [held("KeyE", controllers=(moved,))], [held("KeyE")])
+    assert read.values("/series/input/gamepad1") == [[0.5, -1.0], [0.25, 0.0]]
+    assert read.states("/states/loop/keys") == ["E + gamepad1 1", "E"]
+
+
+def test_a_controller_of_a_kind_that_is_not_known_is_another_one(record):
+    read = record([held(controllers=(Controller(kind="../[wheel]", axes=(0.5,)),))])
+    assert read.values("/series/input/other0") == [[0.5]]
+
+
+def test_a_device_that_does_not_count_is_told_with_its_trouble(record):
+    read = record([(MASTER_STATE, MasterState(trouble=Trouble.NOT_AT_REST, trouble_with="pad", device="keyboard"))])
+    assert read.states("/states/loop/master") == ["not at rest: pad"]
 
 
 def test_the_masters_state_is_in_millimetres_degrees_and_newtons(record):
@@ -134,10 +153,20 @@ def test_of_several_operators_the_one_who_may_command_is_recorded(record):
     assert read.states("/states/loop/keys") == ["E"]
 
 
-def test_the_authority_is_told_with_its_epoch(record):
-    read = record([(AUTHORITY_STATE, ANNA)], *[[(AUTHORITY_STATE, NOBODY)]] * 20)
-    assert read.states("/states/loop/authority") == ["anna at station-anna, epoch 3", ""]
-    assert read.journal() == ["authority: anna at station-anna, epoch 3", "authority: nobody"]
+def test_the_authority_is_told_with_its_epoch_and_how_it_came_to_be(record):
+    taken = changed(
+        ANNA, operator="bert", holder="station-bert", event=AuthorityEvent.TAKEN_OVER, by="bert", reason="she left"
+    )
+    read = record(
+        *[[(AUTHORITY_STATE, ANNA)]] * 20, *[[(AUTHORITY_STATE, taken)]] * 20, *[[(AUTHORITY_STATE, NOBODY)]] * 20
+    )
+    anna, bert = "anna at station-anna, epoch 3", "bert at station-bert, epoch 3"
+    assert read.states("/states/loop/authority") == [anna, bert, ""]
+    assert read.journal() == [
+        f"authority: {anna}",
+        f"authority: {bert}, taken over by bert: she left",
+        "authority: nobody",
+    ]
 
 
 def test_a_stop_is_told_with_who_and_why_and_whether_the_robot_stands(record):
@@ -164,6 +193,16 @@ def test_what_is_clamped_and_why_the_robot_holds_is_told(record):
     assert read.states("/states/loop/robot/phase") == ["execute", "hold"]
     assert read.states("/states/loop/robot/hold") == ["", "nobody is there", "nobody is there, waits to be asked"]
     assert read.states("/states/loop/robot/episode") == ["2, refine"]
+
+
+def test_an_episode_is_told_with_its_pace_and_the_part_that_is_corrected(record):
+    execution = ExecutionState(episode=2, mode=Mode.REFINE, prediction=1, progress=0.5)
+    read = record(
+        [(ROBOT_STATE, ROBOT), (EXECUTION, execution)],
+        [(ROBOT_STATE, ROBOT), (EXECUTION, changed(execution, pace=-0.5, part=Part(0.25, 0.75)))],
+        [(ROBOT_STATE, changed(ROBOT, phase=Phase.IDLE))],
+    )
+    assert read.states("/states/loop/robot/episode") == ["2, refine", "2, refine, pace -0.5, from 25 to 75 %", ""]
 
 
 def test_what_was_commanded_lies_beside_what_was_measured_and_their_difference(record):
@@ -222,7 +261,7 @@ def test_a_minute_is_few_chunks_of_many_rows_and_few_words(record):
         phase, reason = (Phase.HOLD, "keys or device were not heard") if holds else (Phase.EXECUTE, "")
         return [
             (AUTHORITY_STATE, ANNA),
-            held(*(["KeyE"] if number // 10 % 2 else []), axes=(0.1, 0.2)),
+            held(*(["KeyE"] if number // 10 % 2 else []), controllers=(Controller(kind="gamepad", axes=(0.1, 0.2)),)),
             (MASTER_STATE, MasterState(displacement=(1e-4 * number, 0.0, 0.0), holder="station-anna", engaged=True)),
             (ROBOT_STATE, changed(ROBOT, q=(1e-4 * number,), phase=phase, hold_reason=reason, applied_latency=0.01)),
             (OBJECT_POSE, ObjectPose(pose=HERE, tag=7, error=0.001)),
