@@ -179,6 +179,9 @@ MODEL_STATE = Topic("model/state", messages.ModelState, 1.0, QoS.STATE, "model",
 TEACHING_STATE = Topic(
     "state/teaching", messages.TeachingState, 10.0, QoS.STATE, "station", 262_144, "where the teaching workflow stands"
 )
+ATTENDANCE = Topic(
+    "state/attendance", messages.Attendance, 10.0, QoS.STATE, "station", 8_192, "who is at a station's page", kept=16
+)
 RECORDING = Topic(
     "state/recording", messages.Recording, 1.0, QoS.STATE, "viewer", 57_344, "where to look and what records"
 )
@@ -206,6 +209,7 @@ TOPICS: tuple[Topic[Any], ...] = (
     PREDICTION,
     MODEL_STATE,
     TEACHING_STATE,
+    ATTENDANCE,
     RECORDING,
     HEARTBEAT,
 )

@@ -5,6 +5,7 @@ scalar first (w, x, y, z). A new field needs a default; any other change to a me
 Numbers are bounded, so that a NaN or an infinity never passes the codec.
 """
 
+from protocol.messages.attendance import Attendance, Person, Role, TakeOver
 from protocol.messages.authority import (
     SHORTEST_REASON,
     SILENCE_GIVES_S,
@@ -58,6 +59,7 @@ __all__ = [
     "SILENCE_GIVES_S",
     "Array",
     "Attempt",
+    "Attendance",
     "AuthorityEvent",
     "AuthorityRenewal",
     "AuthorityRequest",
@@ -88,6 +90,7 @@ __all__ = [
     "OperatorInput",
     "Outcome",
     "Part",
+    "Person",
     "Phase",
     "Pose",
     "Prediction",
@@ -97,8 +100,10 @@ __all__ = [
     "Reason",
     "Recording",
     "RobotState",
+    "Role",
     "SafetyState",
     "SceneState",
+    "TakeOver",
     "TeachingState",
     "Text",
     "TopicFigures",

@@ -8,10 +8,13 @@ from services.bus.bus import Bus, Failed, Pending
 from services.bus.identity import new_number
 from services.process.schedule import Schedule
 
-GIVE, KEEP, REVOKE = "give_authority", "keep_authority", "revoke"
-"""What is pressed for it."""
+GIVE, KEEP = "give_authority", "keep_authority"
+"""What who commands answers by."""
 
 ANSWERED_WITHIN_S = 2.0
+
+TOLD_NS = 8_000_000_000
+"""For so long a person is told what was not done."""
 
 
 class HandOver:
@@ -26,6 +29,7 @@ class HandOver:
         self._bus = bus
         self._holder = holder
         self._schedule = Schedule()
+        self._told_until_ns = 0
         self._revoked: Pending[queries.Accepted] | None = None
 
     def ask(self, number: int, operator: str, now_ns: int) -> None:
@@ -41,15 +45,15 @@ class HandOver:
         answer = queries.AnswerRequest(self._holder, authority.epoch, authority.asked, give, request=new_number())
         self._bus.ask(queries.ANSWER, answer, ANSWERED_WITHIN_S)
 
-    def revoke(self, by: str, reason: str) -> None:
+    def revoke(self, by: str, reason: str, now_ns: int) -> None:
         """End the authority of whoever commands."""
+        self._told_until_ns = now_ns + TOLD_NS
         request = queries.RevokeAuthority(by, reason, request=new_number())
         self._revoked = self._bus.ask(queries.REVOKE, request, ANSWERED_WITHIN_S)
 
-    @property
-    def fault(self) -> str:
-        """Why the newest revocation was not done; empty where it was, or is not known yet."""
-        match self._revoked.poll() if self._revoked is not None else None:
+    def fault(self, now_ns: int) -> str:
+        """Why the newest revocation was not done; empty where it was, is not known yet, or has been told."""
+        match self._revoked.poll() if self._revoked is not None and now_ns < self._told_until_ns else None:
             case queries.Refused(reason) | Failed(reason):
                 return f"Not revoked: {reason}."
             case _:

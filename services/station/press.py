@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-STOP = "stop"
+STOP, REVOKE = "stop", "revoke"
+"""What is pressed by others than who has the input."""
 
 
 @dataclass(frozen=True)
@@ -13,8 +14,10 @@ class Press:
 
     Attributes:
         action: the button's name.
-        argument: what it is about: a number, a name; empty where the button says it all.
+        argument: what it is about: a number, a name, a reason; empty where the button says it all.
+        by: who pressed it; empty where they gave no name.
     """
 
     action: str
     argument: str = ""
+    by: str = ""

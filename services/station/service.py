@@ -20,12 +20,13 @@ from services.bus.identity import new_number
 from services.process.clock import Clock
 from services.process.config import Configuration, StationSection
 from services.process.schedule import Schedule
+from services.station.company import Company
 from services.station.device_buttons import DeviceButtons
 from services.station.ears import Ears, came_s, message, picture, young
 from services.station.handover import GIVE, KEEP, HandOver
 from services.station.live_view.stage import Stage
 from services.station.page.view import PageView
-from services.station.press import STOP, Press
+from services.station.press import REVOKE, STOP, Press
 from services.station.stop import StopButton
 from services.station.workflow.state import Action, Phase, Place, Settings, Workflow
 from services.station.workflow.view import Answer, Ask, View
@@ -56,7 +57,8 @@ def _open_page(configuration: Configuration, clock: Clock) -> Page:
     from services.station.live_view.description import describe  # noqa: PLC0415
     from services.station.page.page import Page  # noqa: PLC0415
 
-    page = Page(configuration.station, configuration.name, clock, describe(configuration.robot.scene))
+    described = describe(configuration.robot.scene)
+    page = Page(configuration.station, configuration.name, clock, described, configuration.operator)
     page.start()
     return page
 
@@ -97,8 +99,9 @@ class StationService:
         self._page = page
         self._random = np.random.default_rng(seed)
         self._ears = Ears(bus)
-        self._stop = StopButton(bus, self._ears.safety, workflow_settings.operator, workflow_settings.holder)
+        self._stop = StopButton(bus, self._ears.safety, workflow_settings.holder)
         self._hand_over = HandOver(bus, workflow_settings.holder)
+        self._company = Company(bus)
         self._stage = Stage(self._ears)
         self._buttons = DeviceButtons(self._ears.master, workflow_settings.holder)
         self._workflow = Workflow()
@@ -122,6 +125,8 @@ class StationService:
         pressed += self._buttons.take(now_ns)
         self._press_stop(now_ns, pressed)
         held = self._page.take_input() if self._page is not None else OperatorInput(present=True)
+        if held.operator:
+            self._settings = replace(self._settings, operator=held.operator)
         view = self._view(now_ns, pressed, held)
         before = self._workflow.phase
         step = advance(self._workflow, view, self._settings)
@@ -134,6 +139,7 @@ class StationService:
                 self._drawn = None
         self._publish(held)
         self._pass_authority(now_ns, pressed, view)
+        self._company.tell(self._attendance(), now_ns)
         told = self._schedule.due(topics.TEACHING_STATE, now_ns)
         if not told and self._page is None:
             return
@@ -156,17 +162,26 @@ class StationService:
         actions = {press.action for press in pressed}
         if Action.RELEASE_STOP.value in actions:
             self._stop.let_go(now_ns)
-        if STOP in actions:
-            self._stop.press(now_ns)
+        for press in pressed:
+            if press.action == STOP:
+                self._stop.press(now_ns, press.by or self._settings.operator)
         self._stop.step(now_ns)
 
     def _pass_authority(self, now_ns: int, pressed: list[Press], view: View) -> None:
-        """Ask for the authority that another station has, and answer who asks this one for it."""
+        """Ask for the authority that another station has, answer who asks this one for it, or end whoever's it is."""
         for press in pressed:
             if press.action in (GIVE, KEEP):
                 self._hand_over.answer(view.authority, give=press.action == GIVE)
+            elif press.action == REVOKE:
+                self._hand_over.revoke(press.by, press.argument, now_ns)
         if self._workflow.asks and view.present:
             self._hand_over.ask(self._workflow.asks, self._settings.operator, now_ns)
+
+    def _attendance(self) -> messages.Attendance:
+        if self._page is None:
+            script = messages.Person(self._settings.operator, messages.Role.OPERATOR, has_input=True)
+            return messages.Attendance(holder=self._settings.holder, people=(script,))
+        return msgspec.structs.replace(self._page.attendance(), holder=self._settings.holder)
 
     def _view(self, now_ns: int, pressed: list[Press], held: OperatorInput) -> View:
         ears = self._ears
@@ -231,6 +246,8 @@ class StationService:
             safety=view.safety,
             authority=view.authority,
             authority_is_mine=mine,
+            attendances=self._company.there(now_ns),
+            notice=self._hand_over.fault(now_ns),
             model=view.model,
             prediction=_of(workflow.prediction, view.model),
             object_pose=message(ears.seen.latest()),

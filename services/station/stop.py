@@ -16,14 +16,14 @@ class StopButton:
     Args:
         bus: to say it on.
         safety: what the robot says of it.
-        operator: who presses here.
         holder: the station's name.
     """
 
-    def __init__(self, bus: Bus, safety: Subscription[SafetyState], operator: str, holder: str) -> None:
+    def __init__(self, bus: Bus, safety: Subscription[SafetyState], holder: str) -> None:
         self._bus = bus
         self._safety = safety
-        self._message = EmergencyStop(pressed=True, by=operator, reason=f"pressed at {holder}")
+        self._holder = holder
+        self._message: EmergencyStop
         self._pressed_ns: int | None = None
         self._due_ns: int
 
@@ -32,8 +32,9 @@ class StopButton:
         """It was pressed, and the robot has not shown yet that it stands."""
         return self._pressed_ns is not None
 
-    def press(self, now_ns: int) -> None:
-        """Say it in this step and on."""
+    def press(self, now_ns: int, by: str) -> None:
+        """Say it in this step and on, in the name of whoever pressed it."""
+        self._message = EmergencyStop(pressed=True, by=by, reason=f"pressed at {self._holder}")
         self._pressed_ns = self._due_ns = now_ns
 
     def let_go(self, now_ns: int) -> None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from protocol.keys import PUSH_KEYS, TURN_KEYS, Direction
 from protocol.messages import SafetyState
-from services.station.page.input import Standing
+from services.station.page.standing import Standing
 from services.station.page.values import Values
 from services.station.page.view import Shown
 

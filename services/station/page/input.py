@@ -7,22 +7,21 @@ steers was let go: a held key that was not heard meanwhile must neither count no
 
 from __future__ import annotations
 
+import logging
 import threading
 from collections import deque
-from dataclasses import dataclass
 
-from protocol import topics
 from protocol.exceptions import ProtocolError
 from protocol.keys import STEERING
-from protocol.messages import OperatorInput
-from services.bus.freshness import Freshness, Judgement
+from protocol.messages import SHORTEST_REASON, Attendance, OperatorInput, Person, Role, TakeOver
+from services.process.lines import one_line
+from services.station.page.identity import SOMEBODY, identify
 from services.station.page.presses import Presses
 from services.station.page.said import Held, Hello, Pressed, read
 from services.station.page.seat import Seat
-from services.station.press import STOP, Press
-
-DEAD_MAN_NS = 150_000_000
-"""Age at which the input state counts as zero."""
+from services.station.page.standing import Standing
+from services.station.page.tab import DEAD_MAN_NS, Tab
+from services.station.press import REVOKE, STOP, Press
 
 HEARD_NS = 1_000_000_000
 """Silence after which nobody is present at a tab."""
@@ -33,76 +32,29 @@ BEATS = 3
 SETTLED_NS = 1_000_000_000
 """Nobody is present at a tab that has just sat down: opening a page, or a link that comes back, resumes nothing."""
 
-LATE_PRESS_NS = 1_000_000_000
-"""Age at which a press is dropped: what was asked for a moment ago may be wrong by now."""
+TAKE, SEIZE, GIVE, KEEP = "take_input", "seize_input", "give_input", "keep_input"
+"""Asking for the seat, taking it at once, and answering who asks for it."""
 
-TAKE, GIVE, KEEP = "take_input", "give_input", "keep_input"
-
-_OURS, _BROWSERS = 0, 1 << 47
-"""Identities on two machines: a browser's clock is not ours."""
-
-
-class _Tab:
-    """A tab that said who it is.
-
-    Each has clocks of its own, since no two browsers' compare: one by which states are late, one by which presses are.
-    """
-
-    def __init__(self, hello: Hello) -> None:
-        self.hello = hello
-        self._states = Freshness(DEAD_MAN_NS, _OURS, topics.OPERATOR_INPUT.rate_hz)
-        self._presses = Freshness(LATE_PRESS_NS, _OURS, topics.OPERATOR_INPUT.rate_hz)
-
-    def has_sent_in_time(self, message: Held | Pressed, now_ns: int) -> bool:
-        """Whether the message is new and no older than its kind may be."""
-        sample = (_BROWSERS, message.sequence, round(message.stamp_ms * 1e6), now_ns)
-        of_press = self._presses.judge(*sample)
-        judgement = of_press if isinstance(message, Pressed) else self._states.judge(*sample)
-        return judgement is Judgement.FRESH
-
-
-@dataclass(frozen=True)
-class Standing:
-    """How a tab stands.
-
-    Attributes:
-        armed: it has the seat: its input counts.
-        let_go: it counts once everything that steers was let go.
-        heard: what is held there comes, and in time.
-        focused: it has the focus, as it said last.
-        asked_s: somebody asks for this tab's seat, and gets it in so many seconds [s]; 0 where nobody does.
-        asking_s: this tab asks for the seat and gets it in so many seconds [s]; 0 where it does not.
-        kept: this tab asked for the seat, which was kept.
-        stop_pressed: an emergency stop was pressed in some tab, and the robot has not confirmed it yet.
-        accepted: numbers of this page's presses that were passed on.
-        refused: numbers of those that were not.
-    """
-
-    armed: bool
-    let_go: bool
-    heard: bool
-    focused: bool
-    asked_s: float
-    asking_s: float
-    kept: bool
-    stop_pressed: bool
-    accepted: tuple[int, ...]
-    refused: tuple[int, ...]
+log = logging.getLogger(__name__)
 
 
 class Desk:
     """The operator's desk: several tabs may look on, one commands. Safe to use from several threads.
 
+    Args:
+        operator: name of an operator who gives none.
+
     Attributes:
         call: set where keys are pressed or let go, and buttons pressed: what should act at once.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, operator: str = "") -> None:
+        self._operator = operator
         self.call = threading.Event()
         self.dropped = 0
         self.late = 0
         self._lock = threading.Lock()
-        self._tabs: dict[int, _Tab] = {}
+        self._tabs: dict[int, Tab] = {}
         self._seat = Seat()
         self._held: Held | None
         self._let_go: bool
@@ -111,6 +63,8 @@ class Desk:
         self._beats: deque[int] = deque(maxlen=BEATS)
         self._presses = Presses()
         self._stop_pressed = False
+        self._taken: TakeOver | None = None
+        self._lost = ""
         self._sit(0)
 
     def leave(self, tab: int, now_ns: int) -> None:
@@ -143,11 +97,22 @@ class Desk:
         """The input as it counts now; focused only where keys would count."""
         with self._lock:
             self._expire(now_ns)
-            present = self._is_present(now_ns)
+            present, who = self._is_present(now_ns), self._name(self._seat.tab)
             held = self._held
             if held is None or self._let_go:
-                return OperatorInput(present=present)
-            return OperatorInput(present=present, keys=held.keys, focused=True, controllers=held.controllers)
+                return OperatorInput(operator=who, present=present)
+            return OperatorInput(
+                operator=who, present=present, keys=held.keys, focused=True, controllers=held.controllers
+            )
+
+    def attendance(self) -> Attendance:
+        """Who is there, a tab each, and who took the input over last; the station's name aside."""
+        with self._lock:
+            people = tuple(
+                Person(known.identity.name, known.identity.role, has_input=tab == self._seat.tab)
+                for tab, known in sorted(self._tabs.items())
+            )
+            return Attendance(holder="", people=people, taken=self._taken)
 
     def take_presses(self) -> list[Press]:
         """The buttons pressed since the last call, in order, a stop first."""
@@ -180,12 +145,23 @@ class Desk:
                 stop_pressed=self._stop_pressed,
                 accepted=settled[True],
                 refused=settled[False],
+                identity=known.identity if known is not None else SOMEBODY,
+                asked_by=self._name(question.tab) if armed and question is not None else "",
+                lost=self._taken if known is not None and known.hello.seat == self._lost and not armed else None,
             )
 
     def _enter(self, tab: int, message: Hello, now_ns: int) -> None:
-        self._tabs[tab] = _Tab(message)
-        if self._seat.enter(tab, message.seat):
+        identity = identify(message.name, message.role, self._operator)
+        self._tabs[tab] = Tab(message, identity)
+        if identity.role is not Role.OPERATOR:
+            if self._seat.get_up(tab):
+                self._sit(now_ns)
+        elif self._seat.enter(tab, message.seat):
             self._sit(now_ns)
+
+    def _name(self, tab: int | None) -> str:
+        known = self._tabs.get(tab) if tab is not None else None
+        return known.identity.name if known is not None else ""
 
     def _sit(self, now_ns: int) -> None:
         self._empty()
@@ -238,24 +214,44 @@ class Desk:
         if known is not None:
             self._presses.settle(known.hello.load, message.number, accepted)
 
-    def _pass_on(self, tab: int, known: _Tab | None, message: Pressed, now_ns: int) -> bool:
+    def _pass_on(self, tab: int, known: Tab | None, message: Pressed, now_ns: int) -> bool:
         """Whether the press counts: a stop does at any time, from any tab, before it has said who it is as well."""
         if message.action == STOP:
             self._stop_pressed = True
             self.call.set()
-            return self._presses.add(Press(STOP))
+            return self._presses.add(Press(STOP, by=known.identity.name if known is not None else ""))
         if known is None or not known.has_sent_in_time(message, now_ns):
             self.late += 1
             return False
-        if message.action == TAKE:
-            if self._seat.ask(tab, known.hello.seat, now_ns):
-                self._sit(now_ns)
-            return True
-        return self._command(tab, Press(message.action, message.argument), now_ns)
+        press = Press(message.action, message.argument, known.identity.name)
+        match known.identity.role:
+            case Role.OPERATOR if press.action == TAKE:
+                if self._seat.ask(tab, known.hello.seat, now_ns):
+                    self._sit(now_ns)
+                return True
+            case Role.OPERATOR if press.action == SEIZE:
+                return self._seize(tab, known, press, now_ns)
+            case Role.SUPERVISOR if press.action == REVOKE and press.by:
+                self.call.set()
+                return self._presses.add(press)
+            case _:
+                return self._command(tab, press, now_ns)
+
+    def _seize(self, tab: int, known: Tab, press: Press, now_ns: int) -> bool:
+        """Take the input at once, and say why; whether the reason says anything."""
+        why = press.argument.strip()
+        if len(why) < SHORTEST_REASON:
+            return False
+        before, token = self._name(self._seat.tab), self._seat.token
+        if self._seat.take(tab, known.hello.seat):
+            self._sit(now_ns)
+            self._taken, self._lost = TakeOver(press.by, before, why), token
+            log.warning("%s", one_line(f"{before or 'nobody'}'s input was taken over by {press.by}: {why}"))
+        return True
 
     def _command(self, tab: int, press: Press, now_ns: int) -> bool:
         """What only the tab may that has the seat."""
-        if tab != self._seat.tab:
+        if tab != self._seat.tab or press.action == REVOKE:
             self.dropped += 1
             return False
         if press.action == KEEP:

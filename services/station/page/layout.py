@@ -5,9 +5,9 @@ from __future__ import annotations
 from services.station.page.commanding import commanding
 from services.station.page.controls import actions, emergency_stop
 from services.station.page.devices import devices
-from services.station.page.input import Standing
 from services.station.page.panels import counters, header, scene, traffic_light, verdict
 from services.station.page.seating import seating
+from services.station.page.standing import Standing
 from services.station.page.timeline import timeline
 from services.station.page.values import Values
 from services.station.page.view import Shown

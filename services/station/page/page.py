@@ -13,7 +13,7 @@ from starlette.responses import HTMLResponse
 from starlette.routing import Mount, Route, WebSocketRoute
 from starlette.staticfiles import StaticFiles
 
-from protocol.messages import Figure, OperatorInput
+from protocol.messages import Attendance, Figure, OperatorInput
 from services.process.addresses import family, in_url
 from services.process.clock import Clock
 from services.process.config import StationSection
@@ -46,15 +46,18 @@ class Page:
         robot: its name, to show.
         clock: that input and data age by.
         description: of what the live view shows.
+        operator: name of an operator who gives none.
     """
 
-    def __init__(self, station: StationSection, robot: str, clock: Clock, description: Description) -> None:
+    def __init__(
+        self, station: StationSection, robot: str, clock: Clock, description: Description, operator: str = ""
+    ) -> None:
         self._station = station
         self._clock = clock
         self._files = Files(description)
         self._document = document(robot, self._files.description_address)
         self._board = Board(clock)
-        self._desk = Desk()
+        self._desk = Desk(operator)
         self._link = Link(self._desk, self._board, clock, version(), description.joints)
         self._server: uvicorn.Server | None = None
         self._thread: threading.Thread | None = None
@@ -99,6 +102,10 @@ class Page:
     def take_presses(self) -> list[Press]:
         """The buttons pressed since the last call."""
         return self._desk.take_presses()
+
+    def attendance(self) -> Attendance:
+        """Who is there, its station's name aside."""
+        return self._desk.attendance()
 
     def figures(self) -> tuple[Figure, ...]:
         """Open tabs, and what was thrown away so far."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from protocol.messages import Light, Prediction
 from services.bus.predictions import LITTLE, certainty
-from services.station.page.input import Standing
 from services.station.page.readout import LIGHT_WORDS, criteria, is_stale, length, outcome, span, tone
+from services.station.page.standing import Standing
 from services.station.page.values import Values
 from services.station.page.view import Shown
 

@@ -7,7 +7,7 @@ from typing import Annotated
 import msgspec
 
 from protocol.exceptions import MalformedMessage, OversizedMessage
-from protocol.messages import Controller, Count, Reason
+from protocol.messages import Controller, Count, Name, Reason
 
 MAX_BYTES = 4_096
 
@@ -24,15 +24,19 @@ class _FromBrowser(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag_
 
 
 class Hello(_FromBrowser, frozen=True, tag="hello"):
-    """The first message of a connection.
+    """The first message of a connection, and another one where the person gives another name or role.
 
     Attributes:
         seat: random, of the tab; the same after a reload and after a lost link.
         load: random, of the loaded page; the same after a lost link. Presses are numbered within it.
+        name: that the person gave; empty where none was.
+        role: that the person asks for; empty for the operator's.
     """
 
     seat: Token
     load: Token
+    name: Name = ""
+    role: Name = ""
 
 
 class Held(_FromBrowser, frozen=True, tag="held"):

@@ -1,17 +1,19 @@
 """Who sits at the operator's desk. Others look on, and nobody comes to sit without a press but the first.
 
 A tab whose link or page was lost finds its seat again. Who wants the seat of somebody else asks for it: whoever sits
-gives it or keeps it, and silence gives it.
+gives it or keeps it, and silence gives it; or takes it at once, with a reason.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+from protocol.messages import SILENCE_GIVES_S
+
 RESERVED_NS = 30_000_000_000
 """How long the seat is kept for a tab that is gone: a press takes it at once only after that."""
 
-ASKED_NS = 10_000_000_000
+ASKED_NS = round(SILENCE_GIVES_S * 1e9)
 """Silence for so long gives the seat to who asked for it."""
 
 
@@ -36,6 +38,7 @@ class Seat:
     Attributes:
         tab: that sits here; None while it is gone, or where nobody ever sat.
         question: who asks for it; None where nobody does.
+        token: by which whoever sat last finds the seat again; empty where nobody ever did.
         kept_from: the tab that asked last and was told that the seat is kept; None where none was.
     """
 
@@ -43,12 +46,12 @@ class Seat:
         self.tab: int | None = None
         self.question: Question | None = None
         self.kept_from: int | None = None
-        self._token = ""
+        self.token = ""
         self._left_ns = 0
 
     def enter(self, tab: int, token: str) -> bool:
         """A tab has come, or come back with the token by which it finds its seat; whether it sits now."""
-        if self._token and token != self._token:
+        if self.token and token != self.token:
             return False
         self._sit(tab, token)
         return True
@@ -73,6 +76,22 @@ class Seat:
         self.question = Question(tab, token, now_ns)
         self.kept_from = None
         return False
+
+    def take(self, tab: int, token: str) -> bool:
+        """A tab takes the seat at once; whether it did not have it."""
+        if tab == self.tab:
+            return False
+        self._sit(tab, token)
+        return True
+
+    def get_up(self, tab: int) -> bool:
+        """A tab wants the seat no more: whoever asks for it has it, and whoever presses for it next; whether it sat."""
+        if tab != self.tab:
+            self.leave(tab, 0)
+            return False
+        if not self.give():
+            self.leave(tab, -RESERVED_NS - 1)
+        return True
 
     def give(self) -> bool:
         """Who sits gives the seat to who asked for it; whether somebody did."""
@@ -99,4 +118,4 @@ class Seat:
         self.tab = tab
         self.question = None
         self.kept_from = None
-        self._token = token
+        self.token = token

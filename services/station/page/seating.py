@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from services.station.page.input import Standing
+from services.station.page.standing import Standing
 from services.station.page.values import Values
 
 

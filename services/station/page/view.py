@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import msgspec
 
 from protocol.messages import (
+    Attendance,
     AuthorityState,
     ExecutionState,
     Figure,
@@ -56,6 +57,7 @@ class PageView:
         force: that the operator feels [N].
         master: what the operator's device says of itself.
         authority_is_mine: this station holds the authority.
+        attendances: who is at which station's page.
         latencies: measured delays worth showing, in seconds.
         notice: one line about what went wrong last; empty where nothing did.
     """
@@ -67,6 +69,7 @@ class PageView:
     safety: SafetyState | None = None
     authority: AuthorityState | None = None
     authority_is_mine: bool = False
+    attendances: tuple[Attendance, ...] = ()
     model: ModelState | None = None
     prediction: Prediction | None = None
     object_pose: ObjectPose | None = None

@@ -138,6 +138,8 @@ def _loss(state: Workflow, view: View, settings: Settings) -> str:
     taker = another(view, settings)
     if taker or is_revoked(view):
         return passed(authority, taker)
+    if view.present and authority.operator not in ("", settings.operator):
+        return f"{settings.operator} has the input now."
     return _LOST if authority.epoch > state.epoch or not authority.holder else ""
 
 

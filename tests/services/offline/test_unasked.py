@@ -3,7 +3,7 @@
 import pytest
 
 from protocol import queries
-from protocol.messages import EmergencyStop, OperatorInput, Phase
+from protocol.messages import Attendance, EmergencyStop, OperatorInput, Phase
 from protocol.topics import EMERGENCY_STOP, ROBOT_STATE, SAFETY_STATE, TEACHING_STATE
 from services.bus.arrays import motion_to_wire, vector3
 from services.offline.first_demonstrations import first_demonstrations
@@ -32,6 +32,9 @@ class Tab:
 
     def take_input(self):
         return OperatorInput(present=self.present, focused=True)
+
+    def attendance(self):
+        return Attendance(holder="")
 
     def show(self, view):
         pass

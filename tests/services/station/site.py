@@ -6,14 +6,17 @@ import msgspec
 
 from protocol import queries, topics
 from protocol.messages import (
+    Attendance,
     AuthorityState,
     Figure,
     ModelState,
     ObjectPose,
     OperatorInput,
+    Person,
     Phase,
     Pose,
     RobotState,
+    Role,
     SceneState,
 )
 from services.bus.memory import MemoryNetwork
@@ -39,10 +42,13 @@ class Tab:
 
     def take_presses(self):
         taken, self.pressed = self.pressed, []
-        return [Press(action) for action in taken]
+        return [press if isinstance(press, Press) else Press(press) for press in taken]
 
     def take_input(self):
         return self.held
+
+    def attendance(self):
+        return Attendance(holder="", people=(Person("ann", Role.OPERATOR, has_input=True),))
 
     def show(self, view):
         self.shown = view

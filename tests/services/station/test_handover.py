@@ -55,14 +55,15 @@ def test_where_nobody_asks_this_station_nothing_is_answered(authority):
 
 def test_a_revocation_says_who_and_why_and_what_became_of_it():
     site = Site()
-    assert site.hand_over.fault == ""
-    site.hand_over.revoke("eve", "it is late")
+    assert site.hand_over.fault(1) == ""
+    site.hand_over.revoke("eve", "it is late", 0)
     (call,) = site.revocations.take()
     assert (call.request.by, call.request.reason) == ("eve", "it is late")
-    assert site.hand_over.fault == ""
+    assert site.hand_over.fault(1) == ""
     call.reply(queries.Refused("nobody holds the authority"))
-    assert site.hand_over.fault == "Not revoked: nobody holds the authority."
-    site.hand_over.revoke("eve", "it is late")
+    assert site.hand_over.fault(1) == "Not revoked: nobody holds the authority."
+    assert site.hand_over.fault(9_000_000_000) == ""
+    site.hand_over.revoke("eve", "it is late", 0)
     (call,) = site.revocations.take()
     call.reply(queries.Accepted())
-    assert site.hand_over.fault == ""
+    assert site.hand_over.fault(1) == ""

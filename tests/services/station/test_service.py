@@ -6,11 +6,12 @@ import msgspec
 import pytest
 
 from protocol import queries, topics
-from protocol.messages import AuthorityState, Light, MasterState, OperatorInput, SafetyState
+from protocol.messages import AuthorityState, Light, MasterState, OperatorInput, Person, Role, SafetyState
 from services.bus.memory import MemoryNetwork
 from services.process.clock import ManualClock
 from services.process.config import Configuration, StationSection
 from services.station import service
+from services.station.press import Press
 from services.station.workflow.state import Action
 from tests.services.station.site import BY_HAND, REGION, SETTINGS, Site, Tab
 
@@ -112,6 +113,64 @@ def test_who_has_the_input_answers_who_asks_for_the_robot(action, give):
     site.run(0.1)
     (call,) = answers.take()
     assert (call.request.number, call.request.epoch, call.request.give) == (77, 41, give)
+
+
+def test_whoever_has_the_input_asks_for_the_authority_anew_in_their_own_name():
+    page = Tab()
+    site = Site(page, settings=BY_HAND)
+    site.grant()
+    site.run(0.1)
+    page.held = OperatorInput(operator="carl", present=True)
+    site.authority = msgspec.structs.replace(site.authority, operator="ann")
+    site.run(0.1)
+    (call,) = site.acquire.take()
+    assert (call.request.operator, call.request.take_over) == ("carl", False)
+    assert "carl has the input now." in page.shown.teaching.text
+
+
+def test_an_empty_seat_is_still_its_last_operator_s():
+    page = Tab()
+    site = Site(page, settings=BY_HAND)
+    held = site.other.subscribe(topics.OPERATOR_INPUT)
+    for operator in ("carl", ""):
+        page.held = OperatorInput(operator=operator)
+        site.run(0.1)
+        assert held.latest().message.operator == "carl"
+
+
+@pytest.mark.parametrize("page", [Tab(), None], ids=["by hand", "scripted"])
+def test_everybody_is_told_who_is_at_the_page(page):
+    site = Site(page, settings=BY_HAND) if page else Site()
+    told = site.other.subscribe(topics.ATTENDANCE)
+    site.run(0.5)
+    assert len(told.take()) == 5
+    attendance = told.latest().message
+    assert (attendance.holder, attendance.people) == ("station-1", (Person("ann", Role.OPERATOR, has_input=True),))
+    if page:
+        assert page.shown.attendances == (attendance,)
+
+
+def test_a_stop_carries_the_name_of_who_pressed_it():
+    page = Tab()
+    site = Site(page, settings=BY_HAND)
+    stops = site.other.subscribe(topics.EMERGENCY_STOP)
+    for by, told in (("eve", "eve"), ("", "ann")):
+        page.pressed = [Press("stop", by=by)]
+        site.run(0.02)
+        assert stops.latest().message.by == told
+
+
+def test_a_supervisor_s_revocation_goes_to_the_robot_and_what_it_refuses_is_told():
+    page = Tab()
+    site = Site(page, settings=BY_HAND)
+    revocations = site.other.serve(queries.REVOKE)
+    page.pressed = [Press("revoke", "it is late", "eve")]
+    site.run(0.02)
+    (call,) = revocations.take()
+    assert (call.request.by, call.request.reason) == ("eve", "it is late")
+    call.reply(queries.Refused("nobody holds the authority"))
+    site.run(0.02)
+    assert page.shown.notice == "Not revoked: nobody holds the authority."
 
 
 def test_nothing_is_asked_of_the_robot_before_a_press_but_the_authority():

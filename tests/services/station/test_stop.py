@@ -20,13 +20,13 @@ class Site:
         bus = network.bus()
         self.other = network.bus()
         self.stops = self.other.subscribe(topics.EMERGENCY_STOP)
-        self.button = StopButton(bus, bus.subscribe(topics.SAFETY_STATE), "ann", "station-1")
+        self.button = StopButton(bus, bus.subscribe(topics.SAFETY_STATE), "station-1")
 
     def says(self, **safety):
         self.other.publish(topics.SAFETY_STATE, SafetyState(**safety))
 
     def press(self):
-        self.button.press(self.clock.now_ns())
+        self.button.press(self.clock.now_ns(), "ann")
 
     def run(self, seconds):
         """The presses that were heard meanwhile."""

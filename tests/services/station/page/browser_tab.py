@@ -11,14 +11,19 @@ PERIOD_MS = 20
 class BrowserTab:
     """A tab of a desk."""
 
-    def __init__(self, desk, tab=1, now_ms=1_000, token=None, load=None):
+    def __init__(self, desk, tab=1, now_ms=1_000, *, token=None, load=None, name="", role=""):
         self.desk = desk
         self.tab = tab
         self.now_ms = now_ms
         self.sequence = 0
         self.number = 0
         self.load = load or f"load-{tab:04}"
-        self.send(Hello(token or f"seat-{tab:04}", self.load))
+        self.token = token or f"seat-{tab:04}"
+        self.says(role, name)
+
+    def says(self, role, name):
+        """Who is there."""
+        self.send(Hello(self.token, self.load, name, role))
 
     def send(self, message):
         self.desk.receive(self.tab, msgspec.json.encode(message), self.now_ms * MS)

@@ -1,7 +1,7 @@
 """What the tests of this folder show."""
 
 from protocol.messages import Light, TeachingState
-from services.station.page.input import Standing
+from services.station.page.standing import Standing
 from services.station.page.view import PageView, Shown
 
 SEATED = Standing(

@@ -1,0 +1,55 @@
+"""Who a tab's person says to be: a name and a role, where they can be used, and one line where they cannot."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from protocol.messages import Role
+
+_NAME = re.compile(r"[^\W_][\w .'-]{0,39}")
+
+_ROLES = {role.value: role for role in Role}
+
+
+@dataclass(frozen=True)
+class Identity:
+    """A tab's person.
+
+    Attributes:
+        name: empty where none was given.
+        role: what they may do.
+        fault: what is wrong with what they said; empty where nothing is.
+    """
+
+    name: str = ""
+    role: Role = Role.OPERATOR
+    fault: str = ""
+
+
+SOMEBODY = Identity()
+"""Who has said nothing yet."""
+
+
+def identify(name: str, role: str, operator: str) -> Identity:
+    """The person that a tab speaks of.
+
+    Whoever asks for a role that does not exist looks on; a name that is none is as good as none.
+
+    Args:
+        name: as given, empty for none.
+        role: as given, empty for the operator's.
+        operator: the name of an operator who gives none.
+    """
+    known = _ROLES.get(role or Role.OPERATOR.value)
+    chosen = known or Role.OBSERVER
+    given = name.strip()
+    faults = []
+    if known is None:
+        faults.append(f"There is no role {role!r}: give {', '.join(_ROLES)}; you look on.")
+    if given and not _NAME.fullmatch(given):
+        faults.append(
+            f"{given!r} is no name: give 1 to 40 letters, digits, spaces, '.', '-', '_', a letter or digit first."
+        )
+        given = ""
+    return Identity(given or (operator if chosen is Role.OPERATOR else ""), chosen, " ".join(faults))
