@@ -34,9 +34,9 @@ if TYPE_CHECKING:
         situation_from_arrays,
     )
     from lfd.motion.refinement import joined, refine
-    from lfd.motion.resampling import Interpolation, from_samples, resample
+    from lfd.motion.resampling import Interpolation, along_the_way, from_samples, resample
     from lfd.motion.trajectory import Trajectory
-    from lfd.motion.waypoints import through_waypoints
+    from lfd.motion.waypoints import Passing, through_waypoints
     from lfd.store.database import DemonstrationStore
     from lfd.store.model_file import load, save
     from lfd.store.recording_file import Recording, read_demonstration, read_recording
@@ -58,9 +58,9 @@ _MODULES = {
     "motion.provenance": ("Method", "Provenance"),
     "motion.recording": ("demonstration_from_arrays", "demonstrations_from_arrays", "situation_from_arrays"),
     "motion.refinement": ("joined", "refine"),
-    "motion.resampling": ("Interpolation", "from_samples", "resample"),
+    "motion.resampling": ("Interpolation", "along_the_way", "from_samples", "resample"),
     "motion.trajectory": ("Trajectory",),
-    "motion.waypoints": ("through_waypoints",),
+    "motion.waypoints": ("Passing", "through_waypoints"),
     "store.database": ("DemonstrationStore",),
     "store.model_file": ("load", "save"),
     "store.recording_file": ("Recording", "read_demonstration", "read_recording"),
@@ -85,6 +85,7 @@ __all__ = [
     "Method",
     "MotionDistribution",
     "MovementModel",
+    "Passing",
     "Prediction",
     "PrompOptions",
     "Provenance",
@@ -99,6 +100,7 @@ __all__ = [
     "ViaPoint",
     "Way",
     "align",
+    "along_the_way",
     "blend",
     "demonstration_from_arrays",
     "demonstrations_from_arrays",

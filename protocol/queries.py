@@ -27,6 +27,7 @@ from protocol.messages import (
     Text,
     Vector3,
 )
+from protocol.plan import Plan
 from protocol.topics import VERSION, checked_name
 
 Req = TypeVar("Req", bound=msgspec.Struct)
@@ -337,6 +338,7 @@ RESUME = Query("cmd/resume", Resume, Accepted, "robot", 20_480, "go on after a h
 RESET = Query("cmd/reset", Reset, Accepted, "robot", 20_480, "back to the start")
 RELEASE_STOP = Query("safety/release_stop", ReleaseStop, Accepted, "robot", 20_480, "release the emergency stop")
 PREDICT = Query("model/predict", Predict, Predicted, "model", 1_048_576, "predict a motion")
+PLAN = Query("model/plan", Plan, Predicted, "model", 1_048_576, "make a motion of what an operator showed")
 ADD_DEMONSTRATION = Query(
     "model/add_demonstration", AddDemonstration, Learnt, "model", 4_194_304, "learn; answered when it is on disk"
 )
@@ -361,6 +363,7 @@ QUERIES: tuple[Query[Any, Any], ...] = (
     RESET,
     RELEASE_STOP,
     PREDICT,
+    PLAN,
     ADD_DEMONSTRATION,
     UNDO,
     REDO,

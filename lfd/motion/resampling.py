@@ -3,14 +3,19 @@
 from enum import Enum
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from lfd.arrays import Array, checked, checked_quaternions
 from lfd.bounds import check_points, check_type
 from lfd.exceptions import TimesNotIncreasing, WrongShape
-from lfd.motion.rotations import sign_continuous, slerp
+from lfd.motion.rotations import conjugate, log_map, multiply, sign_continuous, slerp
 from lfd.motion.spline import cubic_spline
 from lfd.motion.trajectory import Trajectory, equal_phases
+
+TURN_AS_WAY = 0.1
+"""A turn of one radian counts as this much of a way [m]: what is so far from the axis moves by as much."""
+
+_NO_WAY = 1e-9  # [m] between two points of a motion that stands
 
 
 class Interpolation(Enum):
@@ -35,6 +40,47 @@ def resample(trajectory: Trajectory, n: int, interpolation: Interpolation = Inte
     check_points("resampled trajectory", n)
     check_type("interpolation", interpolation, Interpolation)
     return at_phases(trajectory, equal_phases(n), interpolation)
+
+
+def along_the_way(trajectory: Trajectory, n: int, still: float = 0.005) -> Trajectory:
+    """The same way with n points that are equally far apart, however long the motion lingered anywhere on it.
+
+    With points at equal times, the place where a demonstration lingered takes most of them, and elsewhere the few that
+    are left lie far apart: the motion jumps there (thesis, Fig. 29). Where the tempo does not matter none of that is.
+
+    Args:
+        trajectory: Any number of points.
+        n: Number of points of the result, at least 2.
+        still: By less than this a hand trembles, and goes nowhere [m]; a turn of one radian is `TURN_AS_WAY`. The
+            result leaves the way by no more.
+
+    Raises:
+        TooFewPoints: n is less than 2.
+    """
+    check_points("resampled trajectory", n)
+    kept = _moving(trajectory, still)
+    p, q = trajectory.positions.take(kept, axis=0), trajectory.orientations.take(kept, axis=0)
+    way = np.concatenate([[0.0], np.cumsum(np.maximum(ways(p[:-1], q[:-1], p[1:], q[1:]), _NO_WAY))])
+    return Trajectory(*_poses_at(way, p, q, np.linspace(0.0, way[-1], n)), trajectory.duration)
+
+
+def _moving(trajectory: Trajectory, still: float) -> NDArray[np.intp]:
+    """Numbers of the points that lead on: each further than `still` from the one before; the first and the last."""
+    p, q = trajectory.positions, trajectory.orientations
+    kept = [0]
+    for i in range(1, len(p) - 1):
+        last = kept[-1]
+        if ways(p[last], q[last], p[i], q[i]) > still:
+            kept.append(i)
+    return np.array([*kept, len(p) - 1])
+
+
+def ways(p: Array, q: Array, p_next: Array, q_next: Array) -> Array:
+    """From poses to others [m], shape (...): a turn counts as `TURN_AS_WAY` a radian."""
+    turns = log_map(multiply(conjugate(q), q_next))
+    return np.asarray(
+        np.linalg.norm(p_next - p, axis=-1) + TURN_AS_WAY * np.linalg.norm(turns, axis=-1), dtype=np.float64
+    )
 
 
 def at_phases(trajectory: Trajectory, phases: Array, interpolation: Interpolation = Interpolation.LINEAR) -> Trajectory:

@@ -17,7 +17,7 @@ from protocol.messages.authority import (
 from protocol.messages.camera import CameraImage
 from protocol.messages.command import Controller, MasterState, OperatorInput, Trouble
 from protocol.messages.health import Figure, Heartbeat, TopicFigures
-from protocol.messages.model import Method, ModelState, Prediction, Purpose, Way
+from protocol.messages.model import MOST_WAYPOINTS, Method, ModelState, Origin, Prediction, Purpose, Way
 from protocol.messages.safety import EmergencyStop, SafetyState
 from protocol.messages.state import (
     Box,
@@ -55,6 +55,7 @@ from protocol.messages.values import (
 
 __all__ = [
     "ITEM_SIZES",
+    "MOST_WAYPOINTS",
     "SHORTEST_REASON",
     "SILENCE_GIVES_S",
     "Array",
@@ -88,6 +89,7 @@ __all__ = [
     "Name",
     "ObjectPose",
     "OperatorInput",
+    "Origin",
     "Outcome",
     "Part",
     "Person",

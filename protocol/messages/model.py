@@ -9,6 +9,9 @@ import msgspec
 
 from protocol.messages.values import Array, Count, Fraction, Message, Motion, Name, Vector3
 
+MOST_WAYPOINTS = 64
+"""Of a motion: more are a demonstration."""
+
 
 class Purpose(enum.Enum):
     """What a demonstration is for the model: part of what it starts from, or an update."""
@@ -24,6 +27,15 @@ class Method(enum.Enum):
     REFINE = "refine"
     WAYPOINTS = "waypoints"
     DEMONSTRATE = "demonstrate"
+
+
+class Origin(enum.Enum):
+    """Where a motion that can be executed comes from: the model, or what an operator showed."""
+
+    MODEL = "model"
+    WAYPOINTS = "waypoints"
+    REFINEMENT = "refinement"
+    DEMONSTRATION = "demonstration"
 
 
 class Way(msgspec.Struct, frozen=True):
@@ -55,6 +67,8 @@ class Prediction(Message, frozen=True, kw_only=True):
         object_position: the condition, in the base frame [m].
         known: how much of the motion was shown or corrected there, from 1, all of it, to 0, nothing.
         way: which of several ways it takes.
+        origin: where the motion comes from; nothing is uncertain of one that an operator showed.
+        waypoints: phases at which it passes the operator's waypoints, in their order; empty where there are none.
     """
 
     id: Count = 0
@@ -64,6 +78,8 @@ class Prediction(Message, frozen=True, kw_only=True):
     object_position: Vector3
     known: Fraction = 1.0
     way: Way = Way()
+    origin: Origin = Origin.MODEL
+    waypoints: Annotated[tuple[Fraction, ...], msgspec.Meta(max_length=MOST_WAYPOINTS)] = ()
 
 
 class ModelState(Message, frozen=True, kw_only=True):

@@ -18,6 +18,7 @@ from lfd.store.database import DemonstrationStore
 from lfd.store.stored import Counts, Purpose
 from protocol import messages, queries, topics
 from protocol.history import Compare, Compared, HistoryListed, ListHistory
+from protocol.plan import Plan
 from protocol.queries import AddDemonstration, Learnt, Predict, Predicted, Redo, Refused, Undo
 from services.bus.arrays import motion_from_wire, motion_to_wire, to_wire
 from services.bus.bus import Bus, Rep, Req
@@ -26,6 +27,7 @@ from services.bus.server import Server
 from services.model.comparison import Comparisons
 from services.model.history import History
 from services.model.learning import MODELS, Fit
+from services.model.planning import planned
 from services.model.skill import binding_of, check_demonstration, check_duration, check_situation, open_store
 from services.process.clock import Clock
 from services.process.config import Configuration
@@ -96,6 +98,7 @@ class ModelService:
         self._history = History(store, self._binding, kind, models)
         self._comparisons = Comparisons(self._history, scene)
         self._predict = bus.serve(queries.PREDICT)
+        self._plan = bus.serve(queries.PLAN)
         self._add = bus.serve(queries.ADD_DEMONSTRATION)
         self._undo = bus.serve(queries.UNDO)
         self._redo = bus.serve(queries.REDO)
@@ -110,6 +113,7 @@ class ModelService:
     def step(self, now_ns: int) -> None:
         """Answer what was asked."""
         _answer(self._predict, self._predicted)
+        _answer(self._plan, self._planned)
         _answer(self._add, self._once(self._learnt))
         _answer(self._undo, self._once(self._undone))
         _answer(self._redo, self._once(self._redone))
@@ -159,24 +163,46 @@ class ModelService:
         check_duration("the prediction's duration", prediction.trajectory)
         variances = np.diagonal(prediction.position_covariances, axis1=1, axis2=2)
         motion = prediction.trajectory
-        self._newest = messages.Prediction(
-            id=new_number(),
-            motion=motion_to_wire(motion.positions, motion.orientations, motion.duration),
-            deviations=to_wire(np.sqrt(np.maximum(variances, 0.0))),
-            model_version=self._history.version,
-            object_position=request.object_position,
-            known=prediction.known,
-            way=messages.Way(prediction.way.index, prediction.way.count, prediction.way.probability),
+        return self._announced(
+            messages.Prediction(
+                id=new_number(),
+                motion=motion_to_wire(motion.positions, motion.orientations, motion.duration),
+                deviations=to_wire(np.sqrt(np.maximum(variances, 0.0))),
+                model_version=self._history.version,
+                object_position=request.object_position,
+                known=prediction.known,
+                way=messages.Way(prediction.way.index, prediction.way.count, prediction.way.probability),
+            )
         )
-        self._bus.publish(topics.PREDICTION, self._newest)
-        return Predicted(self._newest)
+
+    def _planned(self, request: Plan) -> Predicted | Refused:
+        """What an operator showed, as it will be executed; an empty model does not mind."""
+        if request.scene != self._scene.name:
+            return self._elsewhere(f"the plan is of scene {request.scene}", request.scene)
+        motion, waypoints = planned(self._scene, request)
+        return self._announced(
+            messages.Prediction(
+                id=new_number(),
+                motion=motion_to_wire(motion.positions, motion.orientations, motion.duration),
+                deviations=to_wire(np.zeros_like(motion.positions)),
+                model_version=self._history.version,
+                object_position=request.object_position,
+                origin=request.origin,
+                waypoints=waypoints,
+            )
+        )
+
+    def _announced(self, prediction: messages.Prediction) -> Predicted:
+        self._newest = prediction
+        self._bus.publish(topics.PREDICTION, prediction)
+        return Predicted(prediction)
+
+    def _elsewhere(self, what: str, scene: str) -> Refused:
+        return Refused(f"{what}, and this model is for {self._binding}: start the model with --scene {scene}")
 
     def _learnt(self, request: AddDemonstration) -> Learnt | Refused:
         if request.scene != self._scene.name:
-            return Refused(
-                f"the demonstration is of scene {request.scene}, and this model is for {self._binding}:"
-                f" start the model with --scene {request.scene}"
-            )
+            return self._elsewhere(f"the demonstration is of scene {request.scene}", request.scene)
         demonstration = _demonstration(request, self._now_s())
         check_demonstration(self._scene, demonstration)
         self._history.add(demonstration, Purpose(request.purpose.value), request.request)

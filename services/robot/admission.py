@@ -1,5 +1,7 @@
 """Which requests are carried out: checks that end in one clear line."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -24,7 +26,9 @@ START_DISTANCE = 0.5  # [m] between the measured pose and the prediction's start
 START_REACH = 0.3  # [m] of a start from the scene's own, along each axis
 
 
-def admit_prediction(positions: Array, orientations: Array, duration: float, measured: Pose) -> Trajectory:
+def admit_prediction(
+    positions: Array, orientations: Array, duration: float, measured: Pose, waypoints: Sequence[float] = ()
+) -> Trajectory:
     """The prediction, where it can be executed from the measured pose.
 
     Args:
@@ -32,6 +36,7 @@ def admit_prediction(positions: Array, orientations: Array, duration: float, mea
         orientations: shape (n, 4).
         duration: [s].
         measured: pose of the grasping frame now.
+        waypoints: phases at which an operator's waypoints are passed, by which a place on the motion is named.
 
     Raises:
         Refusal: it is no trajectory, too long, too short, too fast, or starts too far away.
@@ -45,7 +50,7 @@ def admit_prediction(positions: Array, orientations: Array, duration: float, mea
     if not SHORTEST_S <= duration <= LONGEST_S:
         raise Refusal(f"the prediction takes {duration:.3g} s: give {SHORTEST_S:g} to {LONGEST_S:g} s")
     with np.errstate(over="ignore", invalid="ignore"):  # what is too large for a number is too large
-        _check_speeds(prediction)
+        _check_speeds(prediction, waypoints)
         distance = float(np.linalg.norm(prediction.positions[0] - measured.position))
     if not distance <= START_DISTANCE:
         raise Refusal(
@@ -74,19 +79,19 @@ def admit_pace(prediction: Trajectory, rate: float) -> None:
         )
 
 
-def _check_speeds(prediction: Trajectory) -> None:
+def _check_speeds(prediction: Trajectory, waypoints: Sequence[float]) -> None:
     speeds = _speeds(prediction)
     if not np.max(speeds) <= FASTEST:
         point = int(np.argmax(speeds))
         raise Refusal(
-            f"the prediction moves at {np.max(speeds):.2f} m/s after way-point {point}, at most {FASTEST:g} m/s is"
-            " allowed: give it more time"
+            f"the prediction moves at {np.max(speeds):.2f} m/s {_where(prediction, point, waypoints)}, at most"
+            f" {FASTEST:g} m/s is allowed: give it more time"
         )
     turn_speeds = _turn_speeds(prediction)
     if not np.max(turn_speeds) <= FASTEST_TURN:
         point = int(np.argmax(turn_speeds))
         raise Refusal(
-            f"the prediction turns at {np.max(turn_speeds):.2f} rad/s after way-point {point}, at most"
+            f"the prediction turns at {np.max(turn_speeds):.2f} rad/s {_where(prediction, point, waypoints)}, at most"
             f" {FASTEST_TURN:g} rad/s is allowed: give it more time"
         )
 
@@ -102,6 +107,14 @@ def _turn_speeds(prediction: Trajectory) -> Array:
     turns = log_map(multiply(conjugate(prediction.orientations[:-1]), prediction.orientations[1:]))
     angles: Array = np.linalg.norm(turns, axis=1)
     return angles / look_ahead(prediction)
+
+
+def _where(prediction: Trajectory, point: int, waypoints: Sequence[float]) -> str:
+    """A place on a motion, as whoever showed it knows it: by the waypoint behind which it lies."""
+    if not waypoints:
+        return f"after way-point {point}"
+    behind = sum(phase <= prediction.phases[point] for phase in waypoints)
+    return f"after waypoint {behind}" if behind else "before waypoint 1"
 
 
 def admit_target(scene: Scene, request: Reset) -> Array | None:

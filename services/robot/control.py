@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from protocol import messages
-from protocol.messages import AuthorityEvent, Cut, MasterState, Mode, Motion, Phase
+from protocol.messages import AuthorityEvent, Cut, MasterState, Mode, Phase, Prediction
 from protocol.queries import AcquireAuthority, Adapt, Execute, Finish, Pace, ReleaseStop, Reset, Resume, Teleoperate
 from services.bus.arrays import motion_from_wire
 from services.bus.subscription import Received
@@ -86,7 +86,7 @@ class Control:
         holder, who, over, why = request.holder, request.operator, request.take_over, request.reason
         return self.lease.acquire(holder, now_ns, operator=who, take_over=over, reason=why)
 
-    def execute(self, request: Execute, predicted: Motion | None) -> int:
+    def execute(self, request: Execute, predicted: Prediction | None) -> int:
         """Begin an episode; its number.
 
         Args:
@@ -97,10 +97,10 @@ class Control:
         if predicted is None:
             raise Refusal(f"no prediction {request.prediction} was heard from the model: predict again")
         try:
-            positions, orientations, _ = motion_from_wire(predicted)
+            positions, orientations, _ = motion_from_wire(predicted.motion)
         except ServiceError as error:
             raise Refusal(f"the prediction cannot be executed: {error}") from error
-        prediction = admit_prediction(positions, orientations, request.duration, self.arm.measured)
+        prediction = admit_prediction(positions, orientations, request.duration, self.arm.measured, predicted.waypoints)
         after = look_ahead(prediction) if request.adapt is Adapt.NEXT else 0.0
         self.arm.begin(prediction, after, (request.part.first, request.part.last))
         return self._ordered(request, request.mode, request.prediction)

@@ -228,7 +228,7 @@ class RobotService:
         self._told_epoch = lease.epoch
 
     def _executed(self, request: Execute) -> EpisodeStarted:
-        return EpisodeStarted(self._control.execute(request, self._predictions.motion(request.prediction)))
+        return EpisodeStarted(self._control.execute(request, self._predictions.find(request.prediction)))
 
     def _answer(self, server: Server[Req, Rep], answer: Callable[[Req], Rep]) -> None:
         for call in server.take():

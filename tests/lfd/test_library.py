@@ -21,8 +21,10 @@ OWN = {"lfd", "numpy", "scipy"}
 
 NAMES = """
     AdaptiveOptions AdaptiveProMP Alignment Binding ConditionedProMP DMP Demonstration DemonstrationStore Departure
-    DmpOptions GaussianBasis Interpolation LfdError Method MotionDistribution MovementModel Prediction PrompOptions
+    DmpOptions GaussianBasis Interpolation LfdError Method MotionDistribution MovementModel Passing Prediction
+    PrompOptions
     Provenance Purpose Recording Scaling Selection Situation StoredDemonstration Trajectory Turn ViaPoint Way align
+    along_the_way
     blend demonstration_from_arrays demonstrations_from_arrays dtw from_samples joined load read_demonstration
     read_recording refine resample save situation_from_arrays through_waypoints
 """

@@ -15,7 +15,7 @@ from lfd.exceptions import (
     WrongShape,
 )
 from lfd.motion.rotations import conjugate, exp_map, log_map, multiply
-from lfd.motion.waypoints import through_waypoints
+from lfd.motion.waypoints import Passing, passed_at, through_waypoints
 
 IDENTITIES = np.tile([1.0, 0.0, 0.0, 0.0], (4, 1))
 CORNERS = np.array([[0.5, 0.0, 0.4], [0.6, 0.1, 0.4], [0.7, 0.1, 0.5], [0.8, 0.0, 0.6]])
@@ -104,3 +104,41 @@ def test_what_are_no_waypoints_is_refused_with_the_fact(arguments, error, fact):
     assert getattr(caught.value, fact[0]) == fact[1]
     assert isinstance(caught.value, LfdError)
     assert "\n" not in str(caught.value)
+
+
+@given(seed=st.integers(0, 10_000), k=st.integers(3, 9), passing=st.sampled_from(Passing))
+def test_it_passes_every_waypoint_at_its_phase(seed, k, passing):
+    positions, orientations = some(seed, k)
+    phases = passed_at(positions, orientations, passing)
+    motion = through_waypoints(positions, orientations, 10.0, n=20_001, passing=passing)
+    nearest = np.round(phases * 20_000).astype(int)
+    np.testing.assert_allclose(motion.positions[nearest], positions, atol=2e-3)
+    np.testing.assert_allclose(np.abs(np.sum(motion.orientations[nearest] * orientations, axis=1)), 1.0, atol=1e-4)
+
+
+@given(seed=st.integers(0, 10_000), k=st.integers(3, 9))
+def test_centripetal_phases_grow_with_the_root_of_the_way(seed, k):
+    positions, _ = some(seed, k)
+    phases = passed_at(positions, np.tile(IDENTITIES[0], (k, 1)), Passing.CENTRIPETAL)
+    roots = np.sqrt(np.linalg.norm(np.diff(positions, axis=0), axis=1))
+    np.testing.assert_allclose(np.diff(phases), roots / np.sum(roots), atol=1e-12)
+
+
+def test_waypoints_that_coincide_take_their_time_all_the_same():
+    positions = np.repeat(CORNERS, 2, axis=0)
+    motion = through_waypoints(positions, np.tile(IDENTITIES[0], (8, 1)), 10.0, passing=Passing.CENTRIPETAL)
+    assert np.isfinite(motion.positions).all()
+
+
+def test_where_waypoints_lie_unevenly_centripetal_passing_swings_out_less():
+    positions = np.array([[0.0, 0.0, 0.0], [0.3, 0.0, 0.0], [0.32, 0.02, 0.0], [0.32, 0.3, 0.0]])
+    even, centripetal = (
+        through_waypoints(positions, IDENTITIES, 10.0, 500, passing).positions.max(axis=0)[0] for passing in Passing
+    )
+    assert 0.32 <= centripetal < even
+
+
+@pytest.mark.parametrize("passing", ["even", 1])
+def test_a_way_of_passing_is_one_of_those(passing):
+    with pytest.raises(LfdError, match="passing"):
+        through_waypoints(CORNERS, IDENTITIES, 10.0, passing=passing)

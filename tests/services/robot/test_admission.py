@@ -159,3 +159,18 @@ def test_a_start_lies_near_the_scenes_own():
     for far in (home.position + np.array([0.0, 0.0, 0.31]), home.position * np.nan):
         with pytest.raises(Refusal, match=r"give a place within 0\.3 m of \(0\.537, 0\.083, 0\.444\) m"):
             admit_reset(dishwasher, "b1", place, Pose(far, home.orientation))
+
+
+@pytest.mark.parametrize(
+    ("waypoints", "place"),
+    [
+        ((), "after way-point 37"),
+        ((0.0, 0.4, 1.0), "after waypoint 2"),
+        ((0.6, 0.8, 1.0), "before waypoint 1"),
+    ],
+)
+def test_a_place_on_a_motion_is_named_by_the_waypoints_of_whoever_showed_it(waypoints, place):
+    positions, orientations = line()
+    positions[38:, 1] = 0.2
+    with pytest.raises(Refusal, match=place):
+        admit_prediction(positions, orientations, 10.0, MEASURED, waypoints)

@@ -1,0 +1,93 @@
+"""Motions that an operator showed, made into what the robot can execute like a prediction."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lfd.motion.resampling import resample
+from lfd.motion.trajectory import PREDICTION_POINTS, Trajectory
+from lfd.motion.waypoints import LEAST_WAYPOINTS, Passing, passed_at, through_waypoints
+from protocol.messages import Origin, Pose
+from protocol.plan import Plan
+from services.bus.arrays import motion_from_wire
+from services.model.skill import check_duration
+from services.process.exceptions import ServiceError
+from sim.tasks import AnyScene
+
+ALREADY_THERE = 0.01
+"""A first waypoint so near to the start is the start [m]."""
+
+_DENSEST = 500
+"""Points of a plan at most; a denser motion is thinned out."""
+
+
+class NothingPlanned(ServiceError):
+    """What was given makes no motion."""
+
+
+class Planned(NamedTuple):
+    """A plan.
+
+    Attributes:
+        motion: to execute, in the base frame.
+        waypoints: phases at which the operator's waypoints are passed; empty where there are none.
+    """
+
+    motion: Trajectory
+    waypoints: tuple[float, ...] = ()
+
+
+def planned(scene: AnyScene, request: Plan) -> Planned:
+    """The motion that a request describes.
+
+    Args:
+        scene: that it is for.
+        request: what the operator showed.
+
+    Raises:
+        NothingPlanned: it is no motion.
+        LfdError: its numbers make none.
+        NotFinite: they are none.
+        OutOfReach: a waypoint, or the motion between, is beyond the robot's reach; says which waypoint.
+        OutOfRange: it is too fast or too slow for a robot.
+    """
+    given = _through(scene, request) if request.origin is Origin.WAYPOINTS else Planned(_shown(request))
+    check_duration("the motion's duration", given.motion)
+    scene.robot.check("the motion passes", given.motion.positions)
+    scene.robot.check("the target at", np.array(request.object_position)[None])
+    return given
+
+
+def _through(scene: AnyScene, request: Plan) -> Planned:
+    positions, orientations = _poses(request.waypoints)
+    if request.motion is not None:
+        raise NothingPlanned("a plan through waypoints takes no motion: give the one or the other")
+    if len(positions) < LEAST_WAYPOINTS:
+        raise NothingPlanned(f"{len(positions)} waypoint(s) make no motion: store at least {LEAST_WAYPOINTS}")
+    for number, position in enumerate(positions, 1):
+        scene.robot.check(f"waypoint {number} at", position[None])
+    led = 0
+    if request.start is not None:
+        start, turned = _poses((request.start,))
+        if np.linalg.norm(start[0] - positions[0]) > ALREADY_THERE:
+            positions, orientations = np.concatenate([start, positions]), np.concatenate([turned, orientations])
+            led = 1
+    motion = through_waypoints(positions, orientations, request.duration, PREDICTION_POINTS, Passing.CENTRIPETAL)
+    return Planned(motion, tuple(passed_at(positions, orientations, Passing.CENTRIPETAL)[led:].tolist()))
+
+
+def _shown(request: Plan) -> Trajectory:
+    if request.motion is None or request.waypoints or request.origin is Origin.MODEL:
+        raise NothingPlanned(f"a plan of origin {request.origin.value} takes a motion, and no waypoints")
+    positions, orientations, _ = motion_from_wire(request.motion)
+    motion = Trajectory(positions, orientations, request.duration)
+    return resample(motion, _DENSEST) if motion.n_points > _DENSEST else motion
+
+
+def _poses(poses: tuple[Pose, ...]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    positions = np.array([pose.position for pose in poses], dtype=np.float64).reshape(-1, 3)
+    orientations = np.array([pose.orientation for pose in poses], dtype=np.float64).reshape(-1, 4)
+    return positions, orientations / np.linalg.norm(orientations, axis=1, keepdims=True)
