@@ -52,7 +52,7 @@ def grip(tab, x=0.5, y=0.5):
     place = box["x"] + x * box["width"], box["y"] + y * box["height"]
     tab.page.mouse.move(*place)
     tab.page.mouse.down()
-    return place, min(box["width"], box["height"]) / 2
+    return place, tab.page.evaluate("document.querySelector('.pointer-pad').clientHeight") / 2
 
 
 def test_axes_and_buttons_arrive_as_they_are_read(open_seated, read):
