@@ -27,6 +27,7 @@ from services.process.clock import Clock
 from services.process.config import Configuration
 from services.process.master_devices import Gamepad, Keyboard, Led, Page, Pointer, Scripted
 from services.process.processes import process
+from services.process.profile_files import load_profiles
 
 _LONGEST_STEP_S = 0.1
 """A process that was stopped for longer does not make up for it: nobody held a key meanwhile."""
@@ -37,7 +38,11 @@ that holds a correction drop it."""
 
 
 def build(bus: Bus, clock: Clock, configuration: Configuration) -> MasterService:
-    """The service with the device that the configuration names."""
+    """The service with the device that the configuration names.
+
+    Raises:
+        ConfigurationError: a profile of the person cannot be used.
+    """
     station = process("station").named(configuration.operator)
     return MasterService(bus, _device(bus, clock, configuration), Seat(bus, station))
 
@@ -55,7 +60,7 @@ def _device(bus: Bus, clock: Clock, configuration: Configuration) -> Device:
 
 def _sources(led: Led) -> Sequence[Source]:
     """Whose hands count, of all that the page reads."""
-    profiles = Profiles()
+    profiles = Profiles(load_profiles(led.profile))
     match led:
         case Keyboard():
             return (Keys(),)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import codecs
-import re
 from pathlib import Path
 from typing import Annotated
 
@@ -14,14 +12,9 @@ from services.process import endpoint
 from services.process.exceptions import BadEndpoint, ConfigurationError
 from services.process.files import write_whole
 from services.process.master_devices import MasterDevice, Page
-from services.process.misfit import told
 from services.process.processes import NOBODY_IN_PARTICULAR
 from services.process.section import Positive, Section
-
-LARGEST = 1 << 20
-"""Of a configuration file [byte]; more is some other file."""
-
-_BYTE = re.compile(r"\(byte (\d+)\)")
+from services.process.written import read
 
 Port = Annotated[int, msgspec.Meta(ge=1, le=65535)]
 
@@ -165,49 +158,15 @@ class Configuration(Section, frozen=True):
 
 
 def load(path: Path) -> Configuration:
-    """Read a configuration file: TOML, or JSON where its name ends so; in UTF-8 or UTF-16, whoever wrote it.
+    """Read a configuration file: TOML, or JSON where its name ends so.
 
     Raises:
         ConfigurationError: it is not there, cannot be parsed, or has a wrong key, type or value; says which.
     """
-    text = _text(path)
     try:
-        if path.suffix == ".json":
-            return msgspec.json.decode(text, type=Configuration)
-        return msgspec.toml.decode(text, type=Configuration)
+        return read(path, Configuration, "configuration")
     except BadEndpoint as error:
         raise ConfigurationError(path, str(error)) from None
-    except RecursionError:
-        raise ConfigurationError(path, "it is nested too deeply for a configuration") from None
-    except msgspec.ValidationError as error:
-        raise ConfigurationError(path, told(error, Configuration)) from None
-    except msgspec.DecodeError as error:
-        raise ConfigurationError(path, _BYTE.sub(lambda m: _place(text, int(m[1])), str(error))) from None
-
-
-def _text(path: Path) -> str:
-    """The file's text, its lines ended as everywhere."""
-    try:
-        if path.exists() and not path.is_file():
-            raise ConfigurationError(path, f"it is a {'folder' if path.is_dir() else 'pipe or device'}; name a file")
-        if path.stat().st_size > LARGEST:
-            raise ConfigurationError(path, f"it is larger than {LARGEST >> 20} MiB: no configuration")
-        content = path.read_bytes()
-    except OSError as error:
-        raise ConfigurationError(path, error.strerror or str(error)) from None
-    wide = content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
-    try:
-        text = content.decode("utf-16" if wide else "utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = content.count(b"\n", 0, error.start) + 1
-        reason = f"line {line} holds a byte (0x{content[error.start]:02x}) that is no UTF-8: save the file as UTF-8"
-        raise ConfigurationError(path, reason) from None
-    return text.replace("\r\n", "\n").replace("\r", "\n")
-
-
-def _place(text: str, byte: int) -> str:
-    """What the JSON parser calls by its byte, by its line, as people do."""
-    return f"(line {text.encode()[:byte].count(10) + 1})"
 
 
 def save(configuration: Configuration, path: Path) -> None:

@@ -43,12 +43,12 @@ class ServiceError(Exception):
 
 
 class ConfigurationError(ServiceError):
-    """A configuration file that cannot be used."""
+    """A configuration file, or another that a person writes, that cannot be used."""
 
-    def __init__(self, path: Path, reason: str) -> None:
+    def __init__(self, path: Path, reason: str, what: str = "configuration") -> None:
         self.path = path
         self.reason = reason
-        super().__init__(f"configuration {path}: {reason}")
+        super().__init__(f"{what} {path}: {reason}")
 
 
 class EnvironmentFault(ServiceError):

@@ -57,6 +57,15 @@ def state_folder() -> Path:
     return _folder("XDG_STATE_HOME", ".local/state")
 
 
+def settings_folder() -> Path:
+    """Where what a person has set belongs: `$XDG_CONFIG_HOME/retouch` or `~/.config/retouch`.
+
+    Raises:
+        FolderUnusable: it cannot be made or written.
+    """
+    return _folder("XDG_CONFIG_HOME", ".config")
+
+
 def _folder(variable: str, under_home: str) -> Path:
     configured = os.environ.get(variable)
     if configured and not Path(configured).is_absolute():

@@ -19,7 +19,7 @@ class _Led(Section, frozen=True):
         turn_growth: of the rotation while a key is held [rad/s].
         turn_decay: of the rotation without [rad/s].
         turn_reach: largest rotation about each axis [rad].
-        profile: name of a file in the folder of profiles; empty for the one that fits the device.
+        profile: name of the only profile that counts of a person's; empty for those that fit the devices.
     """
 
     growth: Positive = 0.12

@@ -17,6 +17,7 @@ _NAMED = re.compile(r"\^\(([\w|]+)\)\$")  # a pattern that is a list of texts
 _WORDS = {
     "`str`": "a text",
     "`int`": "a whole number",
+    "`int | null`": "a whole number",
     "`float`": "a number",
     "`bool`": "true or false",
     "`object`": "a section",
@@ -77,6 +78,8 @@ def _fields(kind: Any) -> list[inspect.Field]:
 def _choices(kind: Any) -> list[str]:
     if isinstance(kind, inspect.StrType) and (named := _NAMED.fullmatch(kind.pattern or "")):
         return named[1].split("|")
+    if isinstance(kind, inspect.LiteralType):
+        return [str(value) for value in kind.values]
     if isinstance(kind, inspect.EnumType):
         return [str(member.value) for member in kind.cls]
     if isinstance(kind, inspect.UnionType):

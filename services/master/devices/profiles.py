@@ -7,6 +7,10 @@ from collections.abc import Iterable
 from protocol.messages import Controller
 from services.process import default_profiles
 from services.process.profile import Profile
+from services.process.profile_files import OwnProfile
+
+REMEMBERED = 64
+"""Devices whose profiles are not looked for again; a stranger may invent more names."""
 
 
 class Profiles:
@@ -16,15 +20,25 @@ class Profiles:
         own: a person's; of several that fit a device the one counts that names it most closely.
     """
 
-    def __init__(self, own: Iterable[Profile] = ()) -> None:
-        self._own = sorted(own, key=lambda profile: len(profile.device), reverse=True)
+    def __init__(self, own: Iterable[OwnProfile] = ()) -> None:
+        self._own = sorted(own, key=lambda one: len(one.profile.device), reverse=True)
+        self._known: dict[tuple[str, str, bool], Profile] = {}
 
     def of(self, controller: Controller) -> Profile:
         """The profile of a device."""
-        for profile in self._own:
-            if profile.kind == controller.kind and profile.device.lower() in controller.name.lower():
-                return profile
-        return _default(controller)
+        device = (controller.kind, controller.name, controller.standard)
+        if device not in self._known:
+            if len(self._known) >= REMEMBERED:
+                self._known.clear()
+            self._known[device] = self._found(controller)
+        return self._known[device]
+
+    def _found(self, controller: Controller) -> Profile:
+        default = _default(controller)
+        for one in self._own:
+            if one.profile.kind == controller.kind and one.profile.device.lower() in controller.name.lower():
+                return one.over(default)
+        return default
 
 
 def _default(controller: Controller) -> Profile:

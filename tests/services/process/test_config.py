@@ -6,9 +6,10 @@ import pytest
 
 from services.cli import parser
 from services.commands.settings import configuration
-from services.process.config import LARGEST, Configuration, load, save
+from services.process.config import Configuration, load, save
 from services.process.exceptions import ConfigurationError
 from services.process.master_devices import Keyboard, Page, Scripted
+from services.process.written import LARGEST
 from sim.exceptions import UnknownVariant
 from sim.tasks import SCENES
 

@@ -5,7 +5,7 @@ import os
 import pytest
 
 from services.process.exceptions import FolderUnusable
-from services.process.files import data_folder, state_folder, write_whole
+from services.process.files import data_folder, settings_folder, state_folder, write_whole
 
 
 def test_what_is_written_is_all_there_and_nothing_is_left_beside(tmp_path):
@@ -45,7 +45,9 @@ def test_what_is_no_file_is_not_replaced_by_one(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("folder", "variable"), [(data_folder, "XDG_DATA_HOME"), (state_folder, "XDG_STATE_HOME")], ids=["data", "state"]
+    ("folder", "variable"),
+    [(data_folder, "XDG_DATA_HOME"), (state_folder, "XDG_STATE_HOME"), (settings_folder, "XDG_CONFIG_HOME")],
+    ids=["data", "state", "settings"],
 )
 class TestFolders:
     """Where a user's files belong."""

@@ -1,14 +1,16 @@
 """Gamepads and 3-D mice: what each part leads, by one convention."""
 
+import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from protocol.messages import Controller, OperatorInput
 from services.master.devices.controllers import Controllers, hand, other_handed
-from services.master.devices.profiles import Profiles
+from services.master.devices.profiles import REMEMBERED, Profiles
 from services.process import default_profiles
 from services.process.profile import Buttons, Profile, Way, Ways
+from services.process.profile_files import OwnProfile
 
 STRAIGHT = {"dead_zone": 0.0, "expo": 0.0}
 shares = st.floats(0.0, 1.0)
@@ -105,13 +107,30 @@ def test_of_several_pads_each_has_its_hand_by_its_number():
     assert set(Controllers("spacemouse", Profiles()).look(operator)) == {"spacemouse 2"}
 
 
+def own(**said):
+    return OwnProfile("mine", msgspec.convert({"kind": "gamepad", **said}, Profile), {"kind": "gamepad", **said})
+
+
 def test_the_profile_that_names_a_device_most_closely_goes_before_one_for_all_and_before_none():
-    anybody = Profile("gamepad", scale=2.0)
-    precise = Profile("gamepad", device="xbox 360", scale=3.0)
-    profiles = Profiles((anybody, precise))
-    assert profiles.of(Controller("gamepad", name="Microsoft Xbox 360 pad")) is precise
-    assert profiles.of(Controller("gamepad", name="Another")) is anybody
+    profiles = Profiles((own(scale=2.0), own(device="xbox 360", scale=3.0)))
+    assert profiles.of(Controller("gamepad", name="Microsoft Xbox 360 pad")).scale == 3.0
+    assert profiles.of(Controller("gamepad", name="Another")).scale == 2.0
     assert profiles.of(Controller("spacemouse")) is default_profiles.SPACE_MOUSE
     assert Profiles().of(Controller("gamepad", standard=True)) is default_profiles.STANDARD_GAMEPAD
     assert Profiles().of(Controller("gamepad")) is default_profiles.OTHER_GAMEPAD
     assert Profiles().of(Controller("pointer")) is default_profiles.POINTER
+
+
+def test_what_a_profile_does_not_say_stays_as_it_is_without_one():
+    mine = Profiles((own(dead_zone=0.3, ways={"x": {"axis": 3}}),))
+    found = mine.of(Controller("gamepad", standard=True))
+    default = default_profiles.STANDARD_GAMEPAD
+    assert (found.dead_zone, found.expo, found.buttons) == (0.3, default.expo, default.buttons)
+    assert (found.ways.x, found.ways.y) == (Way(axis=3), default.ways.y)
+
+
+def test_of_more_devices_than_are_remembered_each_has_its_profile():
+    profiles = Profiles((own(device="pad 70", scale=3.0),))
+    for number in range(2 * REMEMBERED):
+        name = f"pad {number}"
+        assert profiles.of(Controller("gamepad", name=name)).scale == (3.0 if number == 70 else 1.0)
