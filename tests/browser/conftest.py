@@ -48,7 +48,7 @@ class Tab:
         page: to open it in.
         url: of the page.
         seat: by which the station knows the tab again; its own where there is none.
-        script: run in the page before any other.
+        script: run in the page before any other; the tour was seen already, where it says nothing else.
     """
 
     def __init__(self, page, url, seat=None, script=""):
@@ -59,7 +59,8 @@ class Tab:
         self.page.on("pageerror", lambda error: self.faults.append(str(error)))
         self.page.on("request", lambda request: self.requests.append(request.url))
         seated = f"sessionStorage.setItem('retouch-seat', '{seat}');" if seat else ""
-        self.page.add_init_script(f"if (window === window.top) {{ {seated} {script} }}")
+        toured = "localStorage.setItem('retouch-tour', 'seen');"
+        self.page.add_init_script(f"if (window === window.top) {{ {toured} {seated} {script} }}")
         self.page.goto(url)
         self.page.wait_for_selector("body:not([data-link=offline])")
 

@@ -73,7 +73,7 @@ def working_view() -> PageView:
             refinements_allowed=10,
             updates=1,
             updates_allowed=8,
-            actions=("finish", "undo"),
+            actions=("finish", "teach"),
         ),
         robot=messages.RobotState(
             joint_names=CONTROLLED_JOINTS,

@@ -184,7 +184,7 @@ def test_the_pad_of_the_device_that_is_taken_into_use_comes_forward(tab, calm_st
     tab.wait(".device-pad[data-pad-of=keyboard]")
     feed.view = replace(feed.view, master=MasterState(device="gamepad"))
     tab.wait(".device-pad[data-pad-of=gamepad]")
-    tab.wait(".device-active:has-text('In use: gamepad')")
+    tab.wait("[data-value=device-name]:text-is('gamepad')")
 
 
 def test_a_tab_that_was_clicked_leaves_space_to_finish(tab, pressed):

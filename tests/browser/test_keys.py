@@ -70,7 +70,7 @@ def test_a_key_that_was_held_while_the_browser_hung_holds_the_robot_and_says_so(
     page, _ = station
     hand.hold("KeyE")
     tab.page.evaluate(STALL)
-    tab.wait("body[data-let-go] .light[data-light=hold] .light-word:text-is('Hold')")
+    tab.wait("body[data-let-go] .light[data-light=hold] .light-word:text-is('Paused')")
     tab.wait("[data-key=KeyE][data-held]")
     tab.wait(".keys-let-go:has-text('Let go of all keys')")
     assert not page.take_input().focused
@@ -126,30 +126,30 @@ def test_keys_without_a_place_are_found_by_what_is_printed_on_them(open_seated, 
 
 
 def test_enter_presses_the_button_that_has_the_focus(tab, pressed):
-    tab.page.focus("[data-action=undo]")
+    tab.page.focus("[data-action=teach]")
     tab.page.keyboard.press("Enter")
-    assert pressed() == ["undo"]
+    assert pressed() == ["teach"]
 
 
 def test_space_is_for_finish_except_where_a_button_has_the_focus(tab, pressed):
-    tab.page.focus("[data-action=undo]")
+    tab.page.focus("[data-action=teach]")
     tab.page.keyboard.press("Space")
-    assert pressed() == ["undo"]
+    assert pressed() == ["teach"]
     tab.page.evaluate("document.activeElement.blur()")
     tab.page.keyboard.press("Space")
     assert pressed() == ["finish"]
 
 
 def test_a_button_that_was_clicked_leaves_space_to_finish(tab, pressed):
-    tab.page.click("[data-action=undo]")
-    assert pressed() == ["undo"]
+    tab.page.click("[data-action=teach]")
+    assert pressed() == ["teach"]
     tab.page.keyboard.press("Space")
     assert pressed() == ["finish"]
 
 
 def test_a_key_that_is_held_presses_a_button_once(tab, pressed):
     taken = []
-    tab.page.focus("[data-action=undo]")
+    tab.page.focus("[data-action=teach]")
     for _ in range(4):
         tab.page.keyboard.down("Enter")
     tab.page.keyboard.up("Enter")
@@ -157,7 +157,7 @@ def test_a_key_that_is_held_presses_a_button_once(tab, pressed):
     tab.page.keyboard.press("Space")
     while "finish" not in taken:
         taken += pressed()
-    assert taken == ["undo", "finish"]
+    assert taken == ["teach", "finish"]
 
 
 def test_only_keys_that_steer_are_taken_from_the_browser(tab):

@@ -114,8 +114,8 @@ def test_a_tab_finds_its_seat_again_after_a_reload_and_resumes_nothing(tab, seco
     second.page.reload()
     tab.wait("body[data-link=armed]")
     second.wait("body[data-link=view-only]")
-    tab.page.click("[data-action=undo]")
-    assert pressed() == ["undo"]
+    tab.page.click("[data-action=teach]")
+    assert pressed() == ["teach"]
 
 
 def test_a_stranger_s_page_cannot_open_the_link(browser, station):

@@ -7,6 +7,7 @@ import math
 from services.station.page.standing import Standing
 from services.station.page.values import Values
 from services.station.page.view import Shown
+from services.station.words.table import say
 
 
 def commanding(shown: Shown, standing: Standing) -> Values:
@@ -17,13 +18,14 @@ def commanding(shown: Shown, standing: Standing) -> Values:
     left_s = max(0.0, authority.asked_left - shown.elapsed_s) if authority is not None else 0.0
     who = authority.asked_by if authority is not None else ""
     return {
-        "chip-authority-text": "You command" if mine else f"{_who(shown)} commands",
-        "chip-authority@data-tone": "good" if mine else "warn",
+        "who-text": say("who.you") if mine else _who(shown),
+        "who@data-tone": "good" if mine else "warn",
         "robot-asked@data-open": asked,
-        "robot-asked-text": f"{who} asks for the robot and gets it in {math.ceil(left_s)} s." if asked else "",
+        "robot-asked-text": say("who.asked", name=who, seconds=math.ceil(left_s)) if asked else "",
     }
 
 
 def _who(shown: Shown) -> str:
     authority = shown.view.authority
-    return (authority.operator or authority.holder or "nobody") if authority is not None else "nobody"
+    holder = (authority.operator or authority.holder) if authority is not None else ""
+    return say("who.other", name=holder) if holder else say("who.nobody")

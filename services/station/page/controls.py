@@ -6,44 +6,46 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from protocol.keys import PUSH_KEYS, TURN_KEYS, Direction
-from protocol.messages import SafetyState
+from protocol.messages import Light, SafetyState, TeachingState
 from services.station.page.standing import Standing
 from services.station.page.values import Values
 from services.station.page.view import Shown
+from services.station.words.table import say
 
 
 @dataclass(frozen=True)
 class Button:
-    """A button of the teaching workflow.
+    """A button of the teaching workflow; its words are in the sections "action" and "hint" of the table.
 
     Attributes:
         action: its name in `TeachingState.actions`.
-        label: what a person reads.
-        hint: what it does.
         symbol: in assets/symbols.svg.
-        question: that is answered with a reason before it is pressed; empty where none is needed.
+        confirmed: it takes something away, so that a second press has to confirm it.
+        reasoned: it takes something from somebody, who is told the reason, which is asked for before.
     """
 
     action: str
-    label: str
-    hint: str
     symbol: str
-    question: str = ""
+    confirmed: bool = False
+    reasoned: bool = False
 
 
 BUTTONS = (
-    Button("execute", "Execute", "the robot alone", "play"),
-    Button("refine", "Refine", "you correct it", "pen"),
-    Button("go_on", "Go on", "with this motion", "next"),
-    Button("finish", "Finish", "Space", "flag"),
-    Button("teach", "Teach this", "what you showed", "check"),
-    Button("next", "Next object", "a new place", "place"),
-    Button("undo", "Undo", "the last update", "undo"),
-    Button("end", "End", "this run", "end"),
-    Button("ask", "Ask", "for the robot", "hand"),
-    Button("take_over", "Take over", "and say why", "hand", "Why do you take the robot over?"),
+    Button("execute", "play"),
+    Button("refine", "pen"),
+    Button("go_on", "next"),
+    Button("finish", "flag"),
+    Button("teach", "check"),
+    Button("next", "place"),
+    Button("undo", "undo", confirmed=True),
+    Button("end", "end", confirmed=True),
+    Button("ask", "hand"),
+    Button("take_over", "hand", reasoned=True),
 )
-"""In order; those for the authority are there only while somebody else may have it."""
+"""In order."""
+
+_FIRST = ("go_on", "finish", "next", "ask")
+"""What is done first where the workflow recommends nothing."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +56,7 @@ class Key:
         code: its place, as `KeyboardEvent.code` names it.
         cap: what is printed there on a US keyboard; the page's script shows what is printed on this person's.
         axis: of the base frame.
-        direction: in which it pushes or turns.
+        direction: in which it pushes or turns, as the section "direction" of the table of words names it.
     """
 
     code: str
@@ -63,37 +65,37 @@ class Key:
     direction: str
 
 
-_PUSHES = (("forward", "left", "up"), ("back", "right", "down"))
-_TURNS = (("roll right", "tilt down", "turn left"), ("roll left", "tilt up", "turn right"))
-"""Directions along the three axes, then against them: as the keys lie under the hand."""
-
-
-def _keyboard(table: Mapping[str, Direction], directions: tuple[tuple[str, ...], ...]) -> tuple[tuple[Key, ...], ...]:
+def _keyboard(table: Mapping[str, Direction], kind: str) -> tuple[tuple[Key, ...], ...]:
     code_of = {way: code for code, way in table.items()}
-    return tuple(
-        tuple(_key(code_of[axis, sign], axis, sign, direction) for axis, direction in enumerate(row))
-        for sign, row in zip((+1, -1), directions, strict=True)
-    )
+    return tuple(tuple(_key(code_of[axis, sign], axis, sign, kind) for axis in range(3)) for sign in (+1, -1))
 
 
-def _key(code: str, axis: int, sign: int, direction: str) -> Key:
-    return Key(code, code[-1], ("+" if sign > 0 else "\N{MINUS SIGN}") + "xyz"[axis], direction)
+def _key(code: str, axis: int, sign: int, kind: str) -> Key:
+    mark, name = ("+", "plus") if sign > 0 else ("\N{MINUS SIGN}", "minus")
+    return Key(code, code[-1], f"{mark}{'xyz'[axis]}", f"{kind}_{'xyz'[axis]}_{name}")
 
 
-KEYBOARDS = (_keyboard(PUSH_KEYS, _PUSHES), _keyboard(TURN_KEYS, _TURNS))
-"""Rows of the keys that push, and to their right of those that turn."""
+KEYBOARDS = (_keyboard(PUSH_KEYS, "push"), _keyboard(TURN_KEYS, "turn"))
+"""Rows of the keys that push, and to their right of those that turn: those along the three axes over those against."""
 
 
 def actions(shown: Shown) -> Values:
-    """What the operator may do now, and what is recommended; the rest is there and cannot be pressed."""
+    """What the operator may do now, and the one thing to do first; the rest is not there."""
     teaching = shown.view.teaching
-    allowed = frozenset() if teaching is None else frozenset(teaching.actions)
-    first = "" if teaching is None else teaching.recommended
+    allowed = () if teaching is None else teaching.actions
+    first = "" if teaching is None else _first(teaching)
     values: dict[str, str | bool] = {}
     for button in BUTTONS:
         values[f"action-{button.action}@disabled"] = button.action not in allowed
         values[f"action-{button.action}@data-first"] = "yes" if button.action == first else "no"
     return values
+
+
+def _first(teaching: TeachingState) -> str:
+    """The button that stands out; none while there is nothing to do but to watch."""
+    if teaching.recommended or teaching.light is Light.RED:
+        return teaching.recommended
+    return next((action for action in _FIRST if action in teaching.actions), "")
 
 
 def emergency_stop(shown: Shown, standing: Standing) -> Values:
@@ -102,12 +104,16 @@ def emergency_stop(shown: Shown, standing: Standing) -> Values:
     latched = safety is not None and safety.emergency_stop
     return {
         "stop@data-stop": _stop(standing.stop_pressed, safety),
-        "stop-unconfirmed": "It is latched, but the arm still moves." if latched else "The robot has not said so yet.",
+        "stop-unconfirmed": say("stop.moving" if latched else "stop.unsaid"),
         "stop-reason": "" if safety is None else _because(safety),
         "stop-reason@data-at": "" if safety is None else safety.at,
-        "stop-released": "" if safety is None or not safety.released_by else f"released by {safety.released_by}",
+        "stop-released": _released(safety),
         "stop-released@data-at": "" if safety is None or not safety.released_by else safety.at,
     }
+
+
+def _released(safety: SafetyState | None) -> str:
+    return "" if safety is None or not safety.released_by else say("stop.released", name=safety.released_by)
 
 
 def is_confirmed(safety: SafetyState | None) -> bool:
@@ -124,4 +130,6 @@ def _stop(pressed: bool, safety: SafetyState | None) -> str:
 
 
 def _because(safety: SafetyState) -> str:
-    return ": ".join(part for part in (safety.by, safety.reason) if part)
+    if not safety.reason:
+        return safety.by
+    return say("stop.reason", name=safety.by or say("stop.somebody"), reason=safety.reason)

@@ -3,66 +3,107 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Mapping
 from html import escape
 from pathlib import Path
 from string import Template
 
+import msgspec
+
 from protocol.messages import SHORTEST_REASON
 from services.station.page.controls import BUTTONS, KEYBOARDS, Button, Key
 from services.station.page.devices import PADS
-from services.station.page.panels import CHIPS, COUNTERS, CRITERIA
+from services.station.page.health import FIGURES
+from services.station.page.panels import COUNTERS, CRITERIA
+from services.station.words.table import say, speech
 
 HERE = Path(__file__).parent
 ASSETS = HERE / "assets"
+PARTS = HERE / "parts"
 
 _SHEETS = (
     "base",
     "light",
+    "layout",
     "header",
-    "cameras",
     "scene",
-    "status",
-    "keys",
-    "devices",
+    "cameras",
+    "timeline",
+    "guide",
     "actions",
+    "verdict",
+    "history",
+    "pad",
+    "devices",
     "stop",
     "banners",
     "roles",
+    "tour",
     "compact",
+    "narrow",
+    "contrast",
 )
 _SYMBOLS = {"retouch": "brand", "view": "", "red": "lamp", "amber": "lamp", "hold": "lamp", "green": "lamp", "stop": ""}
-"""Those that stand in page.html, and the class by which the style sheet sizes them."""
+"""Those that stand in the parts, and the class by which the style sheet sizes them."""
 
-_CAMERAS = (("head", "Head camera"), ("wrist", "Wrist camera"))
+_CAMERAS = ("head", "wrist")
+_LIVE = "live"
+_SCRIPTS = ("script", "tour")
+"""Sections of the words that the scripts say."""
+
+
+class _Html(Template):
+    """A part of the page: "$name" is HTML that was made, "${section.name}" a word of the table."""
+
+    braceidpattern = r"[a-z][a-z0-9_]*\.[a-z0-9_]+"
 
 
 def document(robot: str, description: str) -> str:
-    """The page's HTML.
+    """The page's HTML, in the language that the process speaks.
 
     Args:
         robot: its name.
         description: address of what the live view is told once.
     """
-    parts = {
+    made = {
+        "language": escape(speech.language),
+        "title": escape(say("page.title", robot=robot)),
         "robot": escape(robot),
         "description": escape(description),
+        "version": version(),
         "sheets": "\n".join(f'    <link rel="stylesheet" href="/assets/css/{name}.css" />' for name in _SHEETS),
-        "chips": "".join(_chip(name, title) for name, title in CHIPS),
-        "cameras": "".join(_camera(name, title) for name, title in _CAMERAS),
-        "counters": "".join(_counter(name, title) for name, title in COUNTERS),
-        "criteria": "".join(_criterion(name, title) for name, title in CRITERIA),
-        "devices": _devices(),
-        "actions": "".join(_button(button) for button in BUTTONS),
+        "words": _for_scripts(),
         "shortest": str(SHORTEST_REASON),
+        "figures": "".join(_figure(name) for name in FIGURES),
+        "cameras": "".join(_camera(name) for name in _CAMERAS),
+        "swap_live": _swap(_LIVE),
+        "counters": "".join(_counter(name) for name in COUNTERS),
+        "criteria": "".join(_criterion(name) for name in CRITERIA),
+        "pads": "".join(_pad(name) for name in PADS),
+        "keyboards": "".join(_keyboard(rows) for rows in KEYBOARDS),
+        "actions": "".join(_button(number, button) for number, button in enumerate(BUTTONS)),
         **{f"icon_{name}": _icon(name, size) for name, size in _SYMBOLS.items()},
+        **{name: escape(words) for name, words in speech.words.items()},
     }
-    return Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(parts, version=version())
+    parts = {part.stem: _filled(part, made) for part in PARTS.glob("*.html")}
+    return _filled(HERE / "page.html", {**made, **parts})
 
 
 def version() -> str:
     """Changes with the page's files: a tab that was loaded from others says that it is to be loaded anew."""
-    files = [HERE / "page.html", HERE / "devices.html", *sorted(path for path in ASSETS.rglob("*") if path.is_file())]
+    assets = sorted(path for path in ASSETS.rglob("*") if path.is_file())
+    files = [HERE / "page.html", *sorted(PARTS.glob("*.html")), *assets]
     return hashlib.sha256(b"".join(path.read_bytes() for path in files)).hexdigest()[:12]
+
+
+def _filled(file: Path, made: Mapping[str, str]) -> str:
+    return _Html(file.read_text(encoding="utf-8").rstrip("\n")).substitute(made)
+
+
+def _for_scripts() -> str:
+    """What the scripts say, as data that no browser runs: nothing in it ends the element that holds it."""
+    words = {key: words for key, words in speech.words.items() if key.partition(".")[0] in _SCRIPTS}
+    return msgspec.json.encode(words).decode().replace("<", "\\u003c")
 
 
 def _icon(name: str, size: str = "") -> str:
@@ -73,46 +114,56 @@ def _icon(name: str, size: str = "") -> str:
     )
 
 
-def _chip(name: str, title: str) -> str:
+def _say(key: str, **facts: object) -> str:
+    return escape(say(key, **facts))
+
+
+def _figure(name: str) -> str:
     return (
-        f'<div class="chip" data-chip="{name}" data-value="chip-{name}" data-tone="none">'
-        f'<div class="chip-title">{title}</div><div class="chip-value" data-value="chip-{name}-text">none</div></div>'
+        f'<div class="figure" data-figure="{name}"><dt>{_say(f"figure.{name}")}</dt>'
+        f'<dd data-value="figure-{name}" data-tone="none">{_say("figure.none")}</dd></div>'
     )
 
 
-def _camera(name: str, title: str) -> str:
+def _camera(name: str) -> str:
     return (
-        f'<div class="panel camera" data-camera="{name}" data-state="waiting"><canvas class="picture"></canvas>'
-        f'<div class="camera-empty">No picture yet</div>'
-        f'<div class="caption"><span>{title}</span><span class="camera-age"></span></div></div>'
+        f'<div class="stage camera" data-stage="{name}" data-camera="{name}" data-state="waiting">'
+        f'<canvas class="picture" role="img" aria-label="{_say(f"scene.{name}")}"></canvas>'
+        f'<div class="camera-empty">{_say("scene.empty")}</div>'
+        f'<div class="caption"><span>{_say(f"scene.{name}")}</span><span class="camera-age"></span></div>'
+        f"{_swap(name)}</div>"
     )
 
 
-def _counter(name: str, title: str) -> str:
+def _swap(view: str) -> str:
+    """Covers an inset: pressed, the inset and the large view change places."""
+    label = _say("scene.large", view=say(f"scene.{view}"))
+    return f'<button type="button" class="swap" data-swap="{view}" aria-label="{label}"></button>'
+
+
+def _counter(name: str) -> str:
     return (
-        f'<div class="counter" data-counter="{name}"><div class="counter-title">{title}</div>'
-        f'<div class="counter-value" data-value="{name}">none</div>'
+        f'<div class="counter" data-counter="{name}"><div class="counter-title">{_say(f"history.{name}")}</div>'
+        f'<div class="counter-value" data-value="{name}">{_say("figure.none")}</div>'
         f'<div class="counter-bar" data-value="{name}-bar"></div></div>'
     )
 
 
-def _criterion(name: str, title: str) -> str:
+def _criterion(name: str) -> str:
     symbols = "".join(_icon(symbol) for symbol in ("check", "cross", "dash"))
     return (
         f'<div class="criterion" data-value="{name}" data-tone="none">{symbols}'
-        f'<div class="criterion-title">{title}</div>'
+        f'<div class="criterion-title">{_say(f"verdict.{name}")}</div>'
         f'<div class="criterion-evidence" data-value="{name}-evidence"></div></div>'
     )
 
 
-def _devices() -> str:
-    """The panel of the devices."""
-    tabs = "".join(
-        f'<button type="button" class="device-tab" role="tab" data-pad-for="{name}">{words}</button>'
-        for name, words in PADS
+def _pad(name: str) -> str:
+    """The tab that brings a device's pad forward."""
+    return (
+        f'<button type="button" class="device-tab" role="tab" id="tab-{name}" aria-controls="pad-{name}"'
+        f' data-pad-for="{name}">{_say(f"pad.{name}")}</button>'
     )
-    keyboards = "".join(_keyboard(rows) for rows in KEYBOARDS)
-    return Template((HERE / "devices.html").read_text(encoding="utf-8")).substitute(tabs=tabs, keyboards=keyboards)
 
 
 def _keyboard(rows: tuple[tuple[Key, ...], ...]) -> str:
@@ -123,14 +174,21 @@ def _key(key: Key) -> str:
     return (
         f'<div class="key" data-key="{key.code}" data-cap="{key.cap}"><div class="key-cap">{key.cap}</div>'
         f'<div class="key-axis" data-axis="{key.axis[-1]}">{key.axis}</div>'
-        f'<div class="key-direction">{key.direction}</div></div>'
+        f'<div class="key-direction">{_say(f"direction.{key.direction}")}</div></div>'
     )
 
 
-def _button(button: Button) -> str:
-    asks = f'data-question="{button.question}" ' if button.question else ""
+def _button(number: int, button: Button) -> str:
+    asks = (
+        f' data-confirm="{_say(f"confirm.{button.action}")}" data-confirm-yes="{_say(f"confirm.{button.action}_yes")}"'
+        if button.confirmed
+        else ""
+    )
+    if button.reasoned:
+        asks = f' data-question="{_say(f"reason.{button.action}")}"'
     return (
-        f'<button type="button" class="action" data-action="{button.action}" data-value="action-{button.action}" '
-        f'{asks}disabled>{_icon(button.symbol)}<span class="action-label">{button.label}</span>'
-        f'<span class="action-hint">{button.hint}</span></button>'
+        f'<button type="button" class="action" data-action="{button.action}" data-order="{number}"'
+        f' data-value="action-{button.action}"{asks} disabled>{_icon(button.symbol)}'
+        f'<span class="action-label">{_say(f"action.{button.action}")}</span>'
+        f'<span class="action-hint">{_say(f"hint.{button.action}")}</span></button>'
     )

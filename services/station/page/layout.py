@@ -5,7 +5,8 @@ from __future__ import annotations
 from services.station.page.commanding import commanding
 from services.station.page.controls import actions, emergency_stop
 from services.station.page.devices import devices
-from services.station.page.panels import counters, header, scene, traffic_light, verdict
+from services.station.page.health import figures, health
+from services.station.page.panels import counters, progress, scene, traffic_light, verdict
 from services.station.page.seating import seating
 from services.station.page.standing import Standing
 from services.station.page.timeline import timeline
@@ -21,13 +22,15 @@ def values(shown: Shown, standing: Standing) -> Values:
         standing: of the tab.
     """
     return {
-        **header(shown),
         **commanding(shown, standing),
+        **health(shown),
+        **figures(shown, standing),
         **scene(shown),
         **traffic_light(shown, standing),
         **counters(shown),
         **verdict(shown),
         **actions(shown),
+        **progress(shown),
         **timeline(shown),
         **emergency_stop(shown, standing),
         **seating(standing),

@@ -45,6 +45,8 @@ class _News(msgspec.Struct, frozen=True):
         let_go: its keys count once they were let go.
         accepted: numbers of presses that were passed on.
         refused: numbers of presses that were not.
+        echo: the tab's clock when it sent its newest state [ms], and how long that has been here [ms]: what else has
+            passed by then is the link's.
         values: to show, as far as they are new.
         drawing: parts of what the live view draws, as far as they are new.
     """
@@ -54,6 +56,7 @@ class _News(msgspec.Struct, frozen=True):
     let_go: bool
     accepted: tuple[int, ...]
     refused: tuple[int, ...]
+    echo: tuple[float, float]
     values: Values
     drawing: Mapping[str, Any]
 
@@ -64,12 +67,16 @@ class _Tab:
     Args:
         number: no other tab of this process has it.
         socket: accepted.
+
+    Attributes:
+        heard: the tab's clock when it sent its newest state [ms], and ours when that came [ns].
     """
 
     def __init__(self, number: int, socket: WebSocket) -> None:
         self.number = number
         self.socket = socket
         self.drawn = (0, 0, 0)
+        self.heard = (0.0, 0)
         self.values: Sent[str | bool] = Sent()
         self.drawing: Sent[Any] = Sent()
         self.moment_due_ns = 0
@@ -137,9 +144,11 @@ class Link:
     async def _receive(self, tab: _Tab) -> None:
         while (frame := await tab.socket.receive())["type"] != "websocket.disconnect":
             payload = frame.get("text") or frame.get("bytes") or b""
-            message = self._desk.receive(tab.number, payload, self._clock.now_ns())
+            now_ns = self._clock.now_ns()
+            message = self._desk.receive(tab.number, payload, now_ns)
             if isinstance(message, Held):
                 tab.drawn = message.drawn
+                tab.heard = (message.stamp_ms, now_ns)
 
     async def _send(self, tab: _Tab) -> None:
         # A tab that goes while something is sent is no fault: the receiving side notices and ends this task.
@@ -163,14 +172,17 @@ class Link:
         await tab.send_moment(values, shown.robot_age_s)
 
     def _news(self, tab: _Tab) -> str:
-        standing = self._desk.standing(tab.number, self._clock.now_ns())
+        now_ns = self._clock.now_ns()
+        standing = self._desk.standing(tab.number, now_ns)
         shown = self._board.newest()
+        stamp_ms, heard_ns = tab.heard
         news = _News(
             self._version,
             standing.armed,
             standing.let_go,
             standing.accepted,
             standing.refused,
+            (stamp_ms, (now_ns - heard_ns) / 1e6),
             tab.values.news(values(shown, standing)),
             tab.drawing.news(shown.view.drawing.parts()),
         )

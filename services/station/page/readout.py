@@ -4,29 +4,52 @@ from __future__ import annotations
 
 import math
 
-from protocol.messages import Light, Verdict
+from protocol.messages import Prediction, Verdict
 from services.station.page.view import Shown
+from services.station.words.table import say, speech
 
 STALE_AFTER_S = 0.3
 """Age of the robot's state above which the page says so in red."""
-
-LIGHT_WORDS = {Light.RED: "Watch", Light.AMBER: "Wait", Light.HOLD: "Hold", Light.GREEN: "Act"}
 
 
 def span(seconds: float) -> str:
     """A time span in three characters and a unit; "none" where it is not finite or negative."""
     if not math.isfinite(seconds) or seconds < 0.0:
-        return "none"
+        return say("duration.none")
     if seconds < 0.9995:
-        return f"{seconds * 1e3:.0f} ms"
+        return say("duration.milliseconds", number=f"{seconds * 1e3:.0f}")
     if seconds < 60.0:
-        return f"{seconds:.1f} s"
-    return f"{seconds / 60.0:.0f} min"
+        return say("duration.seconds", number=f"{seconds:.1f}")
+    return say("duration.minutes", number=f"{seconds / 60.0:.0f}")
 
 
 def length(metres: float) -> str:
     """A distance in millimetres; "none" where it is negative, which means that it is not known."""
-    return f"{metres * 1e3:.0f} mm" if metres >= 0.0 else "none"
+    return say("length.millimetres", number=f"{metres * 1e3:.0f}") if metres >= 0.0 else say("length.none")
+
+
+def certainty(prediction: Prediction) -> str:
+    """How much of a prediction is known, and which of several ways it takes."""
+    way = prediction.way
+    parts = [say("figure.known", share=_percent(prediction.known))]
+    if way.count > 1:
+        parts.append(say("figure.way", number=way.index + 1, count=way.count, share=_percent(way.probability)))
+    return ", ".join(parts)
+
+
+def limited(clamped: tuple[str, ...]) -> str:
+    """What the robot limits; empty where it limits nothing."""
+    return ", ".join(dict.fromkeys(_limit(what) for what in clamped))
+
+
+def _limit(what: str) -> str:
+    kind, _, place = what.partition(" ")
+    kind, known = kind.rstrip(":"), speech.section("limit")
+    return known[kind].format(place=place) if kind in known and kind != "other" else say("limit.other", what=what)
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.0f}"
 
 
 def is_stale(shown: Shown) -> bool:
@@ -44,10 +67,9 @@ def criteria(shown: Shown) -> tuple[tuple[bool | None, str], ...]:
     verdict = shown.view.verdict
     if verdict is None:
         return ((None, ""),) * 3
-    moved = max(abs(d) for d in verdict.object_displacement)
     return (
         (True if verdict.reached else _open_while_moving(shown), _miss(verdict)),
-        (not verdict.kicked_over, f"moved {length(moved)}, tilted {math.degrees(verdict.object_tilt):.0f}°"),
+        (not verdict.kicked_over, _moved(verdict)),
         (not verdict.collision, _contact(verdict)),
     )
 
@@ -56,10 +78,10 @@ def outcome(shown: Shown) -> tuple[bool | None, str]:
     """All three criteria in a word."""
     met = [good for good, _ in criteria(shown)]
     if False in met:
-        return False, "Failure"
+        return False, say("verdict.failure")
     if shown.view.verdict is None or not _has_moved(shown):
-        return None, "No verdict yet"
-    return (True, "Success") if None not in met else (None, "Under way")
+        return None, say("verdict.none")
+    return (True, say("verdict.success")) if None not in met else (None, say("verdict.under_way"))
 
 
 def _open_while_moving(shown: Shown) -> bool | None:
@@ -74,13 +96,19 @@ def _has_moved(shown: Shown) -> bool:
 
 
 def _miss(verdict: Verdict) -> str:
-    return f"{length(verdict.missed)} from the target" if verdict.missed >= 0.0 else ""
+    return say("verdict.missed", distance=length(verdict.missed)) if verdict.missed >= 0.0 else ""
+
+
+def _moved(verdict: Verdict) -> str:
+    moved = max(abs(d) for d in verdict.object_displacement)
+    return say("verdict.moved", distance=length(moved), angle=f"{math.degrees(verdict.object_tilt):.0f}")
 
 
 def _contact(verdict: Verdict) -> str:
     if not verdict.collision:
-        return "no contact"
+        return say("verdict.untouched")
+    force = f"{verdict.collision_force:.1f}"
     if verdict.collision_position is None:
-        return f"{verdict.collision_force:.1f} N"
-    place = ", ".join(f"{c:.2f}" for c in verdict.collision_position)
-    return f"{verdict.collision_force:.1f} N at {place}\N{NO-BREAK SPACE}m"
+        return say("verdict.force", force=force)
+    x, y, z = (f"{c * 1e3:.0f}".replace("-", "\N{MINUS SIGN}") for c in verdict.collision_position)
+    return say("verdict.force_at", force=force, x=x, y=y, z=z)

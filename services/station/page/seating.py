@@ -6,6 +6,7 @@ import math
 
 from services.station.page.standing import Standing
 from services.station.page.values import Values
+from services.station.words.table import say
 
 
 def seating(standing: Standing) -> Values:
@@ -14,24 +15,24 @@ def seating(standing: Standing) -> Values:
         "view-only@data-asking": standing.asking_s > 0.0,
         "view-only-text": _looking_on(standing),
         "asked@data-open": standing.asked_s > 0.0,
-        "asked-text": f"Another tab asks for the input and gets it in {math.ceil(standing.asked_s)} s.",
+        "asked-text": say("seat.asked", seconds=math.ceil(standing.asked_s)),
         "let-go": _not_counting(standing),
     }
 
 
 def _looking_on(standing: Standing) -> str:
     if standing.asking_s > 0.0:
-        return f"Asking for the input: without an answer it is here in {math.ceil(standing.asking_s)} s."
+        return say("seat.asking", seconds=math.ceil(standing.asking_s))
     if standing.kept:
-        return "Whoever has the input keeps it; here you can only stop."
-    return "The input is not here: you can only stop."
+        return say("seat.kept")
+    return say("seat.elsewhere")
 
 
 def _not_counting(standing: Standing) -> str:
     if not standing.armed or not standing.let_go:
         return ""
     if not standing.heard:
-        return "Your keys come too late: computer or link is busy."
+        return say("pad.unheard")
     if not standing.focused:
-        return "Click into the page: keys count only there."
-    return "Let go of all keys: then they count again."
+        return say("pad.unfocused")
+    return say("pad.let_go")

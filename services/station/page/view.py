@@ -30,6 +30,9 @@ from services.station.live_view.drawing import Drawing
 HOLD_SHOWN_NS = 600_000_000
 """For how long a hold that is over is still shown."""
 
+LIMIT_SHOWN_NS = 1_000_000_000
+"""For how long what was limited in one control period is still shown."""
+
 
 @dataclass(frozen=True)
 class Picture:
@@ -92,10 +95,12 @@ class Shown:
     Attributes:
         view: the newest.
         elapsed_s: since it was put up [s]: everything in it has aged by as much.
+        clamped: what the robot limited in the last moment, each a short word with the place.
     """
 
     view: PageView
     elapsed_s: float
+    clamped: tuple[str, ...] = ()
 
     @property
     def robot_age_s(self) -> float:
@@ -106,7 +111,7 @@ class Shown:
 class Board:
     """Where the service's thread hangs the newest view and the page's thread reads it.
 
-    A hold that comes and goes is shown for a moment longer, so that it can be read.
+    A hold that comes and goes, and what was limited, are shown for a moment longer, so that they can be read.
 
     Args:
         clock: by which views age.
@@ -115,17 +120,21 @@ class Board:
     def __init__(self, clock: Clock) -> None:
         self._clock = clock
         self._newest = (PageView(), clock.now_ns())
+        self._clamped: tuple[tuple[str, ...], int] = ((), 0)
         self._held: tuple[TeachingState, int] | None = None
 
     def put(self, view: PageView) -> None:
         """Replace the view; one assignment, so that no reader sees half of it."""
         now_ns = self._clock.now_ns()
+        if view.robot is not None and view.robot.clamped:
+            self._clamped = (view.robot.clamped, now_ns)
         self._newest = (replace(view, teaching=self._steady(view.teaching, now_ns)), now_ns)
 
     def newest(self) -> Shown:
         """The newest view and its age."""
-        view, put_ns = self._newest
-        return Shown(view, (self._clock.now_ns() - put_ns) / 1e9)
+        (view, put_ns), (clamped, clamped_ns) = self._newest, self._clamped
+        now_ns = self._clock.now_ns()
+        return Shown(view, (now_ns - put_ns) / 1e9, clamped if now_ns - clamped_ns < LIMIT_SHOWN_NS else ())
 
     def _steady(self, teaching: TeachingState | None, now_ns: int) -> TeachingState | None:
         if teaching is None:

@@ -28,16 +28,16 @@ def told(standing, *, mine=True, **changes):
 )
 def test_only_who_has_input_and_authority_is_told_to_command(mine, standing, words, tone):
     values = told(standing, mine=mine)
-    assert (values["chip-authority-text"], values["chip-authority@data-tone"]) == (words, tone)
+    assert (values["who-text"], values["who@data-tone"]) == (words, tone)
 
 
 def test_a_station_whose_person_gave_no_name_is_named():
-    assert told(LOOKING_ON, operator="")["chip-authority-text"] == "station-1 commands"
+    assert told(LOOKING_ON, operator="")["who-text"] == "station-1 commands"
 
 
 @pytest.mark.parametrize("authority", [None, AuthorityState(holder="", epoch=1, expires_in=0.0)])
 def test_where_nobody_commands_this_is_said(authority):
-    assert commanding(shown(authority=authority), SEATED)["chip-authority-text"] == "nobody commands"
+    assert commanding(shown(authority=authority), SEATED)["who-text"] == "Nobody commands"
 
 
 REQUEST = {"asked_by": "bob", "asked": 7, "asked_left": 6.2}

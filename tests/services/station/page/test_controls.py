@@ -6,7 +6,7 @@ import pytest
 from views import SEATED, shown, teaching
 
 from protocol.keys import PUSH_KEYS, TURN_KEYS
-from protocol.messages import SafetyState
+from protocol.messages import Light, SafetyState
 from services.station.page.controls import BUTTONS, KEYBOARDS, actions, emergency_stop
 from services.station.page.timeline import CONTROLS
 from services.station.workflow.state import Action
@@ -15,6 +15,11 @@ PRESSED = replace(SEATED, stop_pressed=True)
 LATCHED = SafetyState(emergency_stop=True, by="anna", reason="too fast", at="2026-11-25T10:00:05Z")
 STANDING = SafetyState(emergency_stop=True, by="anna", standing=True)
 RELEASED = SafetyState(emergency_stop=False, released_by="bert", at="2026-11-25T10:00:05Z", standing=True)
+
+
+def first(values):
+    """The actions that stand out."""
+    return [name.split("-")[1].split("@")[0] for name, value in values.items() if value == "yes"]
 
 
 def test_the_page_shows_the_very_keys_that_the_device_obeys():
@@ -45,8 +50,22 @@ def test_before_the_workflow_is_heard_no_button_can_be_pressed():
 
 def test_what_is_recommended_stands_out():
     values = actions(shown(teaching=teaching(actions=("execute", "refine"), recommended="refine")))
-    assert [name for name, value in values.items() if value == "yes"] == ["action-refine@data-first"]
-    assert "yes" not in actions(shown()).values()
+    assert first(values) == ["refine"]
+    assert first(actions(shown())) == []
+
+
+@pytest.mark.parametrize(
+    ("light", "offered", "expected"),
+    [
+        (Light.GREEN, ("finish",), ["finish"]),
+        (Light.HOLD, ("finish", "go_on"), ["go_on"]),
+        (Light.AMBER, ("ask", "take_over"), ["ask"]),
+        (Light.AMBER, ("next",), ["next"]),
+        (Light.RED, ("finish",), []),
+    ],
+)
+def test_where_the_workflow_recommends_nothing_one_thing_stands_out_but_where_one_watches(light, offered, expected):
+    assert first(actions(shown(teaching=teaching(light, actions=offered)))) == expected
 
 
 @pytest.mark.parametrize(
@@ -76,4 +95,4 @@ def test_who_stopped_and_why_and_when_is_told():
 
 def test_who_released_and_when_is_told():
     values = emergency_stop(shown(safety=RELEASED), SEATED)
-    assert (values["stop-released"], values["stop-released@data-at"]) == ("released by bert", RELEASED.at)
+    assert (values["stop-released"], values["stop-released@data-at"]) == ("Released by bert", RELEASED.at)

@@ -24,7 +24,11 @@ def test_a_name_stands_in_it_as_text():
 
 
 def test_nothing_in_it_is_run_or_styled_from_within():
-    assert not re.search(r"<script>|<style| style=| on[a-z]+=", PAGE)
+    assert not re.search(r"<style| style=| on[a-z]+=", PAGE)
+    assert re.findall(r"<script ([^>]*)>", PAGE) == [
+        'type="application/json" id="words"',
+        'type="module" src="/assets/js/station.js"',
+    ]
 
 
 def test_it_names_the_version_of_its_files():

@@ -1,17 +1,12 @@
-"""What the page tells: the light, the header, the live view, the verdict."""
+"""What the page tells: the light, the live view, how far a motion is, the verdict."""
 
 from dataclasses import replace
 
-import msgspec
 import pytest
-from views import SEATED, shown, teaching
+from views import SEATED, robot, shown, teaching
 
-from protocol.messages import Light, Recording, SafetyState, Verdict, Way
-from services.bus.arrays import motion_to_wire
-from services.station.page.panels import counters, header, scene, traffic_light, verdict
-from tests.services.predictions import prediction
-
-MOTION = motion_to_wire([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], [[1.0, 0.0, 0.0, 0.0]] * 2, 1.0)
+from protocol.messages import Light, Phase, Recording, SafetyState, Verdict
+from services.station.page.panels import counters, progress, scene, traffic_light, verdict
 
 LOOKING_ON = replace(SEATED, armed=False)
 NOT_COUNTING = replace(SEATED, let_go=True)
@@ -19,7 +14,7 @@ NOT_COUNTING = replace(SEATED, let_go=True)
 
 @pytest.mark.parametrize(
     ("light", "word"),
-    [(Light.RED, "Watch"), (Light.AMBER, "Wait"), (Light.HOLD, "Hold"), (Light.GREEN, "Act")],
+    [(Light.RED, "Watch"), (Light.AMBER, "Wait"), (Light.HOLD, "Paused"), (Light.GREEN, "Your turn")],
 )
 def test_the_light_is_the_workflow_s_for_who_has_the_input(light, word):
     values = traffic_light(shown(teaching=teaching(light)), SEATED)
@@ -52,26 +47,6 @@ def test_while_the_stop_is_latched_the_light_says_stopped():
     assert traffic_light(view, SEATED)["light-word"] == "Stopped"
 
 
-@pytest.mark.parametrize(
-    ("certainty", "words", "tone"),
-    [
-        ({}, "100 % known", "good"),
-        ({"known": 0.5}, "50 % known", "good"),
-        ({"known": 0.2}, "20 % known", "warn"),
-        ({"known": 0.6, "way": Way(1, 2, 0.8)}, "60 % known, way 2 of 2, 80 %", "good"),
-    ],
-)
-def test_a_prediction_is_told_by_what_is_known_and_which_way_it_takes(certainty, words, tone):
-    told = msgspec.structs.replace(prediction(MOTION), **certainty)
-    values = header(shown(prediction=told))
-    assert (values["chip-prediction-text"], values["chip-prediction@data-tone"]) == (words, tone)
-
-
-def test_without_a_prediction_nothing_is_said_of_it():
-    values = header(shown())
-    assert (values["chip-prediction-text"], values["chip-prediction@data-tone"]) == ("none", "none")
-
-
 def test_it_is_told_where_everything_can_be_inspected_and_what_is_wrong_with_the_recording():
     recording = Recording(path="a", viewer_url="http://0.0.0.0:9/", recording_id="r", fault="The disk is full.")
     values = scene(shown(recording=recording, robot_age_s=9.0))
@@ -80,10 +55,17 @@ def test_it_is_told_where_everything_can_be_inspected_and_what_is_wrong_with_the
     assert (values["scene@data-stale"], values["stale"]) == ("yes", "Robot data has not come yet")
 
 
+@pytest.mark.parametrize(("share", "words"), [(0.404, "40 % done"), (1.2, "100 % done")])
+def test_it_is_told_how_far_the_motion_is(share, words):
+    values = progress(shown(robot=robot(Phase.EXECUTE, progress=share)))
+    assert values["timeline-text"] == words
+    assert f"{values['timeline-done@aria-valuenow']} % done" == words
+
+
 def test_the_counters_tell_used_and_allowed():
     values = counters(shown(teaching=teaching(refinements=3, refinements_allowed=10, updates_allowed=0)))
-    assert (values["refinements"], values["refinements-bar@--used"]) == ("3 / 10", "3")
-    assert (values["updates"], values["updates-bar@--allowed"]) == ("0 / 0", "1")
+    assert (values["refinements"], values["refinements-bar@--used"]) == ("3 of 10", "3")
+    assert (values["updates"], values["updates-bar@--allowed"]) == ("0 of 0", "1")
 
 
 def test_the_verdict_is_told_criterion_by_criterion():

@@ -3,17 +3,12 @@
 import math
 
 import pytest
+from views import robot
 
-from protocol.messages import Light, Phase, Pose, RobotState, TeachingState, Verdict
+from protocol.messages import Light, Phase, TeachingState, Verdict
 from services.process.clock import ManualClock
 from services.station.page.readout import criteria, is_stale, outcome, span
 from services.station.page.view import Board, PageView, Shown
-
-POSE = Pose((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
-
-
-def robot(phase, episode=1):
-    return RobotState(measured=POSE, reference=POSE, phase=phase, episode=episode)
 
 
 @pytest.mark.parametrize(
@@ -64,7 +59,7 @@ def test_a_collision_says_where_and_how_hard():
     verdict = Verdict(
         reached=False, kicked_over=False, collision=True, collision_position=(0.5, 0.1, 0.25), collision_force=4.2
     )
-    assert criteria(Shown(PageView(verdict=verdict), 0.0))[2] == (False, "4.2 N at 0.50, 0.10, 0.25\N{NO-BREAK SPACE}m")
+    assert criteria(Shown(PageView(verdict=verdict), 0.0))[2] == (False, "4.2 N at x 500, y 100, z 250 mm")
 
 
 def test_a_hold_that_comes_and_goes_is_shown_for_a_moment_longer():
@@ -85,3 +80,13 @@ def test_a_hold_that_comes_and_goes_is_shown_for_a_moment_longer():
     assert shown(Light.HOLD) is Light.HOLD
     assert shown(Light.RED) is Light.RED
     assert shown(Light.GREEN, phase="deciding") is Light.GREEN
+
+
+def test_what_was_limited_is_shown_for_a_moment_longer():
+    clock = ManualClock()
+    board = Board(clock)
+    board.put(PageView(robot=robot(Phase.EXECUTE, clamped=("displacement",))))
+    board.put(PageView(robot=robot(Phase.EXECUTE)))
+    assert board.newest().clamped == ("displacement",)
+    clock.advance(1.0)
+    assert board.newest().clamped == ()

@@ -1,6 +1,6 @@
 """What the tests of this folder show."""
 
-from protocol.messages import Light, TeachingState
+from protocol.messages import Light, Pose, RobotState, TeachingState
 from services.station.page.standing import Standing
 from services.station.page.view import PageView, Shown
 
@@ -22,5 +22,12 @@ def teaching(light=Light.GREEN, phase="executing", **more):
     return TeachingState(phase=phase, text="so it is", light=light, **more)
 
 
-def shown(**view):
-    return Shown(PageView(**view), 0.0)
+POSE = Pose((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
+
+
+def robot(phase, episode=1, **more):
+    return RobotState(measured=POSE, reference=POSE, phase=phase, episode=episode, **more)
+
+
+def shown(clamped=(), **view):
+    return Shown(PageView(**view), 0.0, clamped)

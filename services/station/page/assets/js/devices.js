@@ -13,7 +13,18 @@ export class Devices {
     this.from = [...this.pointer.axes];
     this.shown = "";
     this.panel.querySelector(".device-tabs").addEventListener("click", (event) => this.clicked(event));
+    this.panel.querySelector(".device-tabs").addEventListener("keydown", (event) => this.step(event));
     this.show("keyboard");
+  }
+
+  // As in all rows of tabs: the arrows lead from one to the next.
+  step({ key }) {
+    const step = { ArrowLeft: -1, ArrowRight: 1 }[key];
+    const at = this.tabs.indexOf(document.activeElement);
+    if (!step || at < 0) return;
+    const next = this.tabs[(at + step + this.tabs.length) % this.tabs.length];
+    this.show(next.dataset.padFor);
+    next.focus();
   }
 
   // A tab that was clicked does not keep the focus, so that Space is for Finish again.
@@ -31,7 +42,10 @@ export class Devices {
     if (!pad || pad === this.shown) return;
     this.pointer.letGo();
     this.shown = this.panel.dataset.pad = pad;
-    for (const tab of this.tabs) tab.setAttribute("aria-selected", String(tab.dataset.padFor === pad));
+    for (const tab of this.tabs) {
+      tab.setAttribute("aria-selected", String(tab.dataset.padFor === pad));
+      tab.tabIndex = tab.dataset.padFor === pad ? 0 : -1;
+    }
   }
 
   // The pad of the device that is in use comes forward when it is taken into use.

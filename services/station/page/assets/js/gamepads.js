@@ -1,6 +1,8 @@
 // What the browser reads of gamepads and 3-D mice, as it reads it; nothing where it has not the interface, or does not
 // let it be read.
 
+import { say } from "/assets/js/words.js";
+
 const AXES_AT_MOST = 16;
 const BUTTONS_AT_MOST = 32;
 const NAME_AT_MOST = 64;
@@ -15,13 +17,13 @@ export function gamepads() {
 
 // Why there is none, as a person can mend it; empty where there is one.
 export function noGamepadBecause() {
-  if (typeof navigator.getGamepads !== "function") return "This browser reads no gamepads: use the keys, or another browser.";
+  if (typeof navigator.getGamepads !== "function") return say("script.gamepad_unread");
   try {
     navigator.getGamepads();
   } catch {
-    return "This browser does not let this page read gamepads: use the keys.";
+    return say("script.gamepad_forbidden");
   }
-  return connected().length === 0 ? "No gamepad: plug it in and press one of its buttons." : "";
+  return connected().length === 0 ? say("script.gamepad_absent") : "";
 }
 
 function connected() {

@@ -1,15 +1,16 @@
 // The way to the viewer's page, a tab of its own. Its address is made here: only the browser knows by which name it
 // reaches this machine.
 
+import { say } from "/assets/js/words.js";
+
 const LOOPBACK = new Set(["localhost", "127.0.0.1", "[::1]"]);
 const EVERYWHERE = new Set(["0.0.0.0", "[::]"]);
-const ELSEWHERE = "It can be seen on its own computer only; [viewer] host in the configuration opens it to others.";
 
 export function showInspection() {
   const link = document.querySelector(".inspect");
   const here = addressHere(link.dataset.address ?? "");
   link.hidden = here === null;
-  link.title = here === "" ? ELSEWHERE : "Everything there is to see, with its history, in a tab of its own";
+  link.title = say(here === "" ? "script.inspect_elsewhere" : "script.inspect");
   if (here) link.href = here;
   else link.removeAttribute("href");
 }

@@ -1,6 +1,8 @@
 // Which key an event is about: by its place (`code`), or by what is printed on it where a browser does not tell the
 // place. What is printed where is asked of the browser, or learnt from the keys that are pressed.
 
+import { say } from "/assets/js/words.js";
+
 const UNKNOWN = new Set(["", "Unidentified", undefined]);
 const LEGENDS = "retouch-legends";
 
@@ -66,8 +68,7 @@ export class Keyboard {
   }
 
   tell() {
-    const text = this.known ? "" : " Keys are named as on a US keyboard until one is pressed; it is their place that counts.";
-    document.querySelector(".keys-layout").textContent = text;
+    document.querySelector(".keys-layout").textContent = this.known ? "" : say("script.layout");
   }
 }
 

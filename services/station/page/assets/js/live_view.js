@@ -1,14 +1,11 @@
 // The page's own 3-D view. What cannot draw here takes nothing else away: the page says so, and goes on without it.
 
 import { contextOf } from "/assets/js/drawing/context.js";
+import { say } from "/assets/js/words.js";
 
 const HEADER_BYTES = 12;
-const GOES_ON = "Cameras, keys and the stop go on.";
-const NO_WEBGL = `This browser cannot draw it: WebGL 2 is missing or switched off. ${GOES_ON} Switch graphics acceleration
- on in its settings, or use another browser.`;
-const NOT_LOADED = `Its files did not come. ${GOES_ON} Load the page anew, or set Retouch up anew.`;
-const TAKEN_AWAY = `The browser has taken the drawing away. ${GOES_ON} Load the page anew.`;
-
+const TURNS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+const ZOOMS = { "+": 0.9, "=": 0.9, "-": 1 / 0.9 };
 export const MOMENT = 2;
 
 export class LiveView {
@@ -45,8 +42,9 @@ export class LiveView {
   async load() {
     const canvas = document.querySelector(".view");
     const means = contextOf(canvas);
-    if (!means) return this.fail(NO_WEBGL);
-    canvas.addEventListener("webglcontextlost", () => this.fail(TAKEN_AWAY));
+    if (!means) return this.fail("script.no_webgl");
+    canvas.addEventListener("keydown", (event) => this.turn(event));
+    canvas.addEventListener("webglcontextlost", () => this.fail("script.taken_away"));
     canvas.addEventListener("webglcontextrestored", () => {
       this.succeed();
       this.drawing?.wish();
@@ -63,9 +61,16 @@ export class LiveView {
       if (this.moment) this.drawing.receive(this.moment);
     } catch (error) {
       console.warn("the live view is not there:", error);
-      return this.fail(NOT_LOADED);
+      return this.fail("script.not_loaded");
     }
     return this.succeed();
+  }
+
+  turn(event) {
+    const [turn, zoom] = [TURNS[event.key], ZOOMS[event.key]];
+    if (!turn && !zoom) return;
+    event.preventDefault();
+    this.drawing?.turn(turn ?? [0, 0], zoom ?? 1);
   }
 
   onDrawn(shown) {
@@ -76,10 +81,10 @@ export class LiveView {
     this.panel.dataset.view = "live";
   }
 
-  fail(words) {
+  fail(why) {
     this.panel.dataset.view = "none";
-    this.panel.querySelector(".scene-empty-title").textContent = "No live view";
-    this.panel.querySelector(".scene-empty-text").textContent = words;
+    this.panel.querySelector(".scene-empty-title").textContent = say("script.no_view");
+    this.panel.querySelector(".scene-empty-text").textContent = say(why);
   }
 }
 

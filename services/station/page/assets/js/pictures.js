@@ -1,5 +1,7 @@
 // The cameras' pictures onto their canvases, with the age that they have now.
 
+import { say } from "/assets/js/words.js";
+
 const CAMERAS = ["head", "wrist"];
 const HEADER_BYTES = 12;
 const STALE_S = 0.7;
@@ -47,10 +49,15 @@ export class Pictures {
       if (!Number.isFinite(age)) continue;
       const panel = panelOf(camera);
       panel.dataset.state = age > STALE_S ? "stale" : "live";
-      panel.querySelector(".camera-age").textContent =
-        age < 0.9995 ? `${Math.round(age * 1000)} ms` : `${age.toFixed(1)} s old`;
+      panel.querySelector(".camera-age").textContent = ageInWords(age);
     }
   }
+}
+
+function ageInWords(age) {
+  return age < 0.9995
+    ? say("script.age", { number: Math.round(age * 1000) })
+    : say("script.age_old", { number: age.toFixed(1) });
 }
 
 function panelOf(camera) {

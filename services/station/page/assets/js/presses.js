@@ -1,6 +1,8 @@
 // What was pressed and is not acknowledged yet. A stop is kept until it is, and said first when the link is back; what
 // else was pressed a second ago is not done any more, and this is told.
 
+import { say } from "/assets/js/words.js";
+
 const STOP = "stop";
 const LATE_MS = 1000;
 const TOLD_MS = 6000;
@@ -67,7 +69,7 @@ function tellDropped(action) {
   if (!banner) return;
   const label = document.querySelector(`[data-action="${action}"] .action-label, [data-action="${action}"]`);
   const name = (label?.textContent ?? action).trim();
-  banner.querySelector(".banner-text").textContent = `“${name}” did not reach the robot in time and was not done.`;
+  banner.querySelector(".banner-text").textContent = say("script.dropped", { name });
   banner.toggleAttribute("data-open", true);
   clearTimeout(tellDropped.timer);
   tellDropped.timer = setTimeout(() => banner.removeAttribute("data-open"), TOLD_MS);

@@ -1,5 +1,6 @@
 // The operator's page in the browser: the input state out at 50 Hz; pictures, and what to show, in.
 
+import { Actions } from "/assets/js/actions.js";
 import { Devices } from "/assets/js/devices.js";
 import { Held } from "/assets/js/held.js";
 import { showInspection } from "/assets/js/inspection.js";
@@ -9,13 +10,17 @@ import { LiveView, MOMENT } from "/assets/js/live_view.js";
 import { Pictures } from "/assets/js/pictures.js";
 import { Presses } from "/assets/js/presses.js";
 import { Reasons } from "/assets/js/reasons.js";
+import { RoundTrip } from "/assets/js/round_trip.js";
+import { swapOnPress } from "/assets/js/stages.js";
 import { Tab } from "/assets/js/tab.js";
+import { Tour } from "/assets/js/tour.js";
 import { show } from "/assets/js/values.js";
 
 const INPUT_PERIOD_MS = 20;
 const AGES_PERIOD_MS = 100;
 const DRAW_PERIOD_MS = 40;
-const TAKES_KEYS = "button, a, input, textarea, select, [contenteditable]";
+const IS_TYPED_IN = "input, textarea, select, [contenteditable]";
+const IS_PRESSED = "button, summary";
 
 const tab = new Tab();
 const presses = new Presses(tab);
@@ -25,6 +30,11 @@ window.addEventListener("keydown", stopByKey, { capture: true });
 window.addEventListener("pointerdown", stopByHand, { capture: true });
 
 const reasons = new Reasons(presses);
+const actions = new Actions((button) => {
+  if (button.dataset.question) reasons.ask(button);
+  else presses.press(button.dataset.action, button.dataset.argument);
+});
+const roundTrip = new RoundTrip();
 const pictures = new Pictures();
 const keyboard = new Keyboard();
 const devices = new Devices(() => changed());
@@ -39,6 +49,8 @@ setInterval(() => devices.draw(), DRAW_PERIOD_MS);
 window.addEventListener("keydown", down, { capture: true });
 window.addEventListener("keyup", (event) => held.release(keyboard.placeOf(event)), { capture: true });
 document.addEventListener("click", clicked);
+swapOnPress();
+new Tour();
 
 function onOpen() {
   pictures.restart();
@@ -50,7 +62,9 @@ function onOpen() {
 function onNews(news) {
   presses.settle(news);
   show(news.values);
+  actions.arrange();
   devices.follow();
+  roundTrip.hear(news.echo);
   liveView.show(news.drawing);
   showInspection();
   document.body.dataset.link = news.armed ? "armed" : "view-only";
@@ -93,12 +107,13 @@ function down(event) {
   const code = keyboard.placeOf(event);
   if (event.ctrlKey || event.metaKey || event.altKey) return;
   keyboard.learn(event);
-  const control = event.target?.closest?.(TAKES_KEYS);
-  if (control?.matches("button") && event.repeat && !keyboard.steers(code)) event.preventDefault?.();
-  if (control && (isSpace(event) || !control.matches("button"))) return;
+  if (event.target?.closest?.(IS_TYPED_IN)) return;
+  const pressed = event.target?.closest?.(IS_PRESSED);
+  if (pressed && event.repeat && !keyboard.steers(code)) event.preventDefault?.();
+  if (pressed && isSpace(event)) return;
   if (keyboard.steers(code) || isSpace(event)) event.preventDefault?.();
   if (event.repeat) return;
-  if (isSpace(event)) pressButton(document.querySelector('[data-action="finish"]'));
+  if (isSpace(event)) actions.ask(document.querySelector('[data-action="finish"]'));
   held.press(code);
 }
 
@@ -106,16 +121,11 @@ function clicked(event) {
   const button = event.target.closest?.("[data-action]");
   if (!button) return;
   const byHand = event.detail > 0;
-  if (button.dataset.action !== "stop" || !byHand) pressButton(button);
+  if (button.dataset.action !== "stop" || !byHand) actions.ask(button);
   // A button that was clicked does not keep the focus, so that Space is for Finish again.
   if (byHand) button.blur();
 }
 
-function pressButton(button) {
-  if (!button || button.disabled) return;
-  if (button.dataset.question) reasons.ask(button);
-  else presses.press(button.dataset.action, button.dataset.argument);
-}
 
 function showAges() {
   if (!link.alive) onSilence();

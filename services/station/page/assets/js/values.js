@@ -18,8 +18,8 @@ function find(name) {
   return [document.querySelector(`[data-value="${element}"]`), attribute];
 }
 
-// A moment as this person's clock shows it.
+// A moment by this person's clock, always from 0 to 24 hours.
 function timeOfDay(iso) {
   const moment = new Date(iso);
-  return Number.isNaN(moment.getTime()) ? "" : moment.toLocaleTimeString();
+  return Number.isNaN(moment.getTime()) ? "" : moment.toLocaleTimeString(document.documentElement.lang, { hourCycle: "h23" });
 }

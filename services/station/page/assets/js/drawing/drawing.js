@@ -20,6 +20,8 @@ const FIELD_OF_VIEW = 48;
 const POLL_MS = 3;
 const STILL_MS = 300; // what has not changed for so long is drawn once more, as fine as the screen
 const DENSEST = 2;
+const STEP = Math.PI / 24; // that a key turns the view by
+const [LEVEL, STEEP] = [0.05, Math.PI - 0.05]; // from straight above, to straight below
 
 export class Drawing {
   // onDrawn: told which moment is the newest on the screen.
@@ -49,6 +51,17 @@ export class Drawing {
     const [position, target] = this.eye;
     this.camera.position.fromArray(position);
     this.controls.target.fromArray(target);
+    this.controls.update();
+    this.wish();
+  }
+
+  // By key: so many steps round the target and over it, and as much closer.
+  turn([round, over], closer) {
+    const offset = this.camera.position.clone().sub(this.controls.target).multiplyScalar(closer);
+    const side = offset.clone().cross(this.camera.up).normalize();
+    const tilt = Math.max(LEVEL, Math.min(STEEP, offset.angleTo(this.camera.up) - over * STEP));
+    offset.applyAxisAngle(side, offset.angleTo(this.camera.up) - tilt).applyAxisAngle(this.camera.up, round * STEP);
+    this.camera.position.copy(this.controls.target).add(offset);
     this.controls.update();
     this.wish();
   }

@@ -1,0 +1,73 @@
+"""In the page's header: whether what is shown can be trusted."""
+
+from __future__ import annotations
+
+from protocol.messages import Prediction
+from services.bus.predictions import LITTLE
+from services.station.page.readout import certainty, is_stale, length, limited, span
+from services.station.page.standing import Standing
+from services.station.page.values import Values
+from services.station.page.view import Shown
+from services.station.words.table import say
+
+FIGURES = ("phase", "age", "latency", "link", "limited", "object", "model", "prediction", "authority")
+"""What stands behind the one word of health, in order; the link is measured by the page's script."""
+
+SLOW_S = 0.1
+"""From hand to robot, above which a correction comes late."""
+
+
+def health(shown: Shown) -> Values:
+    """In a word whether data and links are as they should be: the worst that there is to say."""
+    view = shown.view
+    recording = view.recording
+    latency_s = max((figure.value for figure in view.latencies), default=0.0)
+    if view.robot is None:
+        tone, words = "bad", say("health.unheard")
+    elif is_stale(shown):
+        tone, words = "bad", say("health.stale", age=span(shown.robot_age_s))
+    elif view.model is None:
+        tone, words = "warn", say("health.model")
+    elif latency_s > SLOW_S:
+        tone, words = "warn", say("health.slow", age=span(latency_s))
+    elif recording is not None and recording.fault:
+        tone, words = "warn", say("health.recording")
+    else:
+        tone, words = "good", say("health.good")
+    return {"health@data-tone": tone, "health-text": words}
+
+
+def figures(shown: Shown, standing: Standing) -> Values:
+    """The figures behind it."""
+    view, robot, model, prediction = shown.view, shown.view.robot, shown.view.model, shown.view.prediction
+    clamped = limited(shown.clamped)
+    return {
+        "figure-phase": say("figure.unknown") if robot is None else say(f"robot.{robot.phase.value}"),
+        "figure-age": span(shown.robot_age_s),
+        "figure-age@data-tone": "bad" if is_stale(shown) else "good",
+        "figure-latency": " / ".join(span(figure.value) for figure in view.latencies) or say("figure.none"),
+        "figure-limited": clamped or say("figure.nothing"),
+        "figure-object": say("figure.unseen") if view.object_pose is None else length(view.object_pose.error),
+        "figure-model": say("figure.none")
+        if model is None
+        else say("figure.version", version=model.version, updates=model.updates),
+        "figure-prediction": say("figure.none") if prediction is None else certainty(prediction),
+        "figure-prediction@data-tone": _sureness(prediction),
+        "figure-authority": _authority(shown, standing),
+        "limited": say("pad.limited", what=clamped) if clamped else "",
+    }
+
+
+def _authority(shown: Shown, standing: Standing) -> str:
+    if shown.view.authority_is_mine and standing.armed:
+        return say("figure.yours")
+    authority = shown.view.authority
+    holder = (authority.operator or authority.holder) if authority is not None else ""
+    return holder or say("figure.nobody")
+
+
+def _sureness(prediction: Prediction | None) -> str:
+    """The look of how much is known."""
+    if prediction is None:
+        return "none"
+    return "warn" if prediction.known < LITTLE else "good"

@@ -1,0 +1,74 @@
+"""The one table of words. A language is a file beside this one; the process speaks one, as it has one locale.
+
+A word is named by its section and its key, "light.green"; what stands in braces in it is filled in where it is said.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+
+import msgspec
+
+HERE = Path(__file__).parent
+ENGLISH = "en"
+
+_Table = dict[str, dict[str, str]]
+
+
+class Speech:
+    """Says things in one language.
+
+    Attributes:
+        language: its tag, as `html lang` has it (BCP 47).
+        words: all of them, by section and name.
+    """
+
+    def __init__(self) -> None:
+        self.language = ENGLISH
+        self.words = _read(HERE / f"{ENGLISH}.toml")
+
+    def speak(self, language: str, folder: Path = HERE) -> None:
+        """Say everything in this language from now on; what it has no word for stays English.
+
+        Args:
+            language: name of a file in the folder, without its ending.
+            folder: of the tables.
+
+        Raises:
+            LookupError: there is no such table; names those that there are.
+        """
+        tables = {file.stem: file for file in folder.glob("*.toml")}
+        if language not in tables:
+            raise LookupError(f"there are no words in {language!r}, only in {', '.join(sorted(tables))}")
+        self.language = language
+        self.words = {**_read(HERE / f"{ENGLISH}.toml"), **_read(tables[language])}
+
+    def say(self, key: str, **facts: object) -> str:
+        """The words of this name.
+
+        Args:
+            key: section and name.
+            facts: by the names that stand in braces in it.
+        """
+        return self.words[key].format(**facts)
+
+    def section(self, name: str) -> Mapping[str, str]:
+        """All words of a section, as they stand in the table: the page's scripts fill in the facts themselves."""
+        start = f"{name}."
+        return {key.removeprefix(start): words for key, words in self.words.items() if key.startswith(start)}
+
+
+def spaced(words: str) -> str:
+    """Words in one line, however they are broken in the table."""
+    return re.sub(r"\n\s*", " ", words)
+
+
+def _read(file: Path) -> dict[str, str]:
+    table = msgspec.toml.decode(file.read_bytes(), type=_Table)
+    return {f"{section}.{name}": spaced(words) for section, named in table.items() for name, words in named.items()}
+
+
+speech = Speech()
+say = speech.say

@@ -1,0 +1,87 @@
+"""In the page's header: whether what is shown can be trusted, and the figures behind it."""
+
+from dataclasses import replace
+
+import msgspec
+import pytest
+from views import SEATED, robot, shown
+
+from protocol.messages import AuthorityState, Figure, ModelState, Phase, Recording, Way
+from services.bus.arrays import motion_to_wire
+from services.station.page.health import figures, health
+from tests.services.predictions import prediction
+
+MOTION = motion_to_wire([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], [[1.0, 0.0, 0.0, 0.0]] * 2, 1.0)
+LOOKING_ON = replace(SEATED, armed=False)
+WELL = {
+    "robot": robot(Phase.IDLE),
+    "robot_age_s": 0.01,
+    "model": ModelState(kind="adaptive", version=7, demonstrations=12, updates=2, scene="table"),
+    "latencies": (Figure("applied", 0.024, "s"),),
+}
+
+
+@pytest.mark.parametrize(
+    ("mine", "standing", "words"),
+    [(True, SEATED, "yours"), (True, LOOKING_ON, "anna"), (False, SEATED, "anna")],
+)
+def test_the_authority_is_the_reader_s_only_where_s_he_has_the_input(mine, standing, words):
+    authority = AuthorityState(holder="station-1", operator="anna", epoch=1, expires_in=1.0)
+    view = shown(authority=authority, authority_is_mine=mine)
+    assert figures(view, standing)["figure-authority"] == words
+
+
+def test_an_authority_that_nobody_holds_is_nobody_s():
+    assert figures(shown(), SEATED)["figure-authority"] == "nobody"
+
+
+@pytest.mark.parametrize(
+    ("changes", "tone", "words"),
+    [
+        ({}, "good", "All well"),
+        ({"robot": None}, "bad", "The robot is not heard"),
+        ({"robot_age_s": 1.4}, "bad", "Robot data 1.4 s old"),
+        ({"model": None}, "warn", "The model is not heard"),
+        ({"latencies": (Figure("applied", 0.12, "s"),)}, "warn", "Slow: 120 ms from hand to robot"),
+        (
+            {"recording": Recording(path="a", viewer_url="", recording_id="r", fault="full")},
+            "warn",
+            "Recording is at fault",
+        ),
+    ],
+)
+def test_health_is_the_worst_that_there_is_to_say(changes, tone, words):
+    assert health(shown(**{**WELL, **changes})) == {"health@data-tone": tone, "health-text": words}
+
+
+def test_the_figures_say_what_was_measured():
+    told = figures(shown(**WELL), SEATED)
+    assert (told["figure-phase"], told["figure-age"]) == ("stands", "10 ms")
+    assert (told["figure-latency"], told["figure-model"]) == ("24 ms", "v7, 2 learnt")
+
+
+def test_what_is_limited_is_said_in_a_person_s_words_and_once():
+    told = figures(shown(("speed arm_3_joint", "speed arm_3_joint", "displacement", "reach: 12 mm short")), SEATED)
+    assert told["figure-limited"] == "joint speed (arm_3_joint), correction too far, out of reach (12 mm short)"
+    assert told["limited"].startswith("Limited: joint speed")
+    assert figures(shown(), SEATED)["limited"] == ""
+    assert figures(shown(("something new",)), SEATED)["figure-limited"] == "something new"
+
+
+@pytest.mark.parametrize(
+    ("certainty", "words", "tone"),
+    [
+        ({}, "100 % known", "good"),
+        ({"known": 0.5}, "50 % known", "good"),
+        ({"known": 0.2}, "20 % known", "warn"),
+        ({"known": 0.6, "way": Way(1, 2, 0.8)}, "60 % known, way 2 of 2, 80 %", "good"),
+    ],
+)
+def test_a_prediction_is_told_by_what_is_known_and_which_way_it_takes(certainty, words, tone):
+    told = figures(shown(prediction=msgspec.structs.replace(prediction(MOTION), **certainty)), SEATED)
+    assert (told["figure-prediction"], told["figure-prediction@data-tone"]) == (words, tone)
+
+
+def test_without_a_prediction_nothing_is_said_of_it():
+    told = figures(shown(), SEATED)
+    assert (told["figure-prediction"], told["figure-prediction@data-tone"]) == ("none", "none")
