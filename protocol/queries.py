@@ -287,9 +287,15 @@ class Describe(msgspec.Struct, frozen=True):
 
 
 class Learnt(msgspec.Struct, frozen=True, tag_field="reply", tag="learnt"):
-    """The change is on disk."""
+    """The change is on disk.
+
+    Attributes:
+        state: of the model then.
+        entry: of the history that was added, taken back or used again; 0 where nothing was asked to change.
+    """
 
     state: ModelState
+    entry: Count = 0
 
 
 @dataclass(frozen=True)

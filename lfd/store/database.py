@@ -9,7 +9,7 @@ from lfd.motion.departure import Departure
 from lfd.store.connection import Connection
 from lfd.store.rows import COLUMNS, arrays_of, row_of, stored_in
 from lfd.store.schema import prepare
-from lfd.store.stored import Binding, Counts, Purpose, StoredDemonstration, Turn
+from lfd.store.stored import Binding, Counts, Made, Purpose, StoredDemonstration, Turn
 
 _IN_USE = "(SELECT in_use FROM changes WHERE demonstration = added ORDER BY version DESC LIMIT 1)"
 
@@ -70,10 +70,11 @@ class DemonstrationStore:
         if not all(one.fits(wanted) for one in held):
             raise BoundElsewhere(self._path, sorted({str(one) for one in held}), str(wanted))
 
-    def made_by(self, request: int) -> int | None:
-        """The version that a request has made already; None where it has made none."""
-        found = self._connection.rows("SELECT version FROM requests WHERE request = ?", (request,))
-        return int(found[0][0]) if found else None
+    def made_by(self, request: int) -> Made | None:
+        """What a request has changed already; None where it has changed nothing."""
+        joined = "SELECT version, demonstration FROM requests JOIN changes USING (version) WHERE request = ?"
+        found = self._connection.rows(joined, (request,))
+        return Made(*found[0]) if found else None
 
     def counts(self, version: int) -> Counts:
         """How many demonstrations were in use in a version."""

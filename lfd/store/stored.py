@@ -77,6 +77,18 @@ class StoredDemonstration:
         return self.turn is None or self.turn.in_use
 
 
+class Made(NamedTuple):
+    """What a request has changed.
+
+    Attributes:
+        version: Of the model, that it made.
+        demonstration: That it added, took back or used again, by its version.
+    """
+
+    version: int
+    demonstration: int
+
+
 class Counts(NamedTuple):
     """Of demonstrations in use: what the model starts from, and what it learnt later."""
 

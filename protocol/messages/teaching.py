@@ -8,7 +8,7 @@ from typing import Annotated
 import msgspec
 
 from protocol.messages.state import Mode
-from protocol.messages.values import Condition, Count, Message, Name, Part, Real, Text, Vector3
+from protocol.messages.values import Condition, Count, Fraction, Message, Name, Part, Real, Text, Vector3
 
 
 class Light(enum.Enum):
@@ -71,6 +71,7 @@ class TeachingState(Message, frozen=True, kw_only=True):
         recommended: which of them brings the run on; empty where there is nothing to choose.
         pace: at which motions go; 1 is their own.
         part: of the next refinement in which corrections count, or of the one that runs.
+        confidence: how far the model is to believe what it is taught next (alpha of eq. 18).
     """
 
     phase: Name
@@ -88,6 +89,7 @@ class TeachingState(Message, frozen=True, kw_only=True):
     recommended: Name = ""
     pace: Real = 1.0
     part: Part = Part()
+    confidence: Fraction = 1.0
 
 
 class Recording(Message, frozen=True, kw_only=True):

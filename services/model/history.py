@@ -10,7 +10,7 @@ from lfd.models.model import MovementModel
 from lfd.motion.demonstration import Demonstration
 from lfd.motion.departure import Departure
 from lfd.store.database import DemonstrationStore
-from lfd.store.stored import Binding, Counts, Purpose, StoredDemonstration, Turn
+from lfd.store.stored import Binding, Counts, Made, Purpose, StoredDemonstration, Turn
 from protocol import messages
 from protocol.history import ENTRIES_AT_ONCE, Entry, HistoryListed
 from services.bus.arrays import vector3
@@ -62,10 +62,10 @@ class History:
         """How many those are."""
         return Counts.of(self.in_use)
 
-    def made_by(self, request: int) -> tuple[int, Counts] | None:
-        """The version that a request has made already, in this process or in one before it, and what it held."""
-        version = self._store.made_by(request) if request else None
-        return None if version is None else (version, self._store.counts(version))
+    def made_by(self, request: int) -> tuple[Made, Counts] | None:
+        """What a request has changed already, in this process or in one before it, and what the model held then."""
+        made = self._store.made_by(request) if request else None
+        return None if made is None else (made, self._store.counts(made.version))
 
     def find(self, entry: int) -> StoredDemonstration:
         """An entry by its number.

@@ -142,8 +142,11 @@ class ModelService:
         """The change, or the answer to a request that has made it already: in this process or in one before it."""
 
         def changed(request: Learns) -> Learnt | Refused:
-            made = self._history.made_by(request.request)
-            return change(request) if made is None else Learnt(self._told(*made))
+            done = self._history.made_by(request.request)
+            if done is None:
+                return change(request)
+            made, counts = done
+            return Learnt(self._told(made.version, counts), made.demonstration)
 
         return changed
 
@@ -229,7 +232,7 @@ class ModelService:
     def _changed(self, entry: int) -> Learnt:
         """Told as it is on disk by now; what the entry changes is worked out before anybody asks."""
         self._comparisons.of(self._history.find(entry))
-        return Learnt(self._state)
+        return Learnt(self._state, entry)
 
     def _listed(self, request: ListHistory) -> HistoryListed:
         return self._history.listed(request.before)

@@ -24,6 +24,7 @@ from services.station.company import Company
 from services.station.device_buttons import DeviceButtons
 from services.station.ears import Ears, came_s, message, picture, young
 from services.station.handover import GIVE, KEEP, HandOver
+from services.station.history import HistoryReader
 from services.station.live_view.stage import Stage
 from services.station.page.view import PageView
 from services.station.press import REVOKE, STOP, Press
@@ -103,6 +104,7 @@ class StationService:
         self._hand_over = HandOver(bus, workflow_settings.holder)
         self._company = Company(bus)
         self._stage = Stage(self._ears)
+        self._history = HistoryReader(bus, page.effects) if page is not None else None
         self._buttons = DeviceButtons(self._ears.master, workflow_settings.holder)
         self._workflow = Workflow()
         self._asked: tuple[int, Pending[Any]] | None = None
@@ -144,6 +146,8 @@ class StationService:
         if not told and self._page is None:
             return
         teaching = teaching_state(self._workflow, view, self._settings)
+        if self._history is not None:
+            self._history.step(now_ns, view.model)
         if told:
             self._bus.publish(topics.TEACHING_STATE, teaching)
         if self._page is not None:
@@ -250,6 +254,7 @@ class StationService:
             notice=self._hand_over.fault(now_ns),
             model=view.model,
             prediction=_of(workflow.prediction, view.model),
+            history=self._history.rows if self._history is not None else None,
             object_pose=message(ears.seen.latest()),
             execution=view.execution,
             spoilt=self._stage.spoilt(now_ns),

@@ -35,7 +35,7 @@ class Stage:
         """What changes now and then, as it is now."""
         robot = message(self._ears.robot.latest())
         if robot is not None and self._trace.see(robot):
-            self._way = _told(self._trace.points)
+            self._way = told(self._trace.points)
         scene = message(self._ears.scene.latest())
         return Drawing(
             boxes=() if scene is None else scene.boxes,
@@ -80,10 +80,10 @@ def _curve(prediction: Prediction) -> Curve | None:
     if positions is None:
         return None
     known = deviations is not None and deviations.shape == positions.shape
-    return Curve(_told(positions), _told(_SIGMAS * deviations) if known and deviations is not None else ())
+    return Curve(told(positions), told(_SIGMAS * deviations) if known and deviations is not None else ())
 
 
-def _told(points: Floats) -> tuple[Point, ...]:
+def told(points: Floats) -> tuple[Point, ...]:
     """As many of the points as can be told apart, to a tenth of a millimetre."""
     chosen = np.unique(np.linspace(0, len(points) - 1, min(_POINTS, len(points))).round().astype(int))
     return tuple(map(tuple, points[chosen].round(_DIGITS).tolist()))

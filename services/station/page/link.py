@@ -49,6 +49,7 @@ class _News(msgspec.Struct, frozen=True):
             passed by then is the link's.
         values: to show, as far as they are new.
         drawing: parts of what the live view draws, as far as they are new.
+        history: the skill's history, where it is new.
     """
 
     version: str
@@ -59,6 +60,7 @@ class _News(msgspec.Struct, frozen=True):
     echo: tuple[float, float]
     values: Values
     drawing: Mapping[str, Any]
+    history: Mapping[str, Any]
 
 
 class _Tab:
@@ -79,6 +81,7 @@ class _Tab:
         self.heard = (0.0, 0)
         self.values: Sent[str | bool] = Sent()
         self.drawing: Sent[Any] = Sent()
+        self.history: Sent[Any] = Sent()
         self.moment_due_ns = 0
         self._numbers = [0, 0, 0]
         self._last: list[bytes | None] = [None, None]
@@ -185,5 +188,6 @@ class Link:
             (stamp_ms, (now_ns - heard_ns) / 1e6),
             tab.values.news(values(shown, standing)),
             tab.drawing.news(shown.view.drawing.parts()),
+            tab.history.news({"listed": shown.view.history}),
         )
         return msgspec.json.encode(news).decode()

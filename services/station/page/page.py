@@ -22,6 +22,7 @@ from services.station.live_view.description import Description
 from services.station.live_view.files import Files
 from services.station.page.controls import is_confirmed
 from services.station.page.document import ASSETS, document, version
+from services.station.page.effects import Effects
 from services.station.page.guard import Guard
 from services.station.page.input import Desk
 from services.station.page.link import Link
@@ -57,6 +58,8 @@ class Page:
         self._files = Files(description)
         self._document = document(robot, self._files.description_address)
         self._board = Board(clock)
+        self.effects = Effects()
+        """What entries of the history change, as far as a tab wants to see it."""
         self._desk = Desk(operator)
         self._link = Link(self._desk, self._board, clock, version(), description.joints)
         self._server: uvicorn.Server | None = None
@@ -142,6 +145,7 @@ class Page:
             Route("/", serve),
             WebSocketRoute("/link", self._link.serve),
             Route("/view/{path:path}", self._files.serve),
+            Route("/history/{version:int}/{entry:int}", self.effects.serve),
             Mount("/assets", StaticFiles(directory=ASSETS)),
         ]
         app = Starlette(routes=routes)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import msgspec
 
@@ -26,6 +27,9 @@ from protocol.messages import (
 )
 from services.process.clock import Clock
 from services.station.live_view.drawing import Drawing
+
+if TYPE_CHECKING:  # they are put into words as what is shown here is
+    from services.station.page.entries import Rows
 
 HOLD_SHOWN_NS = 600_000_000
 """For how long a hold that is over is still shown."""
@@ -54,6 +58,7 @@ class PageView:
     Attributes:
         robot_age_s: age of the robot's state [s]; infinite where there is none.
         prediction: of the model as it is now.
+        history: of the model.
         execution: of the motion under way; None where there is none.
         spoilt: shares of the motion that is shown at which something was touched or kicked over.
         drawing: what the live view shows.
@@ -75,6 +80,7 @@ class PageView:
     attendances: tuple[Attendance, ...] = ()
     model: ModelState | None = None
     prediction: Prediction | None = None
+    history: Rows | None = None
     object_pose: ObjectPose | None = None
     execution: ExecutionState | None = None
     spoilt: tuple[float, ...] = ()

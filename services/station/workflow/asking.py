@@ -20,7 +20,7 @@ from services.station.workflow.view import Ask, Step, View
 
 RETRY_S = 0.5
 
-_OWING = frozenset({Phase.LEARNING, Phase.UNDOING})
+_OWING = frozenset({Phase.LEARNING, Phase.TURNING})
 
 
 def to(state: Workflow, phase: Phase, view: View, **changes: Any) -> Workflow:

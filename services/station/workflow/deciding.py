@@ -9,6 +9,7 @@ from services.station.workflow.asking import to
 from services.station.workflow.closure import Closure
 from services.station.workflow.episode import press
 from services.station.workflow.going import SETTING, set_for_next
+from services.station.workflow.history import turn, turns
 from services.station.workflow.state import WHOLE, Action, Phase, Settings, Workflow
 from services.station.workflow.view import Step, View
 
@@ -18,9 +19,7 @@ def deciding(state: Workflow, view: View, settings: Settings) -> Step:
     if state.owed is not None:
         return Step(to(state, state.owed.phase, view, intent=state.owed.intent, owed=None))
     state = set_for_next(state, view)
-    offered = {Action.EXECUTE, Action.REFINE, Action.NEXT, Action.END} | SETTING
-    if state.updates:
-        offered.add(Action.UNDO)
+    offered = {Action.EXECUTE, Action.REFINE, Action.NEXT, Action.END} | SETTING | turns(view)
     if state.taught is not None:
         offered.add(Action.TEACH)
     pressed = [action for action in Action if action in view.actions & offered - SETTING]
@@ -40,8 +39,8 @@ def _take(state: Workflow, view: View, settings: Settings, chosen: Action) -> St
             return Step(to(state, Phase.LEARNING, view))
         case Action.NEXT:
             return Step(press(_elsewhere(state), view, Mode.AUTONOMOUS))
-        case Action.UNDO:
-            return Step(to(state, Phase.UNDOING, view, taught=None))
+        case Action.UNDO | Action.TAKE_BACK | Action.USE_AGAIN:
+            return turn(state, view, chosen)
         case _:
             return _end(state, view, "ended before the loop had closed")
 
@@ -56,7 +55,7 @@ def finished(state: Workflow, view: View, settings: Settings) -> Step:
 
 
 def _elsewhere(state: Workflow) -> Workflow:
-    return replace(state, placed=None, part=WHOLE, last=None, refinements=0, updates=0, warned=False)
+    return replace(state, placed=None, part=WHOLE, last=None, refinements=0, learnt=(), warned=False)
 
 
 def recommended(state: Workflow, settings: Settings) -> Action:

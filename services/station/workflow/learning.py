@@ -1,7 +1,8 @@
-"""What the model is told: to learn a refinement, to take an update back. Nothing moves meanwhile or after."""
+"""What the model is told to learn, and how far it is to believe it. Nothing moves meanwhile or after."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import msgspec
@@ -10,7 +11,7 @@ from protocol import queries
 from protocol.messages import Method, Motion, Purpose
 from services.station.workflow.asking import ask, not_done, to
 from services.station.workflow.part import extent
-from services.station.workflow.state import WHOLE, Phase, Settings, Taught, Workflow
+from services.station.workflow.state import WHOLE, Action, Phase, Settings, Taught, Workflow
 from services.station.workflow.view import Step, View
 
 
@@ -23,7 +24,7 @@ def learning(state: Workflow, view: View, settings: Settings) -> Step:
         state,
         view,
         queries.ADD_DEMONSTRATION,
-        lambda intent: _request(taught, view, settings, intent),
+        lambda intent: _request(taught, confidence(state, settings), view, settings, intent),
     )
     match reply:
         case Step():
@@ -35,13 +36,40 @@ def learning(state: Workflow, view: View, settings: Settings) -> Step:
             return Step(to(state, Phase.DECIDING, view, owed=None, event=notice))
         case _:
             learnt = replace(
-                state, taught=None, last=None, refinements=0, updates=state.updates + 1, warned=False, part=WHOLE
+                state,
+                taught=None,
+                last=None,
+                refinements=0,
+                learnt=(*state.learnt, reply.entry),
+                warned=False,
+                part=WHOLE,
             )
             event = f"The model has learnt the correction{extent(taught.part)}."
             return Step(to(learnt, Phase.DECIDING, view, owed=None, event=event))
 
 
-def _request(taught: Taught, view: View, settings: Settings, intent: int) -> queries.AddDemonstration:
+def confided(state: Workflow, view: View) -> Workflow:
+    """With how far the operator is sure of what s/he shows: it counts for whatever is taught next, until set anew."""
+    if Action.CONFIDENCE not in view.actions:
+        return state
+    return replace(state, confidence=_share(view.argument(Action.CONFIDENCE), state.confidence))
+
+
+def confidence(state: Workflow, settings: Settings) -> float:
+    """How far the model is to believe what it is taught next: alpha of equation (18)."""
+    return settings.alpha if state.confidence is None else state.confidence
+
+
+def _share(text: str, otherwise: float | None) -> float | None:
+    """From 0 to 1, as a page says it; what it was where it says none."""
+    try:
+        share = float(text)
+    except ValueError:
+        return otherwise
+    return min(max(share, 0.0), 1.0) if math.isfinite(share) else otherwise
+
+
+def _request(taught: Taught, alpha: float, view: View, settings: Settings, intent: int) -> queries.AddDemonstration:
     return queries.AddDemonstration(
         Purpose.UPDATE,
         learnable(taught.motion, settings.autonomous_s),
@@ -49,7 +77,7 @@ def _request(taught: Taught, view: View, settings: Settings, intent: int) -> que
         view.scene.name if view.scene is not None else "",
         taught.condition,
         operator=settings.operator,
-        alpha=settings.alpha,
+        alpha=alpha,
         part=taught.part,
         method=Method.REFINE,
         request=intent,
@@ -59,16 +87,3 @@ def _request(taught: Taught, view: View, settings: Settings, intent: int) -> que
 def learnable(motion: Motion, duration: float) -> Motion:
     """A motion in the tempo of an autonomous execution: a refinement ran slower than what it corrects."""
     return msgspec.structs.replace(motion, duration=duration)
-
-
-def undoing(state: Workflow, view: View, settings: Settings) -> Step:
-    """Have the model take its newest update back."""
-    reply = ask(state, view, queries.UNDO, lambda intent: queries.Undo(operator=settings.operator, request=intent))
-    match reply:
-        case Step():
-            return reply
-        case queries.Refused(reason):
-            return Step(to(state, Phase.DECIDING, view, owed=None, event=not_done(queries.UNDO, reason)))
-        case _:
-            undone = replace(state, last=None, updates=state.updates - 1, warned=False)
-            return Step(to(undone, Phase.DECIDING, view, owed=None, event="The newest update was taken back."))

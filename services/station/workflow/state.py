@@ -35,6 +35,9 @@ class Action(Enum):
     STEP_ON = "step_on"
     SEEK = "seek"
     PART = "part"
+    TAKE_BACK = "take_back"
+    USE_AGAIN = "use_again"
+    CONFIDENCE = "confidence"
 
 
 class Phase(Enum):
@@ -49,7 +52,7 @@ class Phase(Enum):
     STARTING = "starting"
     EXECUTING = "executing"
     LEARNING = "learning"
-    UNDOING = "undoing"
+    TURNING = "turning"
     DECIDING = "deciding"
     STOPPED = "stopped"
     RELEASING = "releasing"
@@ -158,6 +161,19 @@ class Taught:
 
 
 @dataclass(frozen=True)
+class Turning:
+    """What the operator wants done with an entry of the model's history.
+
+    Attributes:
+        entry: by its id; 0 for the newest update.
+        in_use: to be used again, or to be taken back.
+    """
+
+    entry: int = 0
+    in_use: bool = False
+
+
+@dataclass(frozen=True)
 class Owed:
     """A request of the model's that was left unanswered: it is asked again with the same number, so done once."""
 
@@ -188,6 +204,8 @@ class Workflow:
         heard_s: when the robot's state was heard last [s].
         episode: that the robot was told to run and whose result has not come; None where there is none.
         owed: to the model.
+        turning: what is or was last done with an entry of the model's history.
+        confidence: how far the model is to believe what it is taught next; None for what the settings say.
         mode: of the next episode.
         pace: at which motions go; 1 is their own.
         part: of the next refinement in which corrections count.
@@ -200,7 +218,7 @@ class Workflow:
         taught: what the newest refinement has shown, while it can be learnt.
         last: verdict of the newest episode at this place.
         refinements: attempts since the last update.
-        updates: at this place.
+        learnt: entries of the model's history that were taught at this place and not taken back.
         attempts: the newest episodes of the run.
         closure: whether the loop has closed.
         let_go: keys were held on the way to the start, and have not all been let go since.
@@ -228,6 +246,8 @@ class Workflow:
     heard_s: float = 0.0
     episode: Episode | None = None
     owed: Owed | None = None
+    turning: Turning = Turning()
+    confidence: float | None = None
     mode: Mode = Mode.AUTONOMOUS
     pace: float = 1.0
     part: Part = WHOLE
@@ -240,7 +260,7 @@ class Workflow:
     taught: Taught | None = None
     last: Outcome | None = None
     refinements: int = 0
-    updates: int = 0
+    learnt: tuple[int, ...] = ()
     attempts: tuple[Attempt, ...] = ()
     closure: Closure = field(default_factory=Closure)
     let_go: bool = False
@@ -248,6 +268,11 @@ class Workflow:
     event: str = ""
     notice: str = ""
     offered: frozenset[Action] = field(default_factory=frozenset)
+
+    @property
+    def updates(self) -> int:
+        """Of the model at this place."""
+        return len(self.learnt)
 
     @property
     def held_epoch(self) -> int:

@@ -10,6 +10,7 @@ from services.bus.predictions import certainty, way_taken
 from services.station.workflow.authority import another, missing
 from services.station.workflow.deciding import recommended
 from services.station.workflow.going import elsewhere, paused
+from services.station.workflow.learning import confidence
 from services.station.workflow.state import Action, Phase, Settings, Workflow
 from services.station.workflow.view import View
 
@@ -20,7 +21,7 @@ _TEXTS = {
     Phase.PREDICTING: "The model predicts a motion.",
     Phase.STARTING: "The robot is told the motion.",
     Phase.LEARNING: "The model learns from the correction.",
-    Phase.UNDOING: "The model takes its newest update back.",
+    Phase.TURNING: "The model changes what it is made of.",
     Phase.RELEASING: "Releasing the emergency stop.",
 }
 
@@ -45,6 +46,7 @@ def teaching_state(state: Workflow, view: View, settings: Settings) -> TeachingS
         recommended=recommended(state, settings).value if state.phase is Phase.DECIDING and state.offered else "",
         pace=state.pace,
         part=state.episode.part if state.episode is not None else state.part,
+        confidence=confidence(state, settings),
     )
 
 
@@ -125,8 +127,7 @@ def _deciding(state: Workflow) -> str:
     if state.last:
         return f"{outcome_text(state.last)} What next?"
     if state.warned and state.prediction is not None:
-        known = certainty(state.prediction)
-        return f"Little is known here ({known}): show the motion with Refine, or execute it all the same."
+        return f"I don't know this place ({certainty(state.prediction)}): show me the motion."
     return "Ready. Press Execute."
 
 

@@ -159,7 +159,7 @@ def test_a_request_is_known_by_the_version_that_it_made(path, reach):
         store.undo(2, request=2**53)
         store.redo(2, request=5)
     with DemonstrationStore(path) as store:
-        assert [store.made_by(request) for request in (77, 2**53, 5, 78)] == [1, 3, 4, None]
+        assert [store.made_by(request) for request in (77, 2**53, 5, 78)] == [(1, 1), (3, 2), (4, 2), None]
 
 
 def test_a_request_makes_no_second_change(path, reach):

@@ -91,7 +91,7 @@ def test_a_file_of_schema_2_is_bound_to_the_scene_of_its_rows_whatever_the_robot
                 store.check(TABLE)
     with DemonstrationStore(path) as store:
         store.add(reach([0.9, 0.1, 0.6]), Purpose.UPDATE, DISHWASHER, request=5)
-        assert store.made_by(5) == 2
+        assert store.made_by(5) == (2, 2)
 
 
 def test_what_a_file_of_schema_3_holds_is_nobodys_of_no_time_and_believed_whole(path, reach):
@@ -127,7 +127,7 @@ def test_what_a_file_of_schema_5_took_back_is_taken_back_and_can_be_used_again(p
         with DemonstrationStore(path) as store:
             history = store.history()
             assert [store.counts(version) for version in range(5)] == counted
-            assert (store.version, store.made_by(9)) == (4, 4)
+            assert (store.version, store.made_by(9)) == (4, (4, 2))
             assert [stored.version for stored in store.active()] == [1, 3]
     assert [stored.turn for stored in history] == [
         Turn(1, True, "anna", 0.1),

@@ -111,7 +111,7 @@ class Person(Stage):
             assert self._clock.now_ns() < end_ns, told
             if told is None:
                 return False
-            return told.message.phase == phase or (warned and "Little is known" in told.message.text)
+            return told.message.phase == phase or (warned and "I don't know this place" in told.message.text)
 
         self.run(there)
         return self.teaching.latest().message.phase

@@ -21,6 +21,7 @@ from protocol.messages import (
 )
 from services.bus.memory import MemoryNetwork
 from services.process.clock import ManualClock
+from services.station.page.effects import Effects
 from services.station.press import Press
 from services.station.service import StationService
 from tests.services.station.workflow import site as workflow
@@ -39,6 +40,7 @@ class Tab:
         self.held = OperatorInput(keys=("KeyE",), focused=True, present=True)
         self.shown = None
         self.closed = False
+        self.effects = Effects()
 
     def take_presses(self):
         taken, self.pressed = self.pressed, []

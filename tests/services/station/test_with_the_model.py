@@ -151,7 +151,7 @@ def test_far_from_what_was_shown_the_operator_is_asked_before_anything_is_execut
     site.press("execute")
     assert site.executed == []
     assert site.page.shown.prediction.known < 0.5
-    assert "Little is known here" in site.page.shown.teaching.text
+    assert "I don't know this place" in site.page.shown.teaching.text
     assert site.page.shown.teaching.recommended == "refine"
     site.press("execute")
     assert len(site.executed) == 1

@@ -51,6 +51,7 @@ class Site:
         self.now_s = 100.0
         self.epoch = 7
         self.version = 2
+        self.learnt = []
         self.asked = []
         self.numbers = 0
         self.instead = {}
@@ -113,10 +114,8 @@ class Site:
                         **self.certainty,
                     )
                 )
-            case queries.ADD_DEMONSTRATION | queries.UNDO:
-                self.version += 1
-                model = msgspec.structs.replace(self.view.model, version=self.version, updates=self.version - 2)
-                return queries.Learnt(model)
+            case queries.ADD_DEMONSTRATION | queries.UNDO | queries.REDO:
+                return self.change(ask)
             case queries.EXECUTE:
                 episode = self.view.robot.episode + 1
                 self.robot(phase=EXECUTE, mode=ask.request.mode, episode=episode)
@@ -126,6 +125,18 @@ class Site:
             case queries.RELEASE_STOP:
                 self.sees(safety=RELEASED)
         return queries.Accepted()
+
+    def change(self, ask):
+        """As the model does what changes it; its updates are called by the versions that they made."""
+        self.version += 1
+        entry = getattr(ask.request, "entry", 0) or (self.learnt[-1] if ask.query is queries.UNDO else self.version)
+        if ask.query is queries.UNDO:
+            self.learnt.remove(entry)
+        else:
+            self.learnt.append(entry)
+        model = msgspec.structs.replace(self.view.model, version=self.version, updates=len(self.learnt))
+        self.sees(model=model)
+        return queries.Learnt(model, entry)
 
     def fail(self, query, outcome=None):
         """Let the next question of this kind go wrong; without an answer where nothing else is said."""

@@ -96,13 +96,13 @@ def test_an_answer_of_a_state_that_was_left_is_nobodys():
 
 
 @pytest.mark.parametrize(
-    ("query", "phase"), [(queries.ADD_DEMONSTRATION, Phase.LEARNING), (queries.UNDO, Phase.UNDOING)]
+    ("query", "phase"), [(queries.ADD_DEMONSTRATION, Phase.LEARNING), (queries.UNDO, Phase.TURNING)]
 )
 def test_what_the_model_was_asked_is_asked_again_with_the_same_number_after_the_authority_was_lost(query, phase):
     site = Site(BY_HAND, [COLLIDED, REACHED])
     site.press(Action.EXECUTE, Phase.EXECUTING)
     site.press(Action.REFINE, Phase.LEARNING)
-    if phase is Phase.UNDOING:
+    if phase is Phase.TURNING:
         site.press(Action.UNDO, phase)
     site.instead[query.name] = UNANSWERED
     site.step()

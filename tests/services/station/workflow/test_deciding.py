@@ -16,6 +16,7 @@ from tests.services.station.workflow.site import (
     Site,
 )
 
+HISTORY = {Action.TAKE_BACK, Action.USE_AGAIN}
 MOVING = {"cmd/reset", "cmd/execute", "cmd/resume"}
 
 
@@ -26,7 +27,7 @@ def test_after_connecting_it_asks_for_the_authority_looks_and_stands():
     assert site.state.phase is Phase.DECIDING
     assert site.names() == ["authority/acquire"]
     assert site.state.looked == (0.85, 0.05, 0.5)
-    assert site.state.offered == {Action.EXECUTE, Action.REFINE, Action.NEXT, Action.END} | SETTING
+    assert site.state.offered == {Action.EXECUTE, Action.REFINE, Action.NEXT, Action.END} | SETTING | HISTORY
 
 
 def test_a_press_before_it_asks_moves_nothing():

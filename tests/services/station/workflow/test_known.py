@@ -31,7 +31,7 @@ def test_what_little_is_known_of_is_not_executed_but_the_operator_asked():
     assert site.stay(60) == []
     assert EXECUTE not in site.names()
     told = teaching_state(site.state, site.view, BY_HAND)
-    assert told.text.startswith("Little is known here (20 % known)")
+    assert told.text.startswith("I don't know this place (20 % known): show me")
     assert told.recommended == "refine"
     assert {"execute", "refine"} <= set(told.actions)
 
@@ -72,7 +72,7 @@ def test_a_failure_before_does_not_hide_that_little_is_known():
     site.end(COLLIDED)
     site.press(Action.EXECUTE, Phase.DECIDING)
     site.run_to(Phase.DECIDING)
-    assert "Little is known" in teaching_state(site.state, site.view, BY_HAND).text
+    assert "I don't know this place" in teaching_state(site.state, site.view, BY_HAND).text
 
 
 def test_at_the_next_place_it_is_said_again():

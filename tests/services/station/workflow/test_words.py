@@ -75,8 +75,7 @@ def told(state, **seen):
             Workflow(phase=Phase.DECIDING, warned=True, prediction=HARDLY_KNOWN),
             {},
             Light.GREEN,
-            "Little is known here (20 % known, way 2 of 2, 80 %): show the motion with Refine, or execute it all the"
-            " same.",
+            "I don't know this place (20 % known, way 2 of 2, 80 %): show me the motion.",
         ),
         (
             replace(ALONE, prediction=HARDLY_KNOWN),
@@ -157,7 +156,7 @@ def test_the_state_tells_counts_offers_and_the_end():
     state = Workflow(
         phase=Phase.FINISHED,
         refinements=2,
-        updates=3,
+        learnt=(4, 5, 8),
         reason="so",
         offered=frozenset({Action.REFINE, Action.EXECUTE}),
     )

@@ -1,0 +1,62 @@
+"""Asks the model for its history when it has become another one, and what an entry changes where a tab asks for it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from protocol import queries
+from protocol.history import Compare, Compared, HistoryListed, ListHistory
+from protocol.messages import ModelState
+from services.bus.bus import Bus, Pending
+from services.station.page.entries import Rows, rows_of
+
+if TYPE_CHECKING:  # a station without a page has none of its packages
+    from services.station.page.effects import Effects
+
+TIMEOUT_S = 2.0
+AGAIN_NS = 200_000_000
+"""After an answer that says nothing yet, or none."""
+
+
+class HistoryReader:
+    """What is known of the model's history.
+
+    Args:
+        bus: to the model.
+        effects: that the page wants to see.
+    """
+
+    def __init__(self, bus: Bus, effects: Effects) -> None:
+        self._bus = bus
+        self._effects = effects
+        self._asked: tuple[int, Pending[Any]] | None = None
+        self._next_ns = 0
+        self.rows: Rows | None = None
+
+    def step(self, now_ns: int, model: ModelState | None) -> None:
+        """Take what has come, and ask for what is missing: one question at a time."""
+        if self._asked is not None:
+            entry, pending = self._asked
+            outcome = pending.poll()
+            if outcome is None:
+                return
+            self._asked = None
+            self._take(entry, outcome, now_ns)
+        if model is None or now_ns < self._next_ns:
+            return
+        if self.rows is None or self.rows.version != model.version:
+            self._asked = 0, self._bus.ask(queries.HISTORY, ListHistory(), TIMEOUT_S)
+        elif (wanted := self._effects.wanted()) is not None:
+            self._asked = wanted, self._bus.ask(queries.COMPARE, Compare(wanted), TIMEOUT_S)
+
+    def _take(self, entry: int, outcome: Any, now_ns: int) -> None:
+        match outcome:
+            case HistoryListed():
+                self.rows = rows_of(outcome)
+                self._effects.renew(outcome.version)
+            case Compared(version, effect) if effect is not None:
+                self._effects.put(version, entry, effect)
+            case queries.Refused() if entry and self.rows is not None:
+                self._effects.put(self.rows.version, entry, None)
+            case _:
+                self._next_ns = now_ns + AGAIN_NS

@@ -1,0 +1,104 @@
+"""The history of the skill as rows: what was learnt, by whom, when and how, and how far it led from the prediction."""
+
+from __future__ import annotations
+
+import msgspec
+
+from protocol.history import Entry, HistoryListed
+from protocol.messages import Method, Part, Purpose
+from services.bus.predictions import percent
+from services.station.page.readout import length
+
+_METHODS = {
+    Method.UNKNOWN: "",
+    Method.REFINE: "corrected while it ran",
+    Method.WAYPOINTS: "through waypoints",
+    Method.DEMONSTRATE: "led by hand",
+}
+_PURPOSES = {Purpose.INITIAL: "First demonstration", Purpose.UPDATE: "Correction"}
+
+
+class Row(msgspec.Struct, frozen=True):
+    """An entry in words; what is not known is left empty.
+
+    Attributes:
+        id: by which a press names it.
+        what: it is.
+        how: it was given.
+        who: gave it.
+        at: when; see `protocol.history.Entry`.
+        moved: how far it led from what was predicted.
+        believed: how far, where that is not all the way, and of which part it speaks.
+        in_use: the model is made of it.
+        turned: who took it back or into use again.
+        turned_at: when.
+    """
+
+    id: int
+    what: str
+    how: str
+    who: str
+    at: str
+    moved: str
+    believed: str
+    in_use: bool
+    turned: str
+    turned_at: str
+
+
+class Rows(msgspec.Struct, frozen=True):
+    """A history.
+
+    Attributes:
+        version: of the model.
+        rows: the newest first.
+        older: how many there are beyond them.
+    """
+
+    version: int
+    rows: tuple[Row, ...]
+    older: int
+
+    @property
+    def in_use(self) -> int:
+        """How many of the rows the model is made of."""
+        return sum(row.in_use for row in self.rows)
+
+
+def rows_of(listed: HistoryListed) -> Rows:
+    """What the model lists, for people."""
+    return Rows(listed.version, tuple(_row(entry) for entry in listed.entries), listed.older)
+
+
+def _row(entry: Entry) -> Row:
+    return Row(
+        id=entry.id,
+        what=f"{_PURPOSES[entry.purpose]} {entry.id}",
+        how=_METHODS[entry.method],
+        who=entry.operator,
+        at=entry.at,
+        moved=_moved(entry),
+        believed=_believed(entry),
+        in_use=entry.in_use,
+        turned=_turned(entry),
+        turned_at=entry.turned_at,
+    )
+
+
+def _moved(entry: Entry) -> str:
+    """Nothing was predicted before where it is negative."""
+    return "" if entry.most < 0.0 else f"up to {length(entry.most)}, {length(entry.mean)} on average"
+
+
+def _believed(entry: Entry) -> str:
+    share = "" if entry.alpha == 1.0 else f"believed {percent(entry.alpha)}"
+    first, last = percent(entry.part.first), percent(entry.part.last)
+    part = "" if entry.part == Part() else f"from {first} to {last} of the motion"
+    return ", ".join(words for words in (share, part) if words)
+
+
+def _turned(entry: Entry) -> str:
+    by = f" by {entry.turned_by}" if entry.turned_by else ""
+    if not entry.in_use:
+        return f"taken back{by}"
+    return f"used again{by}" if entry.turned_at or by else ""
