@@ -116,13 +116,17 @@ class WorldState(Message, frozen=True, kw_only=True):
 
 
 class Box(msgspec.Struct, frozen=True):
-    """A box of the scene, in the base frame; half sizes [m], colour with alpha from 0 to 1."""
+    """A box of the scene, in the base frame; half sizes [m], colour with alpha from 0 to 1.
+
+    One that is not solid only shows something: nothing can touch it.
+    """
 
     name: Name
     centre: Vector3
     half_sizes: Vector3
     orientation: Quaternion
     rgba: tuple[Real, Real, Real, Real]
+    solid: bool = True
 
 
 class SceneState(Message, frozen=True, kw_only=True):

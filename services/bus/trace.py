@@ -17,11 +17,12 @@ POINTS_KEPT = 1000
 
 
 class Trace:
-    """The way of the episode that runs, or that ran last."""
+    """The way of the episode that runs, or that ran last; where it went back, it is as long as it is then."""
 
     def __init__(self) -> None:
         self._episode: tuple[int, int] | None = None
         self._points: deque[Vector3] = deque(maxlen=POINTS_KEPT)
+        self._passed: deque[float] = deque(maxlen=POINTS_KEPT)  # at which progress each point was
 
     def see(self, robot: RobotState) -> bool:
         """Follow the reference; another episode begins another trace. Whether the way is another one now."""
@@ -30,13 +31,19 @@ class Trace:
         if begins:
             self._episode = episode
             self._points.clear()
+            self._passed.clear()
         if robot.phase is not Phase.EXECUTE:
             return begins
         position = robot.reference.position
+        length = len(self._points)
+        while self._passed and self._passed[-1] > robot.progress:
+            self._passed.pop()
+            self._points.pop()
         goes_on = not self._points or math.dist(self._points[-1], position) >= SPACING
         if goes_on:
             self._points.append(position)
-        return begins or goes_on
+            self._passed.append(robot.progress)
+        return begins or goes_on or len(self._points) != length
 
     @property
     def points(self) -> Floats:

@@ -13,7 +13,7 @@ from services.robot.verdict import Verdict
 from sim.pose import Pose
 from sim.region import Region
 from sim.tasks import AnyScene
-from sim.tasks.scene import Box
+from sim.tasks.scene import Box, Group
 
 Array = NDArray[np.float64]
 
@@ -94,7 +94,7 @@ def scene_state(scene: AnyScene, variant: str, start: Pose, condition: Array) ->
     return messages.SceneState(
         name=scene.name,
         variant=variant,
-        boxes=_boxes((*scene.boxes(variant), *scene.targets(condition))),
+        boxes=(*map(_box, scene.boxes(variant)), *map(_sign, scene.targets(condition))),
         object_size=scene.object_size,
         ellipsoid_radii=scene.tolerances,
         kicked_over_thresholds=scene.kick_limits,
@@ -111,5 +111,11 @@ def _corners(region: Region) -> tuple[messages.Vector3, messages.Vector3]:
     return vector3(np.array(region.lower)), vector3(np.array(region.upper))
 
 
-def _boxes(boxes: tuple[Box, ...]) -> tuple[messages.Box, ...]:
-    return tuple(messages.Box(box.name, box.centre, box.half_sizes, box.quaternion, box.rgba) for box in boxes)
+def _box(box: Box) -> messages.Box:
+    solid = box.group is not Group.DETAIL
+    return messages.Box(box.name, box.centre, box.half_sizes, box.quaternion, box.rgba, solid)
+
+
+def _sign(box: Box) -> messages.Box:
+    """What only shows where a target is."""
+    return msgspec.structs.replace(_box(box), solid=False)

@@ -21,11 +21,12 @@ from services.bus.arrays import motion_to_wire, to_wire
 from services.process.clock import SystemClock
 from services.process.config import StationSection
 from services.station.live_view.description import describe
-from services.station.live_view.drawing import Criteria, Curve, Drawing
+from services.station.live_view.drawing import Criteria, Curve, Drawing, Going
 from services.station.page.page import Page
 from services.station.page.view import PageView, Picture
 from sim.robots.description import CONTROLLED_JOINTS
 from sim.tasks import DISHWASHER
+from sim.tasks.scene import Group
 
 FEED_PERIOD_S = 0.02
 GRASP = Pose(tuple(DISHWASHER.start.position), tuple(DISHWASHER.start.orientation))
@@ -40,18 +41,24 @@ def described():
 
 def drawing() -> Drawing:
     """The dishwasher, a prediction in its tube and the half of it that was corrected."""
-    predicted, corrected = (
-        tuple(map(tuple, DISHWASHER.corridor(variant, np.array(OBJECT.position)).positions.tolist()))
-        for variant in DISHWASHER.variants
-    )
-    boxes = DISHWASHER.boxes(DISHWASHER.variants[1])
+    predicted, corrected = (DISHWASHER.corridor(variant, np.array(OBJECT.position)) for variant in DISHWASHER.variants)
+    points = rows(predicted.positions)
     return Drawing(
-        boxes=tuple(Box(box.name, box.centre, box.half_sizes, box.quaternion, box.rgba) for box in boxes),
+        boxes=tuple(
+            Box(box.name, box.centre, box.half_sizes, box.quaternion, box.rgba, box.group is not Group.DETAIL)
+            for box in DISHWASHER.boxes(DISHWASHER.variants[1])
+        ),
         size=DISHWASHER.object_size,
-        prediction=Curve(predicted, tuple((0.03, 0.05, 0.02) for _ in predicted)),
-        way=corrected[: len(corrected) // 2],
+        prediction=Curve(points, tuple((0.03, 0.05, 0.02) for _ in points), rows(predicted.orientations)),
+        going=Going(fading=74.0, corrected=True),
+        way=rows(corrected.positions)[: len(corrected.positions) // 2],
         criteria=Criteria(DISHWASHER.tolerances),
     )
+
+
+def rows(array):
+    """An array as messages have it."""
+    return tuple(map(tuple, array.tolist()))
 
 
 def picture(label: str, width: int = 320, height: int = 240) -> bytes:
@@ -81,7 +88,7 @@ def working_view() -> PageView:
             measured=GRASP,
             reference=GRASP,
             phase=Phase.EXECUTE,
-            progress=0.4,
+            progress=0.0,
             offset=(0.0, 0.02, 0.05),
         ),
         robot_age_s=0.008,

@@ -14,6 +14,7 @@ from services.bus.arrays import quaternion, vector3
 from sim.exceptions import SimError
 from sim.robots import meshes
 from sim.robots.description import CONTROLLED_JOINTS, HEAD_JOINTS, prepare
+from sim.robots.gripper import BLOCKS, GRASP_DISTANCE
 from sim.robots.links import Block, Cylinder, Link, Mesh, Shape, read_links
 from sim.tasks import REACHING, SCENES
 from sim.tasks.scene import Eye
@@ -64,6 +65,13 @@ class _Link(msgspec.Struct, frozen=True):
     parts: tuple[_Part, ...]
 
 
+class _Block(msgspec.Struct, frozen=True):
+    """A part of the gripper, in the grasping frame: its centre and its half edge lengths [m]."""
+
+    centre: tuple[float, ...]
+    half_sizes: tuple[float, ...]
+
+
 class _Mesh(msgspec.Struct, frozen=True):
     """How a mesh's numbers are read: least corner and a step along each axis [m]; how many vertices and triangles."""
 
@@ -79,6 +87,7 @@ class _Words(msgspec.Struct, frozen=True):
     Attributes:
         eye: from where one looks, and at what [m].
         point: radius of a robot that is a point [m]; None for one of links.
+        gripper: what of the robot goes ahead and may touch something; none of a robot that is a point.
         joints: names of what moves.
         rest: where they are as long as nothing is heard of them [rad, m].
         links: each after its parent.
@@ -87,6 +96,7 @@ class _Words(msgspec.Struct, frozen=True):
 
     eye: Eye
     point: float | None
+    gripper: tuple[_Block, ...]
     joints: tuple[str, ...]
     rest: tuple[float, ...]
     links: tuple[_Link, ...]
@@ -130,12 +140,20 @@ def described(links: tuple[Link, ...], rest: Mapping[str, float], eye: Eye, poin
     words = _Words(
         eye=eye,
         point=point,
+        gripper=() if point is not None else _gripper(),
         joints=joints,
         rest=tuple(rest.get(joint, 0.0) for joint in joints),
         links=tuple(_link(link, numbers, joints, paths) for link in links),
         meshes=tuple(_mesh(solid) for solid in solids),
     )
     return Description(msgspec.json.encode(words), _shapes(solids), joints)
+
+
+def _gripper() -> tuple[_Block, ...]:
+    return tuple(
+        _Block((x - GRASP_DISTANCE, y, z), tuple(0.5 * edge for edge in block.size))
+        for block, (x, y, z) in ((block, block.centre) for block in BLOCKS)
+    )
 
 
 def _posture(scene: str) -> dict[str, float]:

@@ -28,10 +28,29 @@ class Curve(msgspec.Struct, frozen=True):
     Attributes:
         points: base frame [m].
         spread: two standard deviations along each base axis at each point [m]; empty where they are not known.
+        orientations: at each point, quaternions with the scalar first; empty where they are not known.
     """
 
     points: tuple[Point, ...]
     spread: tuple[Point, ...] = ()
+    orientations: tuple[Point, ...] = ()
+
+
+class Going(msgspec.Struct, frozen=True):
+    """The motion under way, as far as one can tell from it how it goes on.
+
+    Attributes:
+        fading: how many look-aheads the whole motion takes: where nobody corrects it any more, the correction is
+            exp(-fading * share) of itself after a share of the motion; 0 where it is gone at once.
+        first: share of the motion from which on corrections count.
+        last: until which.
+        corrected: the operator shapes it.
+    """
+
+    fading: float = 0.0
+    first: float = 0.0
+    last: float = 1.0
+    corrected: bool = False
 
 
 class Criteria(msgspec.Struct, frozen=True):
@@ -57,6 +76,7 @@ class Drawing(msgspec.Struct, frozen=True):
         boxes: what stands around the robot.
         size: of the object, full edge lengths [m]; zero where there is none.
         prediction: the motion that is or would be executed; None where there is none.
+        going: the motion under way; None where there is none.
         way: where the episode's motion has led so far, the correction in it, base frame [m].
         criteria: by what it is judged.
     """
@@ -64,6 +84,7 @@ class Drawing(msgspec.Struct, frozen=True):
     boxes: tuple[Box, ...] = ()
     size: Vector3 = (0.0, 0.0, 0.0)
     prediction: Curve | None = None
+    going: Going | None = None
     way: tuple[Point, ...] = ()
     criteria: Criteria = Criteria()
 
@@ -76,7 +97,8 @@ def moment(robot: RobotState | None, seen: ObjectPose | None, force: Vector3, jo
     """What moves; not a number where nothing is known.
 
     In order: position and orientation (scalar first) of the grasping frame and of the object as it is seen, the applied
-    correction [m], the force that the operator feels [N], the joints' positions [rad, m].
+    correction as an offset [m] and a turn [rad], how far the motion is, from 0 to 1, the force that the operator feels
+    [N], the joints' positions [rad, m].
 
     Args:
         robot: as measured.
@@ -92,6 +114,8 @@ def moment(robot: RobotState | None, seen: ObjectPose | None, force: Vector3, jo
         *measured.orientation,
         *(round(value, _SEEN) for value in (*thing.position, *thing.orientation)),
         *(_NOWHERE.position if robot is None else robot.offset),
+        *(_NOWHERE.position if robot is None else robot.turn),
+        math.nan if robot is None else robot.progress,
         *force,
         *(positions.get(joint, math.nan) for joint in joints),
     )

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from protocol.messages import Prediction, SceneState, Vector3, Verdict
-from services.bus.arrays import Floats, drawable
+from lfd import haptics
+from protocol.messages import ExecutionState, MasterState, Mode, Prediction, SceneState, Vector3, Verdict
+from services.bus.arrays import Floats, drawable, vector3
 from services.bus.trace import Trace
 from services.station.ears import Ears, message
-from services.station.live_view.drawing import Criteria, Curve, Drawing, Point
+from services.station.live_view.drawing import Criteria, Curve, Drawing, Going, Point
 
 _POINTS = 80
 """Of a motion: a line through more looks the same."""
@@ -41,14 +42,17 @@ class Stage:
             boxes=() if scene is None else scene.boxes,
             size=_NO_FORCE if scene is None else scene.object_size,
             prediction=self._predicted(now_ns),
+            going=_going(self._ears.execution.fresh(now_ns)),
             way=self._way,
             criteria=_criteria(scene, message(self._ears.verdict.latest())),
         )
 
     def force(self, now_ns: int) -> Vector3:
-        """That the operator feels now [N]."""
+        """That the operator feels now, or would at a device that renders it (eq. 14) [N]."""
         master = self._ears.master.fresh(now_ns)
-        return _NO_FORCE if master is None else master.force
+        if master is None:
+            return _NO_FORCE
+        return master.force if any(master.force) or not master.engaged else _rendered(master)
 
     def spoilt(self, now_ns: int) -> tuple[float, ...]:
         """Shares of the motion that is shown at which the last episode of it touched or kicked over something."""
@@ -67,6 +71,21 @@ class Stage:
         return self._curve[1]
 
 
+def _rendered(master: MasterState) -> Vector3:
+    return vector3(haptics.force(np.array(master.displacement), np.array(master.velocity)))
+
+
+def _going(execution: ExecutionState | None) -> Going | None:
+    if execution is None or execution.mode is Mode.TEACH:
+        return None
+    return Going(
+        fading=execution.duration / execution.look_ahead if execution.look_ahead > 0.0 else 0.0,
+        first=execution.part.first,
+        last=execution.part.last,
+        corrected=execution.mode is Mode.REFINE,
+    )
+
+
 def _criteria(scene: SceneState | None, verdict: Verdict | None) -> Criteria:
     radii = _NO_FORCE if scene is None else scene.ellipsoid_radii
     if verdict is None:
@@ -79,8 +98,13 @@ def _curve(prediction: Prediction) -> Curve | None:
     positions, deviations = drawable(prediction.motion.positions), drawable(prediction.deviations)
     if positions is None:
         return None
-    known = deviations is not None and deviations.shape == positions.shape
-    return Curve(told(positions), told(_SIGMAS * deviations) if known and deviations is not None else ())
+    orientations = drawable(prediction.motion.orientations)
+    spread = deviations is not None and deviations.shape == positions.shape
+    return Curve(
+        told(positions),
+        told(_SIGMAS * deviations) if spread and deviations is not None else (),
+        told(orientations) if orientations is not None else (),
+    )
 
 
 def told(points: Floats) -> tuple[Point, ...]:

@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 
 from protocol import queries
-from protocol.messages import Part
+from protocol.messages import Mode, Part
 from services.station.workflow.part import extent
 from services.station.workflow.state import WHOLE, Action, Going, Workflow
 from services.station.workflow.view import View
@@ -27,7 +27,7 @@ SETTING = frozenset({Action.PACE, Action.PART})
 def offered(view: View) -> frozenset[Action]:
     """What the operator may do with the motion that is under way."""
     execution, robot = view.execution, view.robot
-    if execution is None or robot is None or not robot.phase.running:
+    if execution is None or robot is None or not robot.phase.running or execution.mode is Mode.TEACH:
         return frozenset()
     always = {Action.PACE, Action.STEP_BACK, Action.STEP_ON, Action.SEEK}
     return frozenset(always | ({Action.PLAY} if execution.pace <= 0.0 else {Action.PAUSE}))
@@ -75,7 +75,7 @@ def request(state: Workflow, going: Going, intent: int) -> queries.Pace:
 def _going(state: Workflow, view: View) -> Going | None:
     """What the newest press asks for; None where none does."""
     robot, execution = view.robot, view.execution
-    if robot is None or execution is None:
+    if robot is None or execution is None or execution.mode is Mode.TEACH:
         return None
     now = robot.progress
     wishes = {

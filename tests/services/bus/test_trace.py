@@ -8,12 +8,13 @@ from services.bus.trace import POINTS_KEPT, SPACING, Trace
 UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 
 
-def robot(x, phase=Phase.EXECUTE, episode=1):
+def robot(x, phase=Phase.EXECUTE, episode=1, progress=0.0):
     return RobotState(
         measured=Pose((9.0, 0.0, 0.0), UPRIGHT),
         reference=Pose((x, 0.0, 0.0), UPRIGHT),
         phase=phase,
         episode=episode,
+        progress=progress,
         publisher=1,
     )
 
@@ -54,3 +55,13 @@ def test_points_that_nobody_tells_apart_are_one_and_an_endless_episode_has_no_mo
     for i in range(2 * POINTS_KEPT):
         trace.see(robot(2.0 * SPACING * (i + 1)))
     assert len(trace.points) == POINTS_KEPT
+
+
+def test_what_was_passed_is_forgotten_where_the_motion_goes_back():
+    trace = Trace()
+    for x, progress in ((0.0, 0.0), (0.1, 0.1), (0.2, 0.2), (0.3, 0.3)):
+        trace.see(robot(x, progress=progress))
+    assert trace.see(robot(0.15, progress=0.15))
+    np.testing.assert_array_equal(trace.points[:, 0], [0.0, 0.1, 0.15])
+    trace.see(robot(0.5, progress=0.4))
+    np.testing.assert_array_equal(trace.points[:, 0], [0.0, 0.1, 0.15, 0.5])

@@ -90,6 +90,11 @@ def test_it_is_small_enough_to_be_loaded_at_once_and_drawn_without_a_graphics_ca
     assert sum(mesh["triangles"] for mesh in words["meshes"]) <= 20_000
 
 
+def test_the_gripper_reaches_as_far_ahead_of_the_grasping_frame_as_its_fingers_do(words):
+    ahead = max(block["centre"][0] + block["half_sizes"][0] for block in words["gripper"])
+    assert ahead == pytest.approx(0.027)  # 157 mm from the wrist, the frame at 130 mm
+
+
 def test_a_robot_that_is_a_point_is_told_as_one():
     words = json.loads(describe("particle").words)
     assert (words["point"], words["links"]) == (PARTICLE.radius, [])

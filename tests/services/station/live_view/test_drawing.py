@@ -18,6 +18,8 @@ ROBOT = RobotState(
     reference=GRASP,
     phase=Phase.EXECUTE,
     offset=(0.0, 0.03, 0.0),
+    turn=(0.1, 0.0, -0.2),
+    progress=0.75,
 )
 
 
@@ -31,8 +33,9 @@ def test_a_moment_is_gripper_object_correction_force_and_joints_in_this_order():
     values = read(moment(ROBOT, SEEN, (0.0, 0.0, 2.0), ("elbow", "head", "torso")))
     np.testing.assert_allclose(values[0:7], [0.6, 0.1, 0.5, 0.0, 1.0, 0.0, 0.0], rtol=1e-6)
     np.testing.assert_allclose(values[7:14], [0.9, 0.0, 0.55, 1.0, 0.0, 0.0, 0.0], rtol=1e-6)
-    np.testing.assert_allclose(values[14:20], [0.0, 0.03, 0.0, 0.0, 0.0, 2.0], rtol=1e-6)
-    np.testing.assert_allclose(values[20:], [-1.5, np.nan, 0.25])
+    np.testing.assert_allclose(values[14:21], [0.0, 0.03, 0.0, 0.1, 0.0, -0.2, 0.75], rtol=1e-6)
+    np.testing.assert_allclose(values[21:24], [0.0, 0.0, 2.0])
+    np.testing.assert_allclose(values[24:], [-1.5, np.nan, 0.25])
 
 
 def test_what_trembles_stands_and_what_creeps_has_moved_at_last():
@@ -51,14 +54,14 @@ def test_what_is_known_only_now_has_moved():
 
 def test_what_is_not_known_is_not_a_number():
     values = read(moment(None, None, NO_FORCE, ("elbow",)))
-    assert np.all(np.isnan(values[[*range(17), 20]]))
-    assert values[17:20].tolist() == [0.0, 0.0, 0.0]
+    assert np.all(np.isnan(values[[*range(21), 24]]))
+    assert values[21:24].tolist() == [0.0, 0.0, 0.0]
 
 
 def test_a_robot_that_tells_fewer_positions_than_names_moves_what_it_tells():
     cut_short = RobotState(joint_names=("a", "b"), q=(0.5,), measured=GRASP, reference=GRASP, phase=Phase.IDLE)
-    assert read(moment(cut_short, None, NO_FORCE, ("a", "b")))[20:].tolist()[0] == 0.5
+    assert read(moment(cut_short, None, NO_FORCE, ("a", "b")))[24:].tolist()[0] == 0.5
 
 
 def test_a_drawing_is_told_part_by_part():
-    assert set(Drawing().parts()) == {"boxes", "size", "prediction", "way", "criteria"}
+    assert set(Drawing().parts()) == {"boxes", "size", "prediction", "going", "way", "criteria"}

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from lfd.haptics import DAMPING, STIFFNESS
 from protocol import topics
 from protocol.messages import (
     Box,
@@ -10,6 +11,7 @@ from protocol.messages import (
     ExecutionState,
     MasterState,
     Mode,
+    Part,
     Phase,
     Pose,
     RobotState,
@@ -20,6 +22,7 @@ from services.bus.arrays import motion_to_wire, to_wire
 from services.bus.memory import MemoryNetwork
 from services.process.clock import ManualClock
 from services.station.ears import Ears
+from services.station.live_view.drawing import Going
 from services.station.live_view.stage import Stage
 from tests.services.predictions import announce, prediction
 
@@ -140,6 +143,40 @@ def test_the_force_is_the_masters_as_long_as_it_is_heard():
     assert network.stage.force(network.clock.now_ns()) == (0.0, 1.5, 0.0)
     network.clock.advance(5.0)
     assert network.stage.force(network.clock.now_ns()) == (0.0, 0.0, 0.0)
+
+
+def test_of_a_device_without_a_force_it_is_what_one_with_a_force_would_render():
+    network = Network()
+    state = MasterState(displacement=(0.0, 0.02, 0.0), velocity=(0.0, 0.0, 0.1), engaged=True)
+    network.other.publish(topics.MASTER_STATE, state)
+    assert network.stage.force(network.clock.now_ns()) == pytest.approx((0.0, -STIFFNESS * 0.02, -DAMPING * 0.1))
+    network.other.publish(topics.MASTER_STATE, MasterState(displacement=(0.0, 0.02, 0.0)))
+    assert network.stage.force(network.clock.now_ns()) == (0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("mode", "look_ahead", "going"),
+    [
+        (Mode.REFINE, 0.25, Going(80.0, 0.25, 0.5, corrected=True)),
+        (Mode.AUTONOMOUS, 0.25, Going(80.0, 0.25, 0.5, corrected=False)),
+        (Mode.REFINE, 0.0, Going(0.0, 0.25, 0.5, corrected=True)),
+        (Mode.TEACH, 0.25, None),
+    ],
+)
+def test_how_a_correction_fades_is_told_of_a_motion_that_has_a_prediction(mode, look_ahead, going):
+    network = Network()
+    assert network.seen().going is None
+    told = ExecutionState(
+        episode=1,
+        mode=mode,
+        prediction=1,
+        progress=0.1,
+        duration=20.0,
+        look_ahead=look_ahead,
+        part=Part(0.25, 0.5),
+    )
+    network.other.publish(topics.EXECUTION, told)
+    assert network.seen().going == going
 
 
 def result(prediction, **shares):

@@ -9,7 +9,13 @@ const ZOOMS = { "+": 0.9, "=": 0.9, "-": 1 / 0.9 };
 export const MOMENT = 2;
 
 export class LiveView {
-  constructor() {
+  // onForeseen: told where the gripper would touch something on its way, null for nowhere.
+  constructor(onForeseen) {
+    this.reckoned = { touch: null, took: 0 };
+    this.onForeseen = (touch, took) => {
+      this.reckoned = { touch, took };
+      onForeseen(touch);
+    };
     this.panel = document.querySelector(".scene");
     this.parts = {};
     this.drawn = 0;
@@ -56,7 +62,10 @@ export class LiveView {
         fetched(words).then((answer) => answer.json()),
         fetched(new URL("shapes.bin", words)).then((answer) => answer.arrayBuffer()),
       ]);
-      this.drawing = new Drawing(canvas, means, description, shapes, (shown) => this.onDrawn(shown));
+      this.drawing = new Drawing(canvas, means, description, shapes, {
+        onDrawn: (shown) => this.onDrawn(shown),
+        onForeseen: (touch, took) => this.onForeseen(touch, took),
+      });
       this.drawing.show(this.parts);
       if (this.moment) this.drawing.receive(this.moment);
     } catch (error) {

@@ -39,7 +39,7 @@ const pictures = new Pictures();
 const keyboard = new Keyboard();
 const devices = new Devices(() => changed());
 const held = new Held(changed, () => devices.controllers());
-const liveView = new LiveView();
+const liveView = new LiveView(() => {});
 const link = new Link(tab, { onOpen, onNews, onFrame, onSilence });
 presses.link = link;
 

@@ -9,12 +9,16 @@ import {
   Vector3,
   WebGLRenderer,
 } from "/assets/js/drawing/three.js";
+import { Ahead } from "/assets/js/drawing/ahead.js";
+import { Depth } from "/assets/js/drawing/depth.js";
+import { Labels } from "/assets/js/drawing/labels.js";
 import { Marks } from "/assets/js/drawing/marks.js";
 import { Motions } from "/assets/js/drawing/motions.js";
 import { Cadence } from "/assets/js/drawing/cadence.js";
 import { colourOf } from "/assets/js/drawing/paint.js";
 import { Robot } from "/assets/js/drawing/robot.js";
 import { Surroundings } from "/assets/js/drawing/surroundings.js";
+import { solids } from "/assets/js/drawing/touching.js";
 
 const FIELD_OF_VIEW = 48;
 const POLL_MS = 3;
@@ -24,8 +28,8 @@ const STEP = Math.PI / 24; // that a key turns the view by
 const [LEVEL, STEEP] = [0.05, Math.PI - 0.05]; // from straight above, to straight below
 
 export class Drawing {
-  // onDrawn: told which moment is the newest on the screen.
-  constructor(canvas, { context, isSlow }, description, shapes, onDrawn) {
+  // onDrawn: told which moment is the newest on the screen; onForeseen: see Ahead.
+  constructor(canvas, { context, isSlow }, description, shapes, { onDrawn, onForeseen }) {
     Object.assign(this, { canvas, context, isSlow, onDrawn, eye: description.eye });
     this.renderer = new WebGLRenderer({ canvas, context });
     this.cadence = new Cadence();
@@ -39,8 +43,12 @@ export class Drawing {
     this.surroundings = new Surroundings();
     this.motions = new Motions();
     this.marks = new Marks();
+    this.labels = new Labels(canvas);
+    this.depth = new Depth(this.labels);
+    this.ahead = new Ahead(this.labels, description.gripper, onForeseen);
+    this.drawn = [this.surroundings, this.robot, this.motions, this.marks, this.depth, this.ahead];
     this.scene.background = colourOf("ground");
-    this.scene.add(...lights(), ...[this.surroundings, this.robot, this.motions, this.marks].map(({ root }) => root));
+    this.scene.add(...lights(), ...this.drawn.map(({ root }) => root));
     this.moment = {};
     this.look();
     new ResizeObserver(() => this.fit()).observe(canvas);
@@ -66,14 +74,23 @@ export class Drawing {
     this.wish();
   }
 
-  show({ boxes, size, prediction, way, criteria }) {
-    if (boxes !== undefined) this.surroundings.furnish(boxes);
-    if (size !== undefined) this.surroundings.size(size);
+  show({ boxes, size, prediction, going, way, criteria }) {
+    if (boxes !== undefined) this.furnish(boxes);
+    if (size !== undefined) this.surroundings.size((this.size = size));
     if (prediction !== undefined) this.motions.predict(prediction);
+    if (prediction !== undefined) this.ahead.predict(prediction);
+    if (going !== undefined) this.ahead.go(going);
     if (way !== undefined) this.motions.travel(way);
     if (criteria !== undefined) this.marks.judge(criteria);
     if (this.last) this.move(this.last);
     this.wish();
+  }
+
+  furnish(boxes) {
+    const things = solids(boxes);
+    this.surroundings.furnish(boxes);
+    this.depth.furnish(things);
+    this.ahead.furnish(things);
   }
 
   receive(moment) {
@@ -98,6 +115,8 @@ export class Drawing {
     this.moment = { shown };
     this.cadence.begin(performance.now());
     this.renderer.render(this.scene, this.camera);
+    this.depth.label(this.camera);
+    this.ahead.label(this.camera);
     const { context } = this;
     const fence = context.fenceSync(context.SYNC_GPU_COMMANDS_COMPLETE, 0);
     context.flush();
@@ -123,9 +142,13 @@ export class Drawing {
     this.last = values;
     const [grasp, object] = [poseOf(values, 0), poseOf(values, 7)];
     this.surroundings.see(object);
-    this.marks.move(grasp, values.subarray(14, 17), values.subarray(17, 20));
+    const [offset, turn, progress] = [values.subarray(14, 17), values.subarray(17, 20), values[20]];
+    this.marks.move(grasp, offset, values.subarray(21, 24));
+    this.depth.see(object, this.size ?? [0, 0, 0]);
+    this.depth.move(grasp);
+    this.ahead.move({ progress, offset: [...offset], turn: [...turn] });
     if (grasp.isKnown) this.robot.follow(new Vector3().fromArray(grasp.position));
-    this.robot.move(values.subarray(20));
+    this.robot.move(values.subarray(24));
   }
 
   // The share of the screen's pixels along each side that is drawn.

@@ -16,13 +16,13 @@ import {
 } from "/assets/js/drawing/three.js";
 import { colourOf, plain } from "/assets/js/drawing/paint.js";
 import { place } from "/assets/js/drawing/robot.js";
+import { Sign } from "/assets/js/drawing/signs.js";
 
 const AXES = ["x", "y", "z"];
 const AXIS_M = 0.13;
 const FORCE_SCALE = 0.03; // [m/N]
 const LEAST_FORCE_N = 0.05;
 const LEAST_CORRECTION_M = 0.002;
-const TOUCH_M = 0.018;
 const LETTER = 0.045; // share of the view's height
 
 export class Marks {
@@ -36,23 +36,26 @@ export class Marks {
       new WireframeGeometry(new SphereGeometry(1, 16, 8)),
       new LineBasicMaterial({ transparent: true, opacity: 0.45 }),
     );
-    this.touch = new Mesh(new SphereGeometry(TOUCH_M, 16, 10), plain("stop"));
-    this.root.add(this.axes, this.correction.root, this.force.root, this.reach, this.touch);
-    for (const mark of [this.axes, this.reach, this.touch]) mark.visible = false;
+    this.touch = new Sign("touched", "stop");
+    this.reached = new Sign("reached", "go");
+    this.root.add(this.axes, this.correction.root, this.force.root, this.reach, this.touch.root, this.reached.root);
+    for (const mark of [this.axes, this.reach]) mark.visible = false;
   }
 
   judge({ radii, reached, collision }) {
     this.isJudged = radii.every((radius) => radius > 0);
     if (this.isJudged) this.reach.scale.fromArray(radii);
     this.reach.material.color.copy(colourOf(reached ? "go" : "quiet"));
-    this.touch.visible = collision !== null;
-    if (this.touch.visible) this.touch.position.fromArray(collision);
+    this.isReached = reached;
+    this.touch.root.visible = collision !== null;
+    if (collision !== null) this.touch.root.position.fromArray(collision);
   }
 
   // The axes are those along which the keys push: the base's, wherever the gripper is turned.
   move(pose, offset, force) {
     this.axes.visible = pose.isKnown;
     this.reach.visible = pose.isKnown && Boolean(this.isJudged);
+    this.reached.root.visible = this.reach.visible && Boolean(this.isReached);
     if (!pose.isKnown) {
       this.correction.hide();
       this.force.hide();
@@ -60,6 +63,7 @@ export class Marks {
     }
     const grasp = new Vector3().fromArray(pose.position);
     this.axes.position.copy(grasp);
+    this.reached.root.position.copy(grasp);
     if (this.reach.visible) place(this.reach, pose);
     const corrected = new Vector3().fromArray(offset);
     this.correction.show(grasp.clone().sub(corrected), corrected, LEAST_CORRECTION_M);
