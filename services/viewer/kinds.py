@@ -8,7 +8,7 @@ from typing import Protocol, TypeVar
 import numpy as np
 import rerun as rr
 
-from protocol.messages import Pose
+from protocol.messages import Pose, Vector3
 
 V_contra = TypeVar("V_contra", contravariant=True)
 
@@ -57,6 +57,19 @@ class _Poses:
         return list(rr.Transform3D.columns(translation=positions, quaternion=np.roll(orientations, -1, axis=1)))
 
 
+class _Arrows:
+    """An arrow from a point, each shape (3,) [m], or none."""
+
+    rows = 1
+
+    def columns(self, values: Sequence[tuple[Vector3, Vector3] | None]) -> list[rr.ComponentColumn]:
+        drawn = np.array([arrow for arrow in values if arrow is not None]).reshape(-1, 2, 3)
+        lengths = [int(arrow is not None) for arrow in values]
+        return list(rr.Arrows3D.columns(origins=drawn[:, 0], vectors=drawn[:, 1]).partition(lengths))
+
+
 SCALARS: Kind[Sequence[float]] = _Scalars()
 WORDS: Kind[str] = _Words()
 POSES: Kind[Pose] = _Poses()
+ARROWS: Kind[tuple[Vector3, Vector3] | None] = _Arrows()
+"""Where it begins, and where it leads from there."""

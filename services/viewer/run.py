@@ -19,8 +19,8 @@ from sim.tasks.scene import Eye
 
 V = TypeVar("V")
 
-LIVE_S = 0.15
-"""Rows are gathered for so long before those who look on see them: what is live, an eye cannot tell."""
+LIVE_S = 0.18
+"""Rows are gathered for so long before those who look on see them, which is six of them: an eye cannot tell."""
 
 RECORDED_S = 0.8
 """Rows are gathered for so long before they are written: a kill costs no more than a second of them."""

@@ -6,7 +6,9 @@ import numpy as np
 import rerun as rr
 
 from protocol.messages import Pose, Quaternion, SceneState, Vector3
+from services.bus.arrays import vector3
 from services.viewer import entities, palette
+from services.viewer.kinds import ARROWS
 from services.viewer.run import Run
 
 _FORCE_SCALE = 0.03  # [m/N]
@@ -92,18 +94,15 @@ def log_collision(run: Run, position: Vector3 | None, force: float) -> None:
     run.log(entities.COLLISION, rr.Points3D(positions, radii=[0.018], colors=[palette.STOP], labels=labels))
 
 
+def log_force_style(run: Run) -> None:
+    """Draw every force in one colour, in one width."""
+    run.log_always(entities.FORCE, rr.Arrows3D.from_fields(colors=[palette.FORCE], radii=[0.006]))
+
+
 def log_force(run: Run, origin: Vector3, force: Vector3) -> None:
     """Draw the force that the master renders [N] as an arrow from this point [m]; none where hardly any is felt."""
     felt = float(np.linalg.norm(force)) > _LEAST_FORCE
-    run.log(
-        entities.FORCE,
-        rr.Arrows3D(
-            vectors=[np.multiply(_FORCE_SCALE, force)] if felt else [],
-            origins=[origin] if felt else [],
-            colors=[palette.FORCE],
-            radii=[0.006],
-        ),
-    )
+    run.row(entities.FORCE, ARROWS, (origin, vector3(np.multiply(_FORCE_SCALE, force))) if felt else None)
 
 
 def _box(pose: Pose, size: Vector3, colour: int, fill: str) -> rr.Boxes3D:

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from protocol.messages import Controller, MasterState, OperatorInput, Trouble
+from protocol.messages import Controller, MasterState, OperatorInput, Trouble, Vector3
 from protocol.topics import AUTHORITY_STATE, MASTER_STATE, OPERATOR_INPUT
 from services.bus.bus import Bus
 from services.viewer import entities, scene, series
 from services.viewer.journal import Journal, who_commands
-from services.viewer.news import Changes, News, NewsOfHolder
+from services.viewer.news import News, NewsOfHolder
 from services.viewer.run import Run
 from services.viewer.words import Words
-
-# The force's arrow: every second step, since nobody sees more and each costs as much as a joint.
-_ARROW_S = 0.06
 
 _KINDS = ("gamepad", "spacemouse", "pointer")
 
@@ -35,10 +32,10 @@ class Teleoperation:
         self._authority = News(bus.subscribe(AUTHORITY_STATE))
         self._input = NewsOfHolder(bus.subscribe(OPERATOR_INPUT))
         self._master = NewsOfHolder(bus.subscribe(MASTER_STATE))
-        self._pace = Changes(_ARROW_S)
         self._axes: dict[str, int] = {}
+        scene.log_force_style(run)
 
-    def draw(self, at: tuple[float, float, float] | None, now_ns: int) -> None:
+    def draw(self, at: Vector3 | None, now_ns: int) -> None:
         """Draw what is new.
 
         Args:
@@ -60,7 +57,7 @@ class Teleoperation:
             return
         self._words.state(entities.ENGAGED, hand(master), now_ns)
         series.log_master(self._run, master)
-        if at is not None and self._pace.due("force", (master.force, at), now_ns):
+        if at is not None:
             scene.log_force(self._run, at, master.force)
 
     def _draw_axes(self, controllers: tuple[Controller, ...]) -> None:
