@@ -35,6 +35,7 @@ from protocol.messages.state import (
 from protocol.messages.teaching import Attempt, Light, Outcome, Recording, TeachingState
 from protocol.messages.values import (
     ITEM_SIZES,
+    LONGEST_REASON,
     Array,
     Condition,
     Count,
@@ -55,6 +56,7 @@ from protocol.messages.values import (
 
 __all__ = [
     "ITEM_SIZES",
+    "LONGEST_REASON",
     "MOST_WAYPOINTS",
     "SHORTEST_REASON",
     "SILENCE_GIVES_S",

@@ -12,7 +12,10 @@ Vector3 = tuple[Real, Real, Real]
 Quaternion = tuple[Real, Real, Real, Real]
 Text = Annotated[str, msgspec.Meta(max_length=4096)]
 Name = Annotated[str, msgspec.Meta(max_length=64)]
-Reason = Annotated[str, msgspec.Meta(max_length=200)]
+LONGEST_REASON = 200
+"""Characters of a reason, at most."""
+
+Reason = Annotated[str, msgspec.Meta(max_length=LONGEST_REASON)]
 Count = Annotated[int, msgspec.Meta(ge=0, le=2**53)]
 Fraction = Annotated[float, msgspec.Meta(ge=0.0, le=1.0)]
 Duration = Annotated[float, msgspec.Meta(gt=0.0, le=3600.0)]

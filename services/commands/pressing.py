@@ -1,12 +1,19 @@
-"""The emergency stop as somebody presses and releases it from afar: until the robot's own state shows it."""
+"""What somebody presses from afar, until the robot's own word shows it: the stop, its release, who commands no more."""
 
 from __future__ import annotations
 
+from typing import Generic, TypeVar
+
+import msgspec
+
 from protocol import queries, topics
-from protocol.messages import EmergencyStop, SafetyState
+from protocol.messages import AuthorityState, EmergencyStop, SafetyState
+from protocol.queries import Accepted, Query, Refused
 from services.bus.bus import Bus, Failed, Pending
 from services.bus.identity import new_number
 from services.process.exceptions import CommandFailed
+
+Req = TypeVar("Req", bound=msgspec.Struct)
 
 ANSWER_S = 1.0
 
@@ -35,8 +42,45 @@ class Press:
         return "it has latched, but it still moves" if safety.emergency_stop else "it has not latched"
 
 
+class _Request(Generic[Req]):
+    """Asks for a change until there is an answer; a request whose answer was lost is the same one again.
+
+    Args:
+        bus: to the robot.
+        query: to ask.
+        request: with a number of its own.
+        not_done: what a refusal means.
+    """
+
+    def __init__(self, bus: Bus, query: Query[Req, Accepted], request: Req, not_done: str) -> None:
+        self._bus = bus
+        self._query = query
+        self._change = request
+        self._not_done = not_done
+        self._pending: Pending[Accepted] | None = None
+
+    def step(self) -> str:
+        """Ask, or look for the answer; what is waited for, empty once it is done.
+
+        Raises:
+            CommandFailed: the robot refused.
+        """
+        if self._pending is None:
+            self._pending = self._bus.ask(self._query, self._change, ANSWER_S)
+        match self._pending.poll():
+            case None:
+                return "it has not answered"
+            case Failed(reason):
+                self._pending = None
+                return reason
+            case Refused(reason):
+                raise CommandFailed(f"{self._not_done}: {reason}")
+            case Accepted():
+                return ""
+
+
 class Release:
-    """Asks for the release until there is an answer; a request whose answer was lost is the same one again.
+    """Asks for the release of the stop until there is an answer.
 
     Attributes:
         was: what the robot said before, so that whoever releases knows what; None until it was heard.
@@ -48,10 +92,9 @@ class Release:
 
     def __init__(self, bus: Bus, operator: str) -> None:
         self.was: SafetyState | None = None
-        self._bus = bus
         self._safety = bus.subscribe(topics.SAFETY_STATE)
-        self._request = queries.ReleaseStop(operator, request=new_number())
-        self._pending: Pending[queries.Accepted] | None = None
+        request = queries.ReleaseStop(operator, request=new_number())
+        self._request = _Request(bus, queries.RELEASE_STOP, request, "the stop was not released")
 
     def step(self, now_ns: int) -> str:
         """Ask, or look for the answer; what is waited for, empty once it is released.
@@ -61,20 +104,36 @@ class Release:
         """
         if self.was is None:
             self.was = self._safety.fresh(now_ns)
-            if self.was is None:
-                return "it is not heard"
-        if self._pending is None:
-            self._pending = self._bus.ask(queries.RELEASE_STOP, self._request, ANSWER_S)
-        match self._pending.poll():
-            case None:
-                return "it has not answered"
-            case Failed(reason):
-                self._pending = None
-                return reason
-            case queries.Refused(reason):
-                raise CommandFailed(f"the stop was not released: {reason}")
-            case queries.Accepted():
-                return ""
+        return self._request.step() if self.was is not None else "it is not heard"
+
+
+class Revoke:
+    """Asks for the end of the authority of whoever commands until there is an answer.
+
+    Attributes:
+        was: who commanded before; None until the robot was heard.
+
+    Args:
+        bus: to the robot.
+        by: who revokes it.
+        reason: why.
+    """
+
+    def __init__(self, bus: Bus, by: str, reason: str) -> None:
+        self.was: AuthorityState | None = None
+        self._authority = bus.subscribe(topics.AUTHORITY_STATE)
+        request = queries.RevokeAuthority(by, reason, request=new_number())
+        self._request = _Request(bus, queries.REVOKE, request, "the authority was not revoked")
+
+    def step(self, now_ns: int) -> str:
+        """Ask, or look for the answer; what is waited for, empty once nobody commands.
+
+        Raises:
+            CommandFailed: the robot refused.
+        """
+        if self.was is None:
+            self.was = self._authority.fresh(now_ns)
+        return self._request.step() if self.was is not None else "it is not heard"
 
 
 def story(was: SafetyState) -> str:

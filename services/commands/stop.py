@@ -1,4 +1,4 @@
-"""`retouch stop`: the emergency stop from the command line."""
+"""`retouch stop`: the emergency stop from the command line, and what a supervisor does without a page."""
 
 from __future__ import annotations
 
@@ -10,14 +10,16 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from protocol import topics
+from protocol.messages import LONGEST_REASON, SHORTEST_REASON
 from services.bus.zenoh import ZenohBus, open_session
 from services.commands.arguments import add_network, within
-from services.commands.pressing import Press, Release, story
+from services.commands.pressing import Press, Release, Revoke, story
 from services.commands.settings import configuration as configured
 from services.process.clock import SystemClock
 from services.process.config import Configuration
 from services.process.ending import end_within
-from services.process.exceptions import NotConfirmed, RouterUnreachable
+from services.process.exceptions import CommandFailed, NotConfirmed, RouterUnreachable
+from services.process.lines import one_line
 from services.process.runner import stop_on_signals
 
 log = logging.getLogger(__name__)
@@ -37,7 +39,13 @@ def add_arguments(parser: ArgumentParser) -> None:
     """See `Action`."""
     parser.description = _ABOUT
     add_network(parser)
-    parser.add_argument("--release", action="store_true", help="release the stop instead")
+    instead = parser.add_mutually_exclusive_group()
+    instead.add_argument("--release", action="store_true", help="release the stop instead")
+    instead.add_argument(
+        "--revoke",
+        metavar="WHY",
+        help="end the authority of whoever commands instead; they are told why, the robot holds",
+    )
     parser.add_argument(
         "--timeout",
         type=within(0.0, 3600.0, "seconds", above=True),
@@ -49,7 +57,10 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """See `Action`."""
-    (release if arguments.release else stop)(configured(arguments), arguments.timeout)
+    if arguments.revoke is not None:
+        revoke(configured(arguments), arguments.revoke, arguments.timeout)
+    else:
+        (release if arguments.release else stop)(configured(arguments), arguments.timeout)
     return 0
 
 
@@ -84,6 +95,29 @@ def release(configuration: Configuration, timeout_s: float = TIMEOUT_S) -> None:
         attempt.until(released.step)
     assert released.was is not None
     log.info("robot %s is released by %s; %s", configuration.name, configuration.operator, story(released.was))
+
+
+def revoke(configuration: Configuration, reason: str, timeout_s: float = TIMEOUT_S) -> None:
+    """End the authority of whoever commands; the robot holds until somebody asks for it.
+
+    Raises:
+        BadEndpoint: there can be no such network.
+        CommandFailed: the robot refused.
+        NotConfirmed: nobody answered in time.
+        KeyboardInterrupt: somebody ended it before.
+    """
+    if not SHORTEST_REASON <= len(reason.strip()) <= LONGEST_REASON:
+        raise CommandFailed(f"--revoke: give a reason of {SHORTEST_REASON} to {LONGEST_REASON} characters")
+    remedy = "stop the robot with 'retouch stop'"
+    attempt = _Attempt("revocation", configuration.name, timeout_s, remedy)
+    with attempt.bus(configuration) as bus:
+        revoked = Revoke(bus, configuration.operator, reason.strip())
+        attempt.until(revoked.step)
+    assert revoked.was is not None
+    who = one_line(revoked.was.operator or revoked.was.holder)
+    log.info(
+        "nobody commands robot %s any more: %s revoked %s's authority", configuration.name, configuration.operator, who
+    )
 
 
 class _Attempt:

@@ -1,14 +1,36 @@
 """The stop is pressed and released from the command line."""
 
+import contextlib
+import threading
+
 import pytest
 
 from protocol import queries, topics
-from protocol.messages import EmergencyStop, Phase
+from protocol.messages import AuthorityRenewal, EmergencyStop, Phase
+from services.bus.zenoh import connect
+from services.process.clock import SystemClock
 from tests.system.harness import Command, Witness, eventually
 
 pytestmark = [pytest.mark.system, pytest.mark.zenoh]
 
 WITHIN_S = 10.0
+
+
+@contextlib.contextmanager
+def present(router, epoch):
+    """The authority is renewed, as by a station whose operator is there."""
+    bus, over = connect(router, "robot1", "station-ann", SystemClock()), threading.Event()
+
+    def renew():
+        while not over.wait(0.02):
+            bus.publish(topics.AUTHORITY_RENEWAL, AuthorityRenewal(holder="witness", epoch=epoch))
+
+    thread = threading.Thread(target=renew)
+    thread.start()
+    yield
+    over.set()
+    thread.join()
+    bus.close()
 
 
 def heard_hz(witness):
@@ -53,3 +75,24 @@ def test_a_robot_that_does_not_confirm_the_stop_is_named(tmp_path, router):
         assert alone.ended(20.0) == 3
         assert "stop of robot left NOT confirmed yet: it is not heard" in alone.err
         assert "robot 'left' did not confirm the stop in 2 s" in alone.err
+
+
+@pytest.mark.sim
+def test_a_supervisor_ends_the_authority_of_whoever_commands_from_the_command_line(tmp_path, router):
+    arguments = ("--operator", "eve", "--connect", router)
+    with Command("robot", "--connect", router, folder=tmp_path), Witness(router) as witness:
+        granted = witness.asked(queries.ACQUIRE, queries.AcquireAuthority("witness", "ann"), 30.0)
+        with present(router, granted.epoch):
+            with Command("stop", "--revoke", "it is late", *arguments, folder=tmp_path) as revoke:
+                assert revoke.ended(20.0) == 0, revoke.tail()
+            assert "nobody commands robot robot1 any more: eve revoked ann's authority" in revoke.err
+            state = witness.next(topics.AUTHORITY_STATE)
+            assert (state.holder, state.by, state.reason) == ("", "eve", "it is late")
+            again = witness.ask(queries.RESET, queries.Reset(granted.epoch))
+            assert isinstance(again, queries.Refused)
+            with Command("stop", "--revoke", "it is late", *arguments, folder=tmp_path) as revoke:
+                assert revoke.ended(20.0) == 2
+            assert "nothing to revoke" in revoke.err
+    with Command("stop", "--revoke", "no", *arguments, folder=tmp_path) as revoke:
+        assert revoke.ended(20.0) == 2
+    assert "--revoke: give a reason of 3 to 200 characters" in revoke.err

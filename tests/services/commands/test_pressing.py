@@ -3,10 +3,10 @@
 import pytest
 
 from protocol import queries, topics
-from protocol.messages import SafetyState
+from protocol.messages import AuthorityState, SafetyState
 from services.bus.bus import Failed
 from services.bus.memory import MemoryNetwork
-from services.commands.pressing import Press, Release, story
+from services.commands.pressing import Press, Release, Revoke, story
 from services.process.clock import ManualClock
 from services.process.exceptions import CommandFailed
 
@@ -25,6 +25,12 @@ class World:
         self._robot = network.bus("robot")
         self.presses = self._robot.subscribe(topics.EMERGENCY_STOP)
         self.releases = self._robot.serve(queries.RELEASE_STOP)
+        self.revocations = self._robot.serve(queries.REVOKE)
+
+    def commands(self, operator):
+        self._robot.publish(
+            topics.AUTHORITY_STATE, AuthorityState(operator=operator, holder="s", epoch=7, expires_in=1.0)
+        )
 
     def says(self, **state):
         self._robot.publish(topics.SAFETY_STATE, SafetyState(**state))
@@ -66,7 +72,7 @@ def test_a_release_whose_answer_was_lost_is_the_same_request_again(world):
     world.says(**fields(PRESSED))
     assert world.step(release) == "it has not answered"
     (first,) = world.releases.take()
-    release._pending.settle(Failed("lost"))
+    release._request._pending.settle(Failed("lost"))
     assert world.step(release) == "lost"
     world.step(release)
     assert world.releases.take() == [], "known again by its number, and joined"
@@ -78,7 +84,11 @@ def test_a_release_whose_answer_was_lost_is_the_same_request_again(world):
 
 
 def test_two_releases_are_two_requests(world):
-    assert Release(world.bus, "anna")._request.request != Release(world.bus, "anna")._request.request
+    for release in (Release(world.bus, "anna"), Release(world.bus, "anna")):
+        world.says(**fields(PRESSED))
+        world.step(release)
+    first, second = world.releases.take()
+    assert first.request.request != second.request.request
 
 
 def test_a_refused_release_says_why(world):
@@ -98,3 +108,27 @@ def test_who_releases_reads_who_had_pressed_when_and_why():
 
 def fields(state):
     return {name: getattr(state, name) for name in ("emergency_stop", "standing", "by", "at", "reason", "released_by")}
+
+
+def test_a_revocation_is_one_request_that_says_who_and_why_and_whose_authority_it_was(world):
+    revoke = Revoke(world.bus, "eve", "it is late")
+    assert world.step(revoke) == "it is not heard"
+    world.commands("ann")
+    assert world.step(revoke) == "it has not answered"
+    world.commands("bob")
+    assert world.step(revoke) == "it has not answered"
+    (call,) = world.revocations.take()
+    assert (call.request.by, call.request.reason) == ("eve", "it is late")
+    call.reply(queries.Accepted())
+    assert world.step(revoke) == ""
+    assert revoke.was.operator == "ann"
+
+
+def test_a_revocation_that_the_robot_refuses_is_said(world):
+    revoke = Revoke(world.bus, "eve", "it is late")
+    world.commands("")
+    world.step(revoke)
+    (call,) = world.revocations.take()
+    call.reply(queries.Refused("nobody holds the authority"))
+    with pytest.raises(CommandFailed, match="the authority was not revoked: nobody holds the authority"):
+        world.step(revoke)
