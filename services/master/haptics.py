@@ -6,31 +6,34 @@ import os
 import threading
 from typing import NamedTuple, Protocol
 
-from lfd import haptics
 from protocol.messages import Figure, Vector3
+from services.master.devices.device import ZERO
+from services.master.feedback import Feedback
 from services.process.clock import Clock
 from services.process.runner import TickStatistics
-from sim.person.stylus import RATE_HZ, Stylus, StylusState
+from sim.person.stylus import RATE_HZ, StylusState
 
 _PERIOD_NS = round(1e9 / RATE_HZ)
 _CAUGHT_UP = 100
 """Steps that are made up for after a late wake-up; a longer gap is skipped."""
 
+_SHORTEST_NS, _LONGEST_NS = _PERIOD_NS // 10, 10 * _PERIOD_NS
+"""What a frame may last: a thread that was late does not make up for it."""
 
 _PRIORITY = 10
 """Above all that is not real-time, below what a real-time kernel does itself."""
 
 
-class Push(Protocol):
-    """Whoever pushes and turns the stylus."""
+class HapticDevice(Protocol):
+    """A stylus that renders a force, simulated or real."""
 
     @property
-    def rotation(self) -> Vector3 | None:
-        """How the handle is held, rotation vector in base axes; None where nobody holds it [rad]."""
+    def state(self) -> StylusState:
+        """Where it was seen last, relative to its neutral pose, in base axes."""
         ...
 
-    def force(self, stylus: StylusState) -> Vector3:
-        """The push [N]."""
+    def exchange(self, force: Vector3, dt: float) -> StylusState:
+        """Render the force [N] for dt [s]; where the stylus is then."""
         ...
 
 
@@ -42,34 +45,40 @@ class Rendered(NamedTuple):
 
 
 class HapticLoop:
-    """Hand, feedback and stylus, one millisecond after the other.
+    """Feel and move, one millisecond after the other.
 
     `step` is the loop's body; `advance_to` makes as many steps as the time asks for. One thread advances, any
-    may read `newest`.
+    may read `newest` and say that the robot was heard.
 
     Args:
-        stylus: the device.
-        hand: who pushes it.
-        stiffness: k of eq. 14 [N/m].
-        damping: d of eq. 14 [N s/m].
+        device: the stylus.
+        feedback: what it renders.
         start_ns: the time of the stylus' state [ns].
     """
 
-    def __init__(self, stylus: Stylus, hand: Push, stiffness: float, damping: float, start_ns: int) -> None:
-        self._stylus = stylus
-        self._hand = hand
-        self._stiffness = stiffness
-        self._damping = damping
-        self._time_ns = start_ns
-        self.newest = Rendered(stylus.state, self._feedback(stylus.state))
+    def __init__(self, device: HapticDevice, feedback: Feedback, start_ns: int) -> None:
+        self._device = device
+        self._feedback = feedback
+        self._time_ns = self._heard_ns = start_ns
+        self._dt = 1.0 / RATE_HZ
+        self.newest = Rendered(device.state, ZERO)
+
+    def hear(self, now_ns: int) -> None:
+        """The robot was heard just now [ns]: without that for a moment there is no force."""
+        self._heard_ns = now_ns
 
     def step(self, dt: float) -> Rendered:
-        """Push, feel, move [s]."""
-        stylus = self._stylus.state
-        (hx, hy, hz), (fx, fy, fz) = self._hand.force(stylus), self._feedback(stylus)
-        moved = self._stylus.step((hx + fx, hy + fy, hz + fz), dt, self._hand.rotation)
-        self.newest = Rendered(moved, (fx, fy, fz))
+        """Feel, and move [s]."""
+        age_s = max(0, self._time_ns - self._heard_ns) / 1e9
+        force = self._feedback.force(self._device.state, age_s, dt)
+        self.newest = Rendered(self._device.exchange(force, dt), force)
         return self.newest
+
+    def frame(self, now_ns: int) -> Rendered:
+        """One step by the time that has passed [ns], where the device itself keeps the time."""
+        dt = min(max(now_ns - self._time_ns, _SHORTEST_NS), _LONGEST_NS) / 1e9
+        self._time_ns = now_ns
+        return self.step(dt)
 
     def advance_to(self, now_ns: int) -> Rendered:
         """Bring the device up to the given time [ns]."""
@@ -78,13 +87,8 @@ class HapticLoop:
             self._time_ns += (due - _CAUGHT_UP) * _PERIOD_NS
         while self._time_ns + _PERIOD_NS <= now_ns:
             self._time_ns += _PERIOD_NS
-            self.step(1.0 / RATE_HZ)
+            self.step(self._dt)
         return self.newest
-
-    def _feedback(self, stylus: StylusState) -> Vector3:
-        # Axis by axis: for a vector of three NumPy takes longer than all the rest of a step.
-        (x, y, z), (vx, vy, vz), k, d = stylus.position, stylus.velocity, self._stiffness, self._damping
-        return haptics.force(x, vx, k, d), haptics.force(y, vy, k, d), haptics.force(z, vz, k, d)
 
 
 class HapticThread:

@@ -25,7 +25,7 @@ from services.master.devices.profiles import Profiles
 from services.master.seat import Seat, Sitting
 from services.process.clock import Clock
 from services.process.config import Configuration
-from services.process.master_devices import Gamepad, Keyboard, Led, Page, Pointer, Scripted
+from services.process.master_devices import Gamepad, Keyboard, Led, Page, Phantom, Pointer, Scripted, SpaceMouse
 from services.process.processes import process
 from services.process.profile_files import load_profiles
 
@@ -42,6 +42,8 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> MasterService
 
     Raises:
         ConfigurationError: a profile of the person cannot be used.
+        RoomMissing: the vendor's package for the device is not installed.
+        DeviceMissing: the device is not there.
     """
     station = process("station").named(configuration.operator)
     return MasterService(bus, _device(bus, clock, configuration), Seat(bus, station))
@@ -54,6 +56,12 @@ def _device(bus: Bus, clock: Clock, configuration: Configuration) -> Device:
             from services.master.devices.scripted import ScriptedMaster  # noqa: PLC0415
 
             return ScriptedMaster(bus, clock, settings, configuration.seed)
+        case Phantom() as settings:
+            # Imported here, as the vendor's modules are: nobody else has them.
+            from services.master.devices import phantom, stylus  # noqa: PLC0415
+
+            device = phantom.PhantomStylus(phantom.vendor())
+            return stylus.StylusMaster(device, settings, Profiles(load_profiles(settings.profile)), clock)
         case led:
             return LedMaster(led, _sources(led))
 
@@ -68,6 +76,12 @@ def _sources(led: Led) -> Sequence[Source]:
             return (Controllers("gamepad", profiles),)
         case Pointer():
             return (Pad(profiles),)
+        case SpaceMouse():
+            from services.master.devices import spacemouse  # noqa: PLC0415  # as above
+
+            mouse = spacemouse.SpaceMouse(spacemouse.vendor(), profiles)
+            mouse.start()
+            return (mouse,)
         case Page():
             controllers = (Controllers(kind, profiles) for kind in ("gamepad", "spacemouse"))
             return (Keys(), *controllers, Pad(profiles))

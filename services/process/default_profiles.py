@@ -49,3 +49,6 @@ POINTER = Profile(
     ),
 )
 """Drag: left and up; wheel: forward; with Shift the same turns."""
+
+PHANTOM = Profile("phantom", coupled="held", buttons=Buttons(clutch=0, store=1))
+"""The hand counts while it holds the front button: a stylus that lies there asks for nothing."""

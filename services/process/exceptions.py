@@ -10,6 +10,7 @@ ServiceError
 │   ├── NameTaken            a process of this name is on the network already (a BusError too)
 │   ├── PortInUse            another program listens where a page should be served
 │   ├── RoomMissing          a role whose packages are not installed
+│   ├── DeviceMissing        an input device that is configured, and not there
 │   ├── FolderUnusable       a folder of the user's that cannot be made or written
 │   ├── CannotWrite          a file that cannot be written: a full disk, no rights
 │   ├── LimitReached         no more memory, open files or processes, of the machine's or of this user's
@@ -138,6 +139,14 @@ class RoomMissing(EnvironmentFault):
         self.role = role
         self.module = module
         super().__init__(f"the {role} needs the package {module!r}: install retouch[{role}]")
+
+
+class DeviceMissing(EnvironmentFault):
+    """An input device that is configured is not there, or cannot be opened."""
+
+    def __init__(self, device: str, remedy: str) -> None:
+        self.device = device
+        super().__init__(f"there is no {device} at this computer, or it cannot be opened: {remedy}")
 
 
 class FolderUnusable(EnvironmentFault):

@@ -47,12 +47,33 @@ class Pointer(_Led, frozen=True, tag_field="kind", tag="pointer"):
     """Mouse or pen on the pad of the operator's page, in place of a stylus, and nothing else."""
 
 
+class SpaceMouse(_Led, frozen=True, tag_field="kind", tag="spacemouse"):
+    """A 3-D mouse at the master's own computer."""
+
+
+class Phantom(Section, frozen=True, tag_field="kind", tag="phantom"):
+    """A Phantom Omni or Touch at the master's own computer.
+
+    Attributes:
+        stiffness: of the force feedback (eq. 14) [N/m].
+        damping: of the force feedback [N s/m].
+        force_limit: largest force that it renders, within what the motors can [N].
+        profile: name of the only profile that counts of a person's; empty for the one that fits.
+    """
+
+    stiffness: Positive = 50.0
+    damping: Positive = 2.0
+    force_limit: Annotated[Positive, msgspec.Meta(le=5.0)] = 3.0
+    profile: str = ""
+
+
 class Scripted(Section, frozen=True, tag_field="kind", tag="scripted"):
     """A simulated haptic stylus moved by the forces of a simulated hand.
 
     Attributes:
         stiffness: of the force feedback (eq. 14) [N/m].
         damping: of the force feedback [N s/m].
+        force_limit: largest force that it renders [N].
         exaggeration: of the correction; 1 is natural.
         scatter: root mean square of the distance between two ways that the person means alike; people's are 0.018 to
             0.052 [m].
@@ -61,13 +82,14 @@ class Scripted(Section, frozen=True, tag_field="kind", tag="scripted"):
 
     stiffness: Positive = 50.0
     damping: Positive = 2.0
+    force_limit: Positive = 20.0
     exaggeration: Positive = 1.0
     scatter: Annotated[float, msgspec.Meta(ge=0.0, le=0.2)] = 0.030
     misjudgement: Annotated[float, msgspec.Meta(ge=0.0, le=0.1)] = 0.010
 
 
-Led = Page | Keyboard | Gamepad | Pointer
-"""Those that the operator's page reads."""
+Led = Page | Keyboard | Gamepad | Pointer | SpaceMouse
+"""Those that a hand leads by keys, sticks or drags."""
 
-MasterDevice = Led | Scripted
+MasterDevice = Led | Phantom | Scripted
 """Whatever a master process can own."""

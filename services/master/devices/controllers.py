@@ -34,6 +34,9 @@ class Controllers:
             if controller.kind == self.kind
         }
 
+    def close(self) -> None:
+        """The page reads it."""
+
 
 def named(controller: Controller) -> str:
     """By what people and messages call a device: its kind, and from the second one on its number."""

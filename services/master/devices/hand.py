@@ -48,3 +48,7 @@ class Source(Protocol):
     def look(self, operator: OperatorInput) -> Mapping[str, Hand]:
         """What a hand does at each device that is there, by the device's name; called once a step."""
         ...
+
+    def close(self) -> None:
+        """Let go of the hardware, where it is read here."""
+        ...

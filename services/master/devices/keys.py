@@ -27,3 +27,6 @@ class Keys:
         """What is held."""
         push, turn = directions(operator.keys, PUSH_KEYS), directions(operator.keys, TURN_KEYS)
         return {self.kind: Hand(push, turn, held=not STEERING.isdisjoint(operator.keys))}
+
+    def close(self) -> None:
+        """The page reads it."""

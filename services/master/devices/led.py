@@ -76,7 +76,9 @@ class LedMaster:
         return ()
 
     def close(self) -> None:
-        """There is no hardware to let go of."""
+        """Let go of what is read here."""
+        for source in self._sources:
+            source.close()
 
     def _look(self, operator: OperatorInput | None) -> dict[str, Hand]:
         if operator is None or not operator.focused:

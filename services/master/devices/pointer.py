@@ -52,6 +52,9 @@ class Pad:
         drag, twist = (_difference(now, then) for now, then in zip(place, before, strict=True))
         return {self.kind: Hand(ZERO, ZERO, drag, twist, held=True, grips=True)}
 
+    def close(self) -> None:
+        """The page reads it."""
+
 
 def _scaled(scale: float, x: float, y: float, z: float) -> Vector3:
     return (scale * x, scale * y, scale * z)

@@ -47,6 +47,8 @@ def _default(controller: Controller) -> Profile:
             return default_profiles.SPACE_MOUSE
         case "pointer":
             return default_profiles.POINTER
+        case "phantom":
+            return default_profiles.PHANTOM
         case _ if controller.standard:
             return default_profiles.STANDARD_GAMEPAD
         case _:

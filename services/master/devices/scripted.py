@@ -15,6 +15,8 @@ from services.bus.arrays import motion_from_wire
 from services.bus.bus import Bus
 from services.bus.predictions import Predictions
 from services.master.devices.device import Moment, Sample
+from services.master.devices.simulated_stylus import SimulatedStylus
+from services.master.feedback import Feedback
 from services.master.haptics import HapticLoop, HapticThread
 from services.process.clock import Clock, SystemClock
 from services.process.exceptions import ServiceError
@@ -60,13 +62,16 @@ class ScriptedMaster:
         self._settings = settings
         self._hand = Hand(seed, settings.misjudgement)
         self._rng = np.random.default_rng((seed, 3))
-        self._loop = HapticLoop(Stylus(), self._hand, settings.stiffness, settings.damping, clock.now_ns())
+        feedback = Feedback(settings.stiffness, settings.damping, settings.force_limit)
+        self._loop = HapticLoop(SimulatedStylus(Stylus(), self._hand), feedback, clock.now_ns())
         self._thread = HapticThread(self._loop, clock) if isinstance(clock, SystemClock) else None
         self._gripped: Episode | None = None
 
     def step(self, moment: Moment) -> Sample | None:
         """Look, decide, and read the stylus; None while it is brought to where a correction was left."""
         robot = moment.refining
+        if moment.robot is not None:
+            self._loop.hear(moment.now_ns)
         if robot is not None:
             self._attend(robot)
             self._look(robot, moment.now_ns)

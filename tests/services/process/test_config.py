@@ -43,7 +43,7 @@ def test_what_is_saved_is_what_is_loaded(tmp_path):
         ("[master.device]\nkind = 'keyboard'\ngrwoth = 1", "[master.device]: unknown key grwoth; did you mean growth?"),
         (
             "[master.device]\ngrowth = 1.0",
-            "[master] device: the key is missing: `kind`; one of page, keyboard, gamepad, pointer, scripted",
+            "[master] device: the key is missing: `kind`; one of page, keyboard, gamepad, pointer, spacemouse,",
         ),
         ("[model]\nkind = 'magic'", "[model] kind: expected a text; one of adaptive, promp"),
         ("[station]\nadapt = 'x'", "[station] adapt: invalid value 'x'; one of next, current"),
@@ -53,7 +53,7 @@ def test_what_is_saved_is_what_is_loaded(tmp_path):
         ("[station]\nport = 70000", "[station] port: "),
         (
             "[master.device]\nkind = 'mouse'",
-            "[master.device] kind: invalid value 'mouse'; one of page, keyboard, gamepad, pointer, scripted",
+            "[master.device] kind: invalid value 'mouse'; one of page, keyboard, gamepad, pointer, spacemouse,",
         ),
         ("[robot]\nvelocity_scale = 2.0", "[robot] velocity_scale: "),
         ("[robot]\nhold_after_s = 0.26", "[robot] hold_after_s: "),
