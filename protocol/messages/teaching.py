@@ -57,7 +57,8 @@ class TeachingState(Message, frozen=True, kw_only=True):
 
     Attributes:
         phase: a word for the state.
-        text: what the operator should know or do.
+        text: what the operator should know or do, one sentence.
+        event: what has happened and what does not work, which he or she should know as well.
         light: may the operator act?
         refinements: attempts at this update so far.
         refinements_allowed: at most.
@@ -76,6 +77,7 @@ class TeachingState(Message, frozen=True, kw_only=True):
 
     phase: Name
     text: Text
+    event: Text = ""
     light: Light
     refinements: Count = 0
     refinements_allowed: Count = 0
@@ -90,6 +92,11 @@ class TeachingState(Message, frozen=True, kw_only=True):
     pace: Real = 1.0
     part: Part = Part()
     confidence: Fraction = 1.0
+
+    @property
+    def told(self) -> str:
+        """All that the operator is told."""
+        return f"{self.text} {self.event}".strip()
 
 
 class Recording(Message, frozen=True, kw_only=True):

@@ -108,7 +108,7 @@ class Journal:
 
     def teaching(self, state: TeachingState) -> Iterator[Entry]:
         """What is new about the teaching."""
-        yield from self._changed("teaching", Entry(f"{state.phase}: {state.text}", "INFO"))
+        yield from self._changed("teaching", Entry(f"{state.phase}: {state.told}", "INFO"))
         if state.reason:
             yield from self._changed("reason", Entry(state.reason, "WARN"))
 

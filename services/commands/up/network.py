@@ -90,7 +90,7 @@ class Narrator:
             return
         if teaching.phase != self._phase:
             self._phase = teaching.phase
-            self._say("teaching", teaching.text)
+            self._say("teaching", teaching.told)
         for attempt in teaching.attempts:
             told = (teaching.publisher, attempt.number)
             if told not in self.attempts:

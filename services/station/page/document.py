@@ -67,7 +67,7 @@ def document(robot: str, description: str) -> str:
     """
     made = {
         "language": escape(speech.language),
-        "title": escape(say("page.title", robot=robot)),
+        "title": escape(say("document.title", robot=robot)),
         "robot": escape(robot),
         "description": escape(description),
         "version": version(),

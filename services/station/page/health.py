@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from protocol.messages import Prediction
 from services.bus.predictions import LITTLE
-from services.station.page.readout import certainty, is_stale, length, limited, span
+from services.station.page.readout import is_stale, length, limited, span
 from services.station.page.standing import Standing
 from services.station.page.values import Values
 from services.station.page.view import Shown
+from services.station.words.predictions import certainty
 from services.station.words.table import say
 
 FIGURES = ("phase", "age", "latency", "link", "limited", "object", "model", "prediction", "authority")

@@ -58,7 +58,7 @@ def traffic_light(shown: Shown, standing: Standing) -> Values:
         "light@data-light": light.value,
         "light-word": say("light.stopped" if stopped else f"light.{light.value}"),
         "light-text": words,
-        "notice": shown.view.notice,
+        "notice": " ".join(part for part in (teaching.event, shown.view.notice) if part),
     }
 
 

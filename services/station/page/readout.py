@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from protocol.messages import Prediction, Verdict
+from protocol.messages import Verdict
 from services.station.page.view import Shown
 from services.station.words.table import say, speech
 
@@ -28,15 +28,6 @@ def length(metres: float) -> str:
     return say("length.millimetres", number=f"{metres * 1e3:.0f}") if metres >= 0.0 else say("length.none")
 
 
-def certainty(prediction: Prediction) -> str:
-    """How much of a prediction is known, and which of several ways it takes."""
-    way = prediction.way
-    parts = [say("figure.known", share=_percent(prediction.known))]
-    if way.count > 1:
-        parts.append(say("figure.way", number=way.index + 1, count=way.count, share=_percent(way.probability)))
-    return ", ".join(parts)
-
-
 def limited(clamped: tuple[str, ...]) -> str:
     """What the robot limits; empty where it limits nothing."""
     return ", ".join(dict.fromkeys(_limit(what) for what in clamped))
@@ -46,10 +37,6 @@ def _limit(what: str) -> str:
     kind, _, place = what.partition(" ")
     kind, known = kind.rstrip(":"), speech.section("limit")
     return known[kind].format(place=place) if kind in known and kind != "other" else say("limit.other", what=what)
-
-
-def _percent(share: float) -> str:
-    return f"{100.0 * share:.0f}"
 
 
 def is_stale(shown: Shown) -> bool:

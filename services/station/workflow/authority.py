@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from protocol import queries
 from protocol.messages import AuthorityEvent, AuthorityState
+from services.station.words.table import say
 from services.station.workflow.asking import RETRY_S, ask, not_done, to
 from services.station.workflow.state import Action, Phase, Settings, Workflow
 from services.station.workflow.view import Step, View
@@ -19,7 +20,6 @@ CONFIRM_S = 2.0
 UNHEARD_S = 1.0
 """A robot that was silent for longer waits for another press: what was asked before it may be wrong by now."""
 
-_LOST, _BACK = "The authority was lost.", "The authority was lost, and is back."
 
 _WITHOUT = frozenset({Phase.WAITING, Phase.ACQUIRING, Phase.WATCHING, Phase.STOPPED, Phase.RELEASING, Phase.FINISHED})
 
@@ -27,12 +27,12 @@ _WITHOUT = frozenset({Phase.WAITING, Phase.ACQUIRING, Phase.WATCHING, Phase.STOP
 def missing(view: View) -> str:
     """What there has to be before the authority is asked for; empty where all is there."""
     robot = view.robot and view.scene and view.authority
-    absent = [name for name, there in (("robot", robot), ("model", view.model)) if not there]
+    absent = [say(f"waiting.{name}") for name, there in (("robot", robot), ("model", view.model)) if not there]
     if absent:
-        return f"Waiting for the {' and the '.join(absent)}."
+        return say("waiting.for", what=say("waiting.also").join(absent))
     if view.model is not None and not (view.model.demonstrations or view.model.updates):
-        return "Waiting for the first demonstrations."
-    return "" if view.present else "Waiting for the operator: keep the page that has the input in view."
+        return say("waiting.demonstrations")
+    return "" if view.present else say("waiting.operator")
 
 
 def waiting(state: Workflow, view: View, settings: Settings) -> Step:
@@ -83,7 +83,7 @@ def _granted(state: Workflow, view: View, epoch: int) -> Workflow:
         granted_s=view.now_s,
         watches=False,
         warned=False,
-        event=_BACK if state.event == _LOST else state.event,
+        event=say("event.back") if state.event == say("event.lost") else state.event,
     )
     if not runs(state, view) or state.episode is None:
         return to(granted, Phase.LOOKING, view)
@@ -122,7 +122,7 @@ def lost(state: Workflow, view: View, settings: Settings) -> Workflow | None:
         dropped = replace(state, holding=False, pressed=False, watches=watches)
         return to(dropped, Phase.WATCHING if watches else Phase.WAITING, view, event=reason)
     if state.pressed and view.now_s - state.heard_s > UNHEARD_S:
-        return to(state, Phase.DECIDING, view, pressed=False, event="The robot was not heard for a moment.")
+        return to(state, Phase.DECIDING, view, pressed=False, event=say("event.unheard"))
     return None
 
 
@@ -134,13 +134,13 @@ def _loss(state: Workflow, view: View, settings: Settings) -> str:
     if authority.epoch < state.epoch:
         if not state.confirmed and view.now_s - state.granted_s <= CONFIRM_S:
             return ""
-        return f"The robot has forgotten the authority: it speaks of {authority.epoch}, not {state.epoch}."
+        return say("event.forgotten")
     taker = another(view, settings)
     if taker or is_revoked(view):
         return passed(authority, taker)
     if view.present and authority.operator not in ("", settings.operator):
-        return f"{settings.operator} has the input now."
-    return _LOST if authority.epoch > state.epoch or not authority.holder else ""
+        return say("event.input", who=settings.operator)
+    return say("event.lost") if authority.epoch > state.epoch or not authority.holder else ""
 
 
 def is_revoked(view: View) -> bool:
@@ -150,18 +150,18 @@ def is_revoked(view: View) -> bool:
 
 def passed(authority: AuthorityState, who: str = "") -> str:
     """How the authority went to who has it now: who caused it, and why."""
-    why = f": {authority.reason}" if authority.reason else "."
+    why = say("event.why", why=authority.reason) if authority.reason else say("event.no_why")
     match authority.event:
         case AuthorityEvent.TAKEN_OVER:
-            return f"{who} has taken the authority over{why}"
+            return say("event.taken_over", who=who, why=why)
         case AuthorityEvent.REVOKED:
-            return f"{authority.by} has revoked the authority{why}"
+            return say("event.revoked", who=authority.by, why=why)
         case AuthorityEvent.GIVEN:
-            return f"{who} asked for the authority, and was given it."
+            return say("event.given", who=who)
         case AuthorityEvent.GIVEN_BY_SILENCE:
-            return f"{who} asked for the authority, and got it as nobody answered."
+            return say("event.given_by_silence", who=who)
         case _:
-            return f"{who} has the authority now."
+            return say("event.passed", who=who)
 
 
 def another(view: View, settings: Settings) -> str:
@@ -169,4 +169,4 @@ def another(view: View, settings: Settings) -> str:
     authority = view.authority
     if authority is None or authority.holder in ("", settings.holder):
         return ""
-    return authority.operator if authority.operator not in ("", settings.operator) else "Another station"
+    return authority.operator if authority.operator not in ("", settings.operator) else say("event.another")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from protocol.messages import Mode
+from services.station.words.table import say
 from services.station.workflow.asking import to
 from services.station.workflow.closure import Closure
 from services.station.workflow.episode import press
@@ -42,7 +43,7 @@ def _take(state: Workflow, view: View, settings: Settings, chosen: Action) -> St
         case Action.UNDO | Action.TAKE_BACK | Action.USE_AGAIN:
             return turn(state, view, chosen)
         case _:
-            return _end(state, view, "ended before the loop had closed")
+            return _end(state, view, say("event.ended_before"))
 
 
 def finished(state: Workflow, view: View, settings: Settings) -> Step:
@@ -74,9 +75,9 @@ def recommended(state: Workflow, settings: Settings) -> Action:
 
 def _refine(state: Workflow, view: View, settings: Settings) -> Step:
     if state.refinements >= settings.refinements_allowed:
-        return _end(state, view, f"{state.refinements} refinements did not succeed")
+        return _end(state, view, say("event.no_refinement", count=state.refinements))
     if state.updates >= settings.updates_allowed:
-        return _end(state, view, f"{state.updates} updates did not teach the model")
+        return _end(state, view, say("event.no_update", count=state.updates))
     return Step(press(state, view, Mode.REFINE))
 
 

@@ -14,6 +14,7 @@ from protocol.messages import Mode, Prediction, Vector3
 from protocol.messages import Phase as RobotPhase
 from protocol.queries import Query
 from services.bus.predictions import LITTLE
+from services.station.words.table import say
 from services.station.workflow import going
 from services.station.workflow.asking import RETRY_S, ask, not_done, to
 from services.station.workflow.authority import runs
@@ -84,7 +85,7 @@ def looking(state: Workflow, view: View, settings: Settings) -> Step:
         patience_s = UNSEEN_AFTER_RESET_S if state.pressed else UNSEEN_S
         if view.now_s - state.since_s < patience_s:
             return Step(state)
-        event = f"{state.event} The target is not seen.".strip()
+        event = f"{state.event} {say('event.unseen')}".strip()
         return Step(to(state, Phase.DECIDING, view, pressed=False, event=event))
     return Step(to(state, onward, view, looked=sighting.pose.position, condition=()))
 
@@ -207,7 +208,7 @@ def _order(state: Workflow, view: View, query: Query[Any, Any], request: Callabl
     if not isinstance(reply, queries.Refused):
         return Step(replace(answered, notice=""))
     if query is queries.FINISH and view.robot is not None and view.robot.phase is RobotPhase.IDLE:
-        notice = "The robot has ended the motion, and its result was not heard."
+        notice = say("event.no_result")
         return Step(to(answered, Phase.DECIDING, view, event=notice))
     return Step(replace(answered, notice=not_done(query, reply.reason)))
 
@@ -225,8 +226,8 @@ def _without_result(state: Workflow, view: View, settings: Settings) -> str:
     """
     if not runs(state, view):
         restarted = view.robot is not None and state.episode is not None and view.robot.publisher != state.episode.robot
-        return "The robot was restarted: its episode is lost." if restarted else "The robot has begun another episode."
+        return say("event.restarted") if restarted else say("event.another_episode")
     # A person may let the robot hold for as long as they like; a script that does is broken.
     if settings.scripted and view.now_s - state.since_s > settings.duration_s(state.mode) + EPISODE_GRACE_S:
-        return "The episode was lost."
+        return say("event.lost_episode")
     return ""

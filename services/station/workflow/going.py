@@ -7,7 +7,8 @@ from dataclasses import replace
 
 from protocol import queries
 from protocol.messages import Mode, Part
-from services.station.workflow.part import extent
+from services.station.words.predictions import extent
+from services.station.words.table import say
 from services.station.workflow.state import WHOLE, Action, Going, Workflow
 from services.station.workflow.view import View
 
@@ -61,9 +62,9 @@ def elsewhere(view: View) -> str:
     if execution is None or robot is None:
         return ""
     if execution.pace < 0.0:
-        return "The motion goes back: what you show from there on counts instead."
+        return say("workflow.back")
     if not execution.part.first <= robot.progress <= execution.part.last:
-        return f"Watch: corrections count{extent(execution.part)}."
+        return say("workflow.elsewhere", extent=extent(execution.part))
     return ""
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from protocol import queries
+from services.station.words.table import say
 from services.station.workflow.asking import ask, not_done, to
 from services.station.workflow.state import Action, Phase, Settings, Turning, Workflow
 from services.station.workflow.view import Step, View
@@ -48,7 +49,5 @@ def turning(state: Workflow, view: View, settings: Settings) -> Step:
         case _:
             left = tuple(entry for entry in state.learnt if wanted.in_use or entry != reply.entry)
             turned = replace(state, last=None, learnt=left, warned=False)
-            done = "is used again" if wanted.in_use else "was taken back"
-            return Step(
-                to(turned, Phase.DECIDING, view, owed=None, event=f"Entry {reply.entry} of the history {done}.")
-            )
+            done = say("event.used_again" if wanted.in_use else "event.taken_back", entry=reply.entry)
+            return Step(to(turned, Phase.DECIDING, view, owed=None, event=done))

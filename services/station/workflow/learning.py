@@ -9,8 +9,9 @@ import msgspec
 
 from protocol import queries
 from protocol.messages import Method, Motion, Purpose
+from services.station.words.predictions import extent
+from services.station.words.table import say
 from services.station.workflow.asking import ask, not_done, to
-from services.station.workflow.part import extent
 from services.station.workflow.state import WHOLE, Action, Phase, Settings, Taught, Workflow
 from services.station.workflow.view import Step, View
 
@@ -44,7 +45,7 @@ def learning(state: Workflow, view: View, settings: Settings) -> Step:
                 warned=False,
                 part=WHOLE,
             )
-            event = f"The model has learnt the correction{extent(taught.part)}."
+            event = say("event.learnt", extent=extent(taught.part))
             return Step(to(learnt, Phase.DECIDING, view, owed=None, event=event))
 
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from protocol import queries
 from protocol.messages import SafetyState
+from services.station.words.table import say
 from services.station.workflow.asking import ask, not_done, to
 from services.station.workflow.state import Action, Phase, Settings, Workflow
 from services.station.workflow.view import Step, View
@@ -34,8 +35,7 @@ def caught(state: Workflow, view: View) -> Workflow | None:
 def stopped(state: Workflow, view: View, settings: Settings) -> Step:
     """Stand; a person releases, a script ends."""
     if settings.scripted and view.latched and view.safety is not None:
-        by = view.safety.by or "somebody"
-        reason = f"stopped by {by}, and a script does not release a stop: 'retouch stop --release' does"
+        reason = say("event.script_stopped", who=view.safety.by or say("stop.somebody"))
         return Step(to(state, Phase.FINISHED, view, reason="" if state.closure.closed else reason))
     if view.safety is not None and not view.latched and not view.stopping:
         return Step(_released(state, view, view.safety))
@@ -63,5 +63,5 @@ def releasing(state: Workflow, view: View, settings: Settings) -> Step:
 
 def _released(state: Workflow, view: View, safety: SafetyState) -> Workflow:
     """After a stop nothing moves by itself, and a new authority is needed."""
-    event = f"The emergency stop was released by {safety.released_by or 'somebody'}."
+    event = say("event.released", who=safety.released_by or say("stop.somebody"))
     return to(replace(state, holding=False, last=None), Phase.WAITING, view, event=event)

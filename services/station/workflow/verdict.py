@@ -13,6 +13,7 @@ from lfd.motion.trajectory import Trajectory
 from protocol.messages import Attempt, Cut, EpisodeResult, Mode, Motion, Outcome, Part
 from services.bus.arrays import motion_from_wire, motion_to_wire
 from services.process.exceptions import ServiceError
+from services.station.words.table import say
 from services.station.workflow.asking import to
 from services.station.workflow.episode import ORIGIN
 from services.station.workflow.part import common
@@ -66,7 +67,7 @@ def judged(state: Workflow, view: View) -> Workflow:
 
 
 def _end(result: EpisodeResult) -> str:
-    return "" if result.completed else f"It did not run to its end: {result.reason}."
+    return "" if result.completed else say("event.cut", why=result.reason)
 
 
 def _kept(state: Workflow, taught: Taught | None) -> Taught | None:

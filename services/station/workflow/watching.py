@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from protocol.messages import AuthorityEvent
+from services.station.words.table import say
 from services.station.workflow.asking import to
 from services.station.workflow.authority import another, passed
 from services.station.workflow.state import Action, Phase, Settings, Workflow
@@ -20,7 +21,7 @@ def watching(state: Workflow, view: View, settings: Settings) -> Step:
         return _by_script(state, view)
     authority, taker = view.authority, another(view, settings)
     if authority is not None and state.asks and authority.kept_from == state.asks:
-        return Step(replace(state, asks=0, notice=f"{taker or 'Whoever had it'} keeps the authority."))
+        return Step(replace(state, asks=0, notice=say("event.keeps", who=taker or say("event.whoever"))))
     offered = frozenset({Action.TAKE_OVER} if state.asks else {Action.ASK, Action.TAKE_OVER})
     wanted = _wanted(state, view, taker) if view.present else None
     return Step(wanted or replace(state, offered=offered))

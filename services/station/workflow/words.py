@@ -6,7 +6,8 @@ import math
 
 from protocol.messages import Light, Mode, Outcome, RobotState, SafetyState, TeachingState
 from protocol.messages import Phase as RobotPhase
-from services.bus.predictions import certainty, way_taken
+from services.station.words.predictions import certainty, way_taken
+from services.station.words.table import say
 from services.station.workflow.authority import another, missing
 from services.station.workflow.deciding import recommended
 from services.station.workflow.going import elsewhere, paused
@@ -14,16 +15,16 @@ from services.station.workflow.learning import confidence
 from services.station.workflow.state import Action, Phase, Settings, Workflow
 from services.station.workflow.view import View
 
-_TEXTS = {
-    Phase.ACQUIRING: "Asking the robot for the authority to command it.",
-    Phase.RESETTING: "The robot returns to its start.",
-    Phase.LOOKING: "Looking for the target.",
-    Phase.PREDICTING: "The model predicts a motion.",
-    Phase.STARTING: "The robot is told the motion.",
-    Phase.LEARNING: "The model learns from the correction.",
-    Phase.TURNING: "The model changes what it is made of.",
-    Phase.RELEASING: "Releasing the emergency stop.",
-}
+_HOLDS = (
+    ("nobody holds", "authority"),
+    ("no operator", "absent"),
+    ("nothing was heard", "unheard"),
+    ("the operator's keys or device were not heard", "unheard"),
+    ("no hand", "hand"),
+    ("it held for", "long"),
+    ("it was asked for under another", "other"),
+)
+"""How the robot's reasons to hold begin, and the words for whoever stands at the page."""
 
 
 def teaching_state(state: Workflow, view: View, settings: Settings) -> TeachingState:
@@ -32,7 +33,8 @@ def teaching_state(state: Workflow, view: View, settings: Settings) -> TeachingS
     light, text = (Light.RED, stop) if stop else (_light(state, view), _text(state, view, settings))
     return TeachingState(
         phase=state.phase.value,
-        text=" ".join(part for part in (text, state.event, state.notice) if part),
+        text=text,
+        event=" ".join(part for part in (state.event, state.notice) if part),
         light=light,
         refinements=state.refinements,
         refinements_allowed=settings.refinements_allowed,
@@ -54,14 +56,15 @@ def _stop(view: View) -> str:
     """What is known of a stop; empty where there is none."""
     safety = view.safety
     if safety is not None and safety.emergency_stop:
-        stopped = f"Emergency stop by {_who(safety)}: release it to go on."
-        return f"{stopped} The robot is not known to stand still yet." if view.stopping else stopped
-    return "STOP sent, not confirmed yet." if view.stopping else ""
+        stopped = say("workflow.stopped_by", who=_who(safety))
+        return f"{stopped} {say('workflow.not_standing')}" if view.stopping else stopped
+    return say("workflow.stop_sent") if view.stopping else ""
 
 
 def _who(safety: SafetyState) -> str:
     """Who stopped, and why; when, the page's stop says, by the clock of whoever reads it."""
-    return f"{safety.by or 'somebody'} ({safety.reason})" if safety.reason else safety.by or "somebody"
+    who = safety.by or say("stop.somebody")
+    return f"{who} ({safety.reason})" if safety.reason else who
 
 
 def _light(state: Workflow, view: View) -> Light:
@@ -90,96 +93,97 @@ def _text(state: Workflow, view: View, settings: Settings) -> str:
         case Phase.EXECUTING:
             return _executing(state, view)
         case Phase.DECIDING:
-            return _deciding(state)
+            return _deciding(state, view, settings)
         case Phase.FINISHED:
             return _finished(state)
         case phase:
-            return _TEXTS[phase]
+            return say(f"workflow.{phase.value}")
 
 
 def _without(state: Workflow, view: View, taker: str) -> str:
     """Without the authority: what is waited for, or who has it and what can be done."""
     if state.phase is Phase.WAITING:
-        return missing(view) or (f"{taker} commands the robot." if taker else "")
+        return missing(view) or (say("workflow.taken", who=taker) if taker else "")
     authority = view.authority
     if authority is not None and state.asks and authority.asked == state.asks:
-        return f"{taker} is asked for the robot, and gives it by silence in {math.ceil(authority.asked_left)} s."
-    return f"{taker} commands the robot. Ask, or take over." if taker else "Nobody commands the robot. Ask to."
+        return say("workflow.asked", who=taker, seconds=math.ceil(authority.asked_left))
+    return say("workflow.watching", who=taker) if taker else say("workflow.free")
 
 
 def _stopped(view: View) -> str:
     """Where no stop is seen: it was released in this moment, or the robot says nothing of it."""
-    released = "The emergency stop is not latched any more."
-    return released if view.safety is not None else "The robot was stopped, and is not heard now."
+    return say("workflow.unlatched" if view.safety is not None else "workflow.stopped_unheard")
 
 
 def _finished(state: Workflow) -> str:
-    learnt = "Finished: the model has learnt from the correction."
-    ended = learnt if state.closure.closed else f"Ended: {state.reason}."
-    return f"{ended} Press Next object to begin again." if Action.NEXT in state.offered else ended
+    ended = say("workflow.closed") if state.closure.closed else say("workflow.ended", why=state.reason)
+    return f"{ended} {say('workflow.begin_again')}" if Action.NEXT in state.offered else ended
 
 
-def _deciding(state: Workflow) -> str:
+def _deciding(state: Workflow, view: View, settings: Settings) -> str:
+    """How the last attempt was, and the one thing to do."""
+    outcome = f"{outcome_text(state.last, view)} " if state.last else ""
     if state.taught is not None:
-        shown = "this" if state.taught.whole else "what you showed before"
-        outcome = f"{outcome_text(state.last)} " if state.last else ""
-        return f"{outcome}Teach {shown}, or discard it by going on."
+        return f"{outcome}{say('workflow.teach' if state.taught.whole else 'workflow.teach_part')}"
     if state.last:
-        return f"{outcome_text(state.last)} What next?"
+        return f"{outcome}{say(f'workflow.then_{recommended(state, settings).value}')}"
     if state.warned and state.prediction is not None:
-        return f"I don't know this place ({certainty(state.prediction)}): show me the motion."
-    return "Ready. Press Execute."
+        return say("workflow.little_known", known=certainty(state.prediction))
+    return say("workflow.ready")
 
 
 def _executing(state: Workflow, view: View) -> str:
     robot = view.robot
     if robot is None:
-        return "The robot is not heard."
+        return say("workflow.unheard")
     if robot.phase is RobotPhase.HOLD:
         return _holding(robot)
     if robot.phase is not RobotPhase.EXECUTE:
         ramps = robot.phase is RobotPhase.RAMP
-        return "Wait: the robot goes to where the motion goes on." if ramps else "The motion has ended."
+        return say("workflow.ramp" if ramps else "workflow.over")
     if paused(view):
-        return "Paused. Play goes on, a step goes back or on."
+        return say("workflow.paused")
     return _watching(state) if state.mode is Mode.AUTONOMOUS else _correcting(state, view)
 
 
 def _watching(state: Workflow) -> str:
     way = way_taken(state.prediction.way) if state.prediction is not None else ""
-    return f"The robot executes the prediction{f' ({way})' if way else ''}. Watch."
+    return say("workflow.alone_way", way=way) if way else say("workflow.alone")
 
 
 def _correcting(state: Workflow, view: View) -> str:
     if _collided(view):
-        return "The robot has touched something: this attempt has failed. Finish it, or let it end."
+        return say("workflow.collided")
     if elsewhere(view):
         return elsewhere(view)
-    return "Let go of the keys: they count from then on." if state.let_go else "Correct the motion now."
+    return say("workflow.let_go" if state.let_go else "workflow.correct")
 
 
 def _holding(robot: RobotState) -> str:
     """Whether it goes on by itself, and what keeps it."""
-    holds = "The robot waits: press Go on, or Finish." if robot.waiting else "The robot holds."
-    return f"{holds} ({robot.hold_reason})" if robot.hold_reason else holds
+    why = next((say(f"hold.{word}") for start, word in _HOLDS if robot.hold_reason.startswith(start)), None)
+    kind = "waits" if robot.waiting else "holds"
+    reason = why or robot.hold_reason
+    return say(f"workflow.{kind}_because", why=reason) if reason else say(f"workflow.{kind}")
 
 
 def _collided(view: View) -> bool:
     return view.verdict is not None and view.verdict.collision
 
 
-def outcome_text(outcome: Outcome) -> str:
-    """A verdict as a sentence."""
+def outcome_text(outcome: Outcome, view: View) -> str:
+    """A verdict as a sentence, with how far the target was missed where that is still told."""
     if outcome.success:
-        return "The target was reached."
+        return say("outcome.success")
+    missed = view.verdict.missed if view.verdict is not None and not view.verdict.reached else -1.0
     faults = [
         fault
         for fault, happened in (
-            ("the robot collided", outcome.collision),
-            ("the object was kicked over", outcome.kicked_over),
-            ("the target was not reached", not outcome.reached),
+            (say("outcome.collided"), outcome.collision),
+            (say("outcome.kicked_over"), outcome.kicked_over),
+            (say("outcome.missed"), not outcome.reached and missed < 0.0),
+            (say("outcome.missed_by", distance=f"{missed * 1e3:.0f}"), not outcome.reached and missed >= 0.0),
         )
         if happened
     ]
-    sentence = ", ".join(faults)
-    return f"{sentence[0].upper()}{sentence[1:]}."
+    return say("outcome.failed", faults=say("outcome.also").join(faults))

@@ -125,7 +125,7 @@ def test_whoever_has_the_input_asks_for_the_authority_anew_in_their_own_name():
     site.run(0.1)
     (call,) = site.acquire.take()
     assert (call.request.operator, call.request.take_over) == ("carl", False)
-    assert "carl has the input now." in page.shown.teaching.text
+    assert "carl has the input now." in page.shown.teaching.told
 
 
 def test_an_empty_seat_is_still_its_last_operator_s():
@@ -178,7 +178,7 @@ def test_nothing_is_asked_of_the_robot_before_a_press_but_the_authority():
     site = Site(page, settings=BY_HAND)
     site.grant()
     site.see(10.0)
-    assert page.shown.teaching.text == "Ready. Press Execute."
+    assert page.shown.teaching.text == "Ready. Watch what the robot does alone."
     assert site.reset.take() == []
     page.pressed = ["execute"]
     site.run(0.1)

@@ -130,7 +130,7 @@ def test_what_is_offered_fits_what_the_motion_does(pace, there):
         ({"pace": 0.0}, Light.HOLD, "Paused"),
         ({"pace": -1.0}, Light.AMBER, "goes back"),
         ({"progress": 0.1, "part": Part(0.3, 0.6)}, Light.AMBER, "from 30 % to 60 %"),
-        ({"progress": 0.4, "part": Part(0.3, 0.6)}, Light.GREEN, "Correct the motion now"),
+        ({"progress": 0.4, "part": Part(0.3, 0.6)}, Light.GREEN, "Steer around it"),
     ],
 )
 def test_light_and_words_say_whether_a_correction_counts(robot, light, words):

@@ -11,7 +11,7 @@ from tests.services.station.workflow.site import BY_HAND, HOLD, SCRIPTED, STOPPE
 
 
 def text(site):
-    return teaching_state(site.state, site.view, site.settings).text
+    return teaching_state(site.state, site.view, site.settings).told
 
 
 def taken_over(site, by="bob"):

@@ -6,6 +6,8 @@ import msgspec
 import pytest
 
 from protocol.messages import Light, Mode, Outcome, Part, RobotState, SafetyState, Verdict, Way
+from services.robot.hold import ANOTHER_AUTHORITY, TOO_LONG
+from services.robot.safety import Watchdog
 from services.station.workflow.closure import Closure
 from services.station.workflow.state import Action, Episode, Phase, Taught, Workflow
 from services.station.workflow.view import View
@@ -44,7 +46,7 @@ def told(state, **seen):
 @pytest.mark.parametrize(
     ("state", "seen", "light", "text"),
     [
-        (REFINING, {"robot": robot(EXECUTE)}, Light.GREEN, "Correct the motion now."),
+        (REFINING, {"robot": robot(EXECUTE)}, Light.GREEN, "Steer around it. Space when done."),
         (REFINING, {"robot": robot(RAMP)}, Light.AMBER, "Wait: the robot goes to where the motion goes on."),
         (REFINING, {"robot": robot(IDLE)}, Light.AMBER, "The motion has ended."),
         (REFINING, {"robot": None}, Light.AMBER, "The robot is not heard."),
@@ -54,22 +56,27 @@ def told(state, **seen):
             Light.AMBER,
             "Let go of the keys: they count from then on.",
         ),
-        (ALONE, {"robot": robot(EXECUTE)}, Light.RED, "The robot executes the prediction. Watch."),
+        (ALONE, {"robot": robot(EXECUTE)}, Light.RED, "Watch: the robot moves alone."),
         (ALONE, {"robot": robot(RAMP)}, Light.RED, "Wait: the robot goes to where the motion goes on."),
-        (Workflow(phase=Phase.DECIDING), {}, Light.GREEN, "Ready. Press Execute."),
-        (Workflow(phase=Phase.DECIDING, last=REACHED), {}, Light.GREEN, "The target was reached. What next?"),
+        (Workflow(phase=Phase.DECIDING), {}, Light.GREEN, "Ready. Watch what the robot does alone."),
+        (
+            Workflow(phase=Phase.DECIDING, last=REACHED),
+            {},
+            Light.GREEN,
+            "Reached, nothing touched. Go on to the next object.",
+        ),
         (
             Workflow(phase=Phase.DECIDING, last=REACHED, taught=TAUGHT),
             {},
             Light.GREEN,
-            "The target was reached. Teach this, or discard it by going on.",
+            "Reached, nothing touched. Teach it?",
         ),
-        (Workflow(phase=Phase.DECIDING, taught=TAUGHT), {}, Light.GREEN, "Teach this, or discard it by going on."),
+        (Workflow(phase=Phase.DECIDING, taught=TAUGHT), {}, Light.GREEN, "Teach it?"),
         (
             Workflow(phase=Phase.DECIDING, last=COLLIDED, taught=replace(TAUGHT, part=Part(0.0, 0.5), whole=False)),
             {},
             Light.GREEN,
-            "The robot collided, the target was not reached. Teach what you showed before, or discard it by going on.",
+            "The robot touched something, missed the target. Teach what you showed before that, or correct it again.",
         ),
         (
             Workflow(phase=Phase.DECIDING, warned=True, prediction=HARDLY_KNOWN),
@@ -81,15 +88,15 @@ def told(state, **seen):
             replace(ALONE, prediction=HARDLY_KNOWN),
             {"robot": robot(EXECUTE)},
             Light.RED,
-            "The robot executes the prediction (way 2 of 2, 80 %). Watch.",
+            "Watch: the robot moves alone (way 2 of 2, 80 %).",
         ),
-        (Workflow(phase=Phase.LEARNING), {}, Light.AMBER, "The model learns from the correction."),
+        (Workflow(phase=Phase.LEARNING), {}, Light.AMBER, "Wait: the robot learns what you showed."),
         (Workflow(phase=Phase.FINISHED, reason="ended by hand"), {}, Light.AMBER, "Ended: ended by hand."),
         (
             Workflow(phase=Phase.FINISHED, closure=Closure(closed=True)),
             {},
             Light.AMBER,
-            "Finished: the model has learnt from the correction.",
+            "Finished: the robot has learnt from the correction.",
         ),
         (
             Workflow(phase=Phase.WATCHING),
@@ -111,16 +118,16 @@ def test_light_and_text(state, seen, light, text):
 
 @pytest.mark.parametrize("state", [REFINING, ALONE])
 def test_a_held_robot_has_a_light_of_its_own_and_never_green(state):
-    light, text = told(state, robot=robot(HOLD, hold_reason="no hand is at the operator's keys"))
+    light, text = told(state, robot=robot(HOLD, hold_reason="no hand is at the operator's keys or device"))
     assert light is Light.HOLD
-    assert text == "The robot holds. (no hand is at the operator's keys)"
+    assert text == "Paused: no hand is at the keys or the device."
 
 
 def test_a_robot_that_waits_says_what_to_press_and_what_keeps_it():
     _, text = told(ALONE, robot=robot(HOLD, waiting=True, hold_reason="nobody holds the authority"))
-    assert text == "The robot waits: press Go on, or Finish. (nobody holds the authority)"
+    assert text == "Paused: nobody commands the robot. Press Go on, or Done."
     _, text = told(ALONE, robot=robot(HOLD, waiting=True))
-    assert text == "The robot waits: press Go on, or Finish."
+    assert text == "Paused. Press Go on, or Done."
 
 
 def test_after_a_collision_nobody_is_asked_to_correct():
@@ -147,9 +154,14 @@ def test_a_latched_stop_whose_robot_still_moves_says_so():
     assert "not known to stand still" in text
 
 
-def test_what_happened_and_what_does_not_work_stand_behind_what_is():
+def test_what_happened_and_what_does_not_work_are_told_beside_the_sentence():
     state = Workflow(phase=Phase.LEARNING, event="It happened.", notice="It does not work.")
-    assert told(state)[1] == "The model learns from the correction. It happened. It does not work."
+    teaching = teaching_state(state, View(now_s=1.0, number=1), BY_HAND)
+    assert (teaching.text, teaching.event) == (
+        "Wait: the robot learns what you showed.",
+        "It happened. It does not work.",
+    )
+    assert teaching.told == f"{teaching.text} {teaching.event}"
 
 
 def test_the_state_tells_counts_offers_and_the_end():
@@ -193,13 +205,13 @@ def test_every_phase_has_words(phase):
 @pytest.mark.parametrize(
     ("outcome", "text"),
     [
-        (REACHED, "The target was reached."),
-        (COLLIDED, "The robot collided, the target was not reached."),
-        (Outcome(reached=True, kicked_over=True, collision=False), "The object was kicked over."),
+        (REACHED, "Reached, nothing touched."),
+        (COLLIDED, "The robot touched something, missed the target."),
+        (Outcome(reached=True, kicked_over=True, collision=False), "The robot knocked the object over."),
     ],
 )
 def test_a_verdict_as_a_sentence(outcome, text):
-    assert outcome_text(outcome) == text
+    assert outcome_text(outcome, View(now_s=1.0, number=1)) == text
 
 
 def test_a_stopped_robot_that_is_not_heard_is_not_said_to_be_released():
@@ -207,3 +219,27 @@ def test_a_stopped_robot_that_is_not_heard_is_not_said_to_be_released():
     assert unheard == "The robot was stopped, and is not heard now."
     _, released = told(Workflow(phase=Phase.STOPPED), safety=SafetyState(emergency_stop=False))
     assert released == "The emergency stop is not latched any more."
+
+
+def test_a_miss_is_told_in_millimetres_while_it_is_known():
+    missed = Verdict(reached=False, kicked_over=False, collision=False, missed=0.0314)
+    text = outcome_text(Outcome(reached=False, kicked_over=False, collision=False), View(1.0, 1, verdict=missed))
+    assert text == "The robot missed the target by 31 mm."
+
+
+@pytest.mark.parametrize("waiting", [True, False])
+def test_every_reason_of_the_robot_s_to_hold_has_words_for_whoever_stands_at_the_page(waiting):
+    watchdog = Watchdog(hold_after_s=0.1, presence_after_s=0.2)
+    reasons = [
+        watchdog.presence("", None),
+        watchdog.presence("station", 9.0),
+        watchdog.hand(None, engaged=True),
+        watchdog.hand(9.0, engaged=True),
+        watchdog.hand(0.0, engaged=False),
+        TOO_LONG,
+        ANOTHER_AUTHORITY,
+    ]
+    for reason in reasons:
+        _, text = told(REFINING, robot=robot(HOLD, hold_reason=reason, waiting=waiting))
+        assert text.startswith("Paused: ")
+        assert reason not in text
