@@ -10,6 +10,7 @@ COMMANDS: tuple[Command, ...] = (
     Command("teach", "services.commands.teach", "give a model its first demonstrations, or a motion", needs="robot"),
     Command("prepare", "services.commands.prepare", "make and keep what every simulated run needs", needs="robot"),
     Command("echo", "services.commands.echo", "print what passes on a key expression", needs="process"),
+    Command("device", "services.commands.device.command", "input devices: there, live, calibrated", needs="master"),
     Command("top", "services.commands.top", "the live processes of a network", needs="process"),
     Command("stop", "services.commands.stop", "emergency stop of a robot, or its release", needs="process"),
     Command("replay", "services.commands.replay", "open a recording in Rerun", needs="viewer"),

@@ -1,4 +1,4 @@
-"""A person at the page: sees the prediction fail, corrects it with the keyboard while it runs, sees it learnt."""
+"""A person at the page: sees the prediction fail, corrects it by any device while it runs, sees it learnt."""
 
 import contextlib
 
@@ -12,6 +12,7 @@ from services.bus.predictions import Predictions
 from services.process.config import load
 from sim.person.intention import plan
 from sim.tasks import DISHWASHER
+from tests.system.hands import HANDS
 from tests.system.harness import START_S, Command, Witness, configured, eventually, free_endpoint
 
 playwright = pytest.importorskip("playwright.sync_api")
@@ -20,8 +21,6 @@ pytestmark = [pytest.mark.system, pytest.mark.browser, pytest.mark.zenoh, pytest
 
 EPISODE_S = 120.0
 TRIES = 3
-AXES = (("q", "a"), ("w", "s"), ("e", "d"))
-TOLERANCE_M = 0.008
 SHOWN = "[document.body.matches('[data-let-go]'), document.querySelector('[data-action=go_on]:enabled') !== null]"
 """Whether the page says to let go of the keys, and whether it asks to go on: one look, not one for each."""
 
@@ -30,20 +29,21 @@ LEAD = 0.03
 
 
 class Person:
-    """Looks at where the robot is and where it should be, holds the keys that lead there, and lets it go on if it asks.
+    """Looks at where the robot is and where it should be, leads it there, and lets it go on if it asks.
 
     Args:
         page: the browser's page.
+        hand: on a device.
         witness: of the robot's network, in place of eyes.
     """
 
-    def __init__(self, page, witness):
+    def __init__(self, page, hand, witness):
         self._page = page
         self._witness = witness
         self._predictions = Predictions(witness.bus)
         self._execution = witness.bus.subscribe(topics.EXECUTION)
         self._seen = witness.bus.subscribe(topics.OBJECT_POSE)
-        self._held = set()
+        self._hand = hand
         self._correction = None
 
     def begin(self):
@@ -51,26 +51,25 @@ class Person:
         self._correction = None
 
     def look(self):
-        """One look, and what it calls for: the keys, or to let go of them, or to go on."""
+        """One look, and what it calls for: to lead, or to let go, or to go on."""
         robot = self._witness.robot
         let_go, asked = self._page.evaluate(SHOWN)
         if let_go:
-            self._hold(set())
+            self._hand.rest()
             return
         if asked:
-            self._hold(set())
+            self._hand.rest()
             # The robot may not ask any more by now.
             with contextlib.suppress(playwright.TimeoutError):
                 press(self._page, "go_on", within_s=1.0)
             return
         if robot is None or robot.mode is not Mode.REFINE or robot.phase is not Phase.EXECUTE:
-            self._hold(set())
+            self._hand.rest()
             return
         wanted = self._wanted(robot.progress)
         if wanted is None:
             return
-        error = wanted - np.array(robot.offset)
-        self._hold({AXES[i][0 if error[i] > 0.0 else 1] for i in range(3) if abs(error[i]) > TOLERANCE_M})
+        self._hand.steer(wanted - np.array(robot.offset))
 
     def _wanted(self, progress):
         if self._correction is None:
@@ -86,13 +85,6 @@ class Person:
             self._correction = plan(positions, orientations, ways[1], ways)
         return self._correction.displacement(min(1.0, progress + LEAD))
 
-    def _hold(self, keys):
-        for key in self._held - keys:
-            self._page.keyboard.up(key)
-        for key in keys - self._held:
-            self._page.keyboard.down(key)
-        self._held = keys
-
 
 @pytest.fixture
 def page(browser):
@@ -102,7 +94,8 @@ def page(browser):
     opened.close()
 
 
-def test_one_correction_by_keyboard_is_learnt(tmp_path, page):
+@pytest.mark.parametrize("on_device", HANDS, ids=lambda hand: hand.device)
+def test_one_correction_by_hand_is_learnt(on_device, tmp_path, page):
     endpoint = free_endpoint()
     configuration = configured(tmp_path, endpoint)
     station = load(configuration).station
@@ -111,9 +104,10 @@ def test_one_correction_by_keyboard_is_learnt(tmp_path, page):
         Witness(endpoint) as witness,
     ):
         up.until(lambda: witness.teaching, START_S, "the station is there")
+        page.add_init_script(on_device.script)
         page.goto(f"http://{station.host}:{station.port}/")
 
-        person = Person(page, witness)
+        person = Person(page, on_device(page), witness)
 
         def decided(attempts):
             return eventually(lambda: person.look() or decides(page, witness, attempts), EPISODE_S, up.tail)

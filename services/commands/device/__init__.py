@@ -1,0 +1,1 @@
+"""`retouch device`: which input devices there are, what they say, and how they are measured."""
