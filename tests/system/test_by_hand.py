@@ -104,7 +104,7 @@ def test_one_correction_by_hand_is_learnt(on_device, tmp_path, page):
         Witness(endpoint) as witness,
     ):
         up.until(lambda: witness.teaching, START_S, "the station is there")
-        page.add_init_script(on_device.script)
+        page.add_init_script(f"localStorage.setItem('retouch-tour', 'seen'); {on_device.script}")
         page.goto(f"http://{station.host}:{station.port}/")
 
         person = Person(page, on_device(page), witness)
