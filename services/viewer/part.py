@@ -5,13 +5,13 @@ from __future__ import annotations
 import contextlib
 import os
 import select
-import struct
 import tempfile
 import threading
 from pathlib import Path
 
 import rerun as rr
 
+from services.viewer.framing import Whole, whole_length
 from services.viewer.live import APPLICATION, only_our_time
 
 # A disk that does not answer for so long does not take what is logged.
@@ -25,12 +25,10 @@ _LEAST = 2**20
 
 _PIPE = 2**16  # as much as a pipe holds
 _IDLE_S = 0.1
-_FILE_HEADER = 12
-_MESSAGE_HEADER = struct.Struct("<QQ")
 
 
 class Part:
-    """A file that is written to. What it has taken is readable at any time, after a kill too.
+    """A file that is written to, by whole messages. What it has taken is readable at any time, after a kill too.
 
     The SDK writes into a pipe, and a thread from there to the disk: the SDK does not say why a write fails, and does
     not always come back from closing a file that could not be written.
@@ -84,6 +82,7 @@ class Part:
         self._thread.join(within_s)
 
     def _copy(self) -> None:
+        whole = Whole()
         while True:
             if not select.select([self._source], [], [], _IDLE_S)[0]:
                 self._drained.set()
@@ -92,10 +91,12 @@ class Part:
             if not piece:
                 break
             if not self._cause:
-                self._cause = self._write(piece)
+                self._cause = self._write(whole.add(piece))
             self._copied += len(piece)
             if self._copied >= self._enough:
                 self._drained.set()
+        if not self._cause:
+            self._cause = self._write(whole.rest())
         os.close(self._source)
         self._file.close()
 
@@ -110,29 +111,6 @@ class Part:
                 os.truncate(self.path, whole_length(self.path))
             return reason(error)
         return ""
-
-
-def whole_length(path: Path) -> int:
-    """The length of a recording up to the end of its last whole message [byte].
-
-    A .rrd file is a header of 12 bytes and messages, each with its kind and its length before it (64 bit, little
-    endian), as the SDK writes them.
-
-    Raises:
-        OSError: the file cannot be read.
-    """
-    size = path.stat().st_size
-    with path.open("rb") as file:
-        whole = _FILE_HEADER
-        while True:
-            file.seek(whole)
-            header = file.read(_MESSAGE_HEADER.size)
-            if len(header) < _MESSAGE_HEADER.size:
-                return min(whole, size)
-            _, length = _MESSAGE_HEADER.unpack(header)
-            if whole + _MESSAGE_HEADER.size + length > size:
-                return whole
-            whole += _MESSAGE_HEADER.size + length
 
 
 def refusal(folder: Path) -> str:

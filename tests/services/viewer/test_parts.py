@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import threading
 import warnings
+from pathlib import Path
 
 import pytest
 
@@ -161,6 +162,45 @@ def test_what_was_checked_survives_a_kill(tmp_path, record):
     parts.check()
     copied = shutil.copy(parts.path, tmp_path / "as_if_killed.rrd")
     assert numbers(copied) == [float(i) for i in range(10)]
+
+
+class Watched(type(Path())):
+    """A path whose file is looked at after every write: how long it is, and how much of that is whole messages."""
+
+    def open(self, mode="r", **settings):
+        file = super().open(mode, **settings)
+        return Watching(file, self) if mode == "xb" else file
+
+
+class Watching:
+    def __init__(self, file, path):
+        self.file, self.path, self.lengths = file, path, []
+
+    def write(self, piece):
+        from services.viewer.framing import whole_length
+
+        written = self.file.write(piece)
+        if written:
+            self.lengths.append((self.path.stat().st_size, whole_length(self.path)))
+        return written
+
+    def close(self):
+        self.file.close()
+
+
+def test_a_kill_at_any_time_leaves_whole_messages_however_large_they_are(tmp_path):
+    import rerun as rr
+
+    from services.viewer.part import Part
+
+    part = Part(Watched(tmp_path / "large.rrd"), "abc")
+    for size in (10, 2**19, 10, 2**20):
+        part.stream.log("/weight", rr.EncodedImage(contents=os.urandom(size), media_type="image/jpeg"))
+        part.stream.flush()
+    part.close(5.0)
+    lengths = part._file.lengths
+    assert len(lengths) >= 4
+    assert all(length == whole for length, whole in lengths)
 
 
 def test_a_disk_that_is_kept_busy_is_no_disk_that_does_not_answer(tmp_path, record):
