@@ -10,6 +10,7 @@ from lfd.exceptions import OutOfRange, TooFewPoints
 from lfd.models.adaptive.adaptation import AdaptiveOptions
 from lfd.models.adaptive.correction import CorrectionOptions
 from lfd.models.adaptive.covariance import CovarianceOptions
+from lfd.models.adaptive.drift import DriftOptions
 from lfd.models.adaptive.regression import RegressionOptions
 from lfd.models.adaptive.relevance import RelevanceOptions
 from lfd.models.adaptive.spread import SpreadPrior
@@ -56,6 +57,7 @@ BEYOND = {
         "duration_std": [0.0, -1.0],
         "count": [0.0, -1.0],
     },
+    DriftOptions: {"conditions": [2, 3.5], "doubt": [0.0, -1.0], "least": [0.0, -1.0]},
     WorldOptions: {"noise": [0.0, -1.0], "evidence": [0.0, -1.0], "jump": [0.0, -1.0], "stays": [0.0, -1.0]},
 }
 
@@ -90,6 +92,7 @@ NUMBERS_BEYOND = {
     CorrectionOptions: {
         "covariance": [None],
         "world": [None],
+        "drift": [None],
         "noise": [0.0, -1.0, *NEVER],
         "same": [-0.1, *NEVER],
         "gate": [0.0, -0.1, *NEVER],
@@ -113,6 +116,7 @@ WITHIN = {
         "reach": (1e-9,) * 3,
     },
     CorrectionOptions: {"noise": 1e-9, "same": 0.0, "gate": 1e-9, "half_life_s": 1e-9, "most": 1},
+    DriftOptions: {"conditions": 3, "doubt": 1e-9, "least": 1e-9},
     WorldOptions: {"noise": 1e-9, "evidence": 1e-9, "jump": 1e-9, "stays": 1e-9},
 }
 

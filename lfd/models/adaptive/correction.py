@@ -10,10 +10,11 @@ The change at s, given the changes y_j that the corrections made at s_j, is C(s,
    what exceeds that scatter is taken elsewhere, of each coordinate at each phase (Wiener's filter): a detour is, by
    how far a hand was off its aim is not.
 
-A motion that passes elsewhere what was led round needs less of it (`lfd.models.adaptive.detour`).
+What several show together is a trend, from which they depart (`lfd.models.adaptive.drift`). A motion that passes
+elsewhere what was led round needs less of a correction (`lfd.models.adaptive.detour`).
 
-All three fade to nothing far away, and no prediction departs further from the demonstrations than the largest
-correction did: the weights of the corrections never add up to more than what the nearest of them has in part 3.
+All of it fades to nothing far away, and no prediction departs further from the demonstrations than the largest
+correction did: the weights never add up to more than what the nearest has in part 3, nor is a trend larger than that.
 """
 
 from dataclasses import dataclass, field, replace
@@ -26,15 +27,16 @@ from numpy.typing import NDArray
 from lfd.arrays import Array
 from lfd.bounds import NOT_NEGATIVE, POSITIVE, at_least, check_number, check_options
 from lfd.distances import squared_distances
+from lfd.models.adaptive.age import aged
 from lfd.models.adaptive.covariance import CovarianceOptions, Nearness, Solved, levy
-from lfd.models.adaptive.detour import Detours, Needed
-from lfd.models.adaptive.effect import Effect
+from lfd.models.adaptive.detour import Detours
+from lfd.models.adaptive.drift import Drift, DriftOptions, Told
+from lfd.models.adaptive.effect import Effect, Place, likeliest
 from lfd.models.adaptive.kinds import POSITION
 from lfd.models.adaptive.regression import Expectation, Regression
 from lfd.models.adaptive.scale import ConditionScale
 from lfd.models.adaptive.ways import contradictions, probabilities, sort_into_ways
 from lfd.models.adaptive.worlds import WorldOptions, Worlds, find_worlds
-from lfd.models.model import Way
 from lfd.motion.alignment import group_by_condition
 
 
@@ -48,6 +50,7 @@ class CorrectionOptions:
         same: Corrections at conditions nearer than this are of one condition.
         gate: By how much nearer the corrections of one way are where it is e times more probable than another.
         world: When corrections of one condition are averaged, and when the newest is followed.
+        drift: When those of several conditions show a trend.
         half_life_s: Age at which a correction counts half as much as a new one [s]; None: it does not age.
         most: Corrections kept; beyond it the most outdated is set aside.
 
@@ -60,6 +63,7 @@ class CorrectionOptions:
     same: float = 0.1
     gate: float = 0.05
     world: WorldOptions = field(default_factory=WorldOptions)
+    drift: DriftOptions = field(default_factory=DriftOptions)
     half_life_s: float | None = None
     most: int = 200
 
@@ -71,6 +75,7 @@ class CorrectionOptions:
             same=NOT_NEGATIVE,
             gate=POSITIVE,
             world=WorldOptions,
+            drift=DriftOptions,
             most=at_least(1),
         )
         if self.half_life_s is not None:
@@ -130,8 +135,7 @@ class Corrections:
             return replace(self, held=self.held[:-1])
         index, correction = self.aside[-1]
         # It stood among those that are held now, the newest of them included, before there was no room for it.
-        before = (*self.held[:index], correction, *self.held[index:])[:-1]
-        return replace(self, held=before, aside=self.aside[:-1])
+        return replace(self, held=(*self.held[:index], correction, *self.held[index:])[:-1], aside=self.aside[:-1])
 
     def effect(self, expected: Expectation, led: Array | None = None) -> Effect:
         """What the corrections change at a place.
@@ -146,18 +150,13 @@ class Corrections:
         if self._scale is not self.regression.scale:
             z = outside = self._scale.standard(expected.s)
         distances = np.sqrt(squared_distances(z[None], self._z))
-        beyond = float(np.sqrt(outside @ outside))
         needed = None if led is None else self._detours.needed(led, shown=len(self._solved) > 1)
-        place = Nearness.of(distances, levy(outside[None], self._outside), self.options.covariance)
+        nearness = Nearness.of(distances, levy(outside[None], self._outside), self.options.covariance)
+        place = Place(z, outside, nearness, needed)
         if len(self._solved) == 1:
-            return self._of_way(0, place, beyond, needed)
+            return self._of_way(0, place)
         likely = probabilities(distances[0], self._ways, self.options.gate)
-        chosen = int(likely.argmax())
-        effect = self._of_way(chosen, place, beyond, needed)
-        others = [way for way in range(len(likely)) if way != chosen and likely[way] > _IMPROBABLE]
-        differences = [self._of_way(way, place, beyond, needed).change - effect.change for way in others]
-        way = Way(chosen, len(likely), float(likely[chosen]))
-        return replace(effect, way=way, others=tuple(zip(likely[others].tolist(), differences, strict=True)))
+        return likeliest(likely, lambda way: self._of_way(way, place))
 
     @property
     def noise(self) -> float:
@@ -172,29 +171,43 @@ class Corrections:
 
     @cached_property
     def _details(self) -> Array:
-        """What of the changes is a detail of its place, shape (J, D): y v / (y^2 + v), value by value.
-
-        The rest is what Wiener's filter keeps of a change among departures of variance v; in no kind more than all.
-        """
-        kinds = self.regression.kinds
-        kept = kinds.filtered(self.changes, (self.options.covariance.value_std * self._units) ** 2)
-        most = np.sqrt(self._sizes / np.maximum(kinds.sizes(kept), np.maximum(self._sizes, _TINY)))
-        return np.asarray(self.changes - most[kinds.of_column].T * kept, dtype=np.float64)
+        """What of the changes is a detail of its place, shape (J, D); the rest is what Wiener's filter keeps."""
+        return self.regression.kinds.details(self.changes, (self.options.covariance.value_std * self._units) ** 2)
 
     @cached_property
     def mean_square(self) -> float:
         """Of the corrections' positions [m^2]."""
         return float(self._products[POSITION].trace() / len(self))
 
-    def _of_way(self, way: int, place: Nearness, beyond: float, needed: Needed | None) -> Effect:
-        applied = self._solved[way].at(place, beyond)
-        changes, details = self.changes, self._details
-        if needed is not None:
-            changes, details = needed.of(changes), needed.of(details)
-        changes = applied.weights @ changes - applied.carried @ details
-        change = self.regression.kinds.each_from_its_own(changes)
-        evidence, left, surprise = (float(of[POSITION]) for of in (applied.evidence, applied.left, applied.surprise))
-        return Effect(change, left, surprise, evidence)
+    def _of_way(self, way: int, place: Place) -> Effect:
+        applied = self._solved[way].at(place.nearness, place.beyond)
+        kinds, changes, details = self.regression.kinds, self.changes, self._details
+        if place.needed is not None:
+            changes, details = place.needed.of(changes), place.needed.of(details)
+        if self._drift is None:
+            change = kinds.each_from_its_own(applied.weights @ changes - applied.carried @ details)
+        else:
+            drift, applied = self._drift.beside(applied, place.z, place.outside)
+            departing = applied.weights @ changes - applied.carried @ details
+            change = kinds.each_from_its_own(drift @ self.changes + departing)
+            change = kinds.bounded(change, applied.near**2 * self._drift.largest)
+        return Effect.of_positions(change, applied, place.beyond)
+
+    @cached_property
+    def _drift(self) -> Drift | None:
+        """Of ways that contradict each other there is none."""
+        if len(self) < self.options.drift.conditions or len(self._solved) > 1:
+            return None
+        told = Told(
+            self._z,
+            self._outside,
+            self._groups,
+            self._products,
+            self.regression.kinds.largest(self.changes),
+            self._solved[0],
+            self._aged,
+        )
+        return Drift.of(told, self.options.covariance.near, self.options.drift)
 
     @cached_property
     def _detours(self) -> Detours:
@@ -210,7 +223,7 @@ class Corrections:
         return tuple(
             Solved.of(
                 nearness,
-                self._sizes,
+                self._products.diagonal(axis1=1, axis2=2),
                 np.asarray(worlds.current & (self._ways == way), dtype=np.float64),
                 doubt=(self.options.noise + self._aged, repeated),
                 units=self._units,
@@ -255,21 +268,20 @@ class Corrections:
         """Inner products of the changes in each kind, shape (3, J, J)."""
         return self.regression.kinds.products(self.changes)
 
-    @property
-    def _sizes(self) -> Array:
-        """Squared sizes of the changes in each kind, shape (3, J)."""
-        return self._products.diagonal(axis1=1, axis2=2)
-
     @cached_property
     def _near(self) -> NDArray[np.bool_]:
         """Which are of one condition, shape (J, J)."""
         return np.asarray(self._distances <= self.options.same, dtype=np.bool_)
 
     @cached_property
+    def _groups(self) -> list[list[int]]:
+        """Indices of those of each condition: mostly there is one at each."""
+        alone = self._near.sum() == len(self)
+        return [[j] for j in range(len(self))] if alone else group_by_condition(self._z, self.options.same)
+
+    @cached_property
     def _worlds(self) -> Worlds:
-        # Mostly there is one at each condition, and nothing to be grouped.
-        groups = group_by_condition(self._z, self.options.same) if self._near.sum() > len(self) else []
-        return find_worlds(self._products, groups, self._units, self.options.world)
+        return find_worlds(self._products, self._groups, self._units, self.options.world)
 
     @cached_property
     def _ways(self) -> NDArray[np.intp]:
@@ -278,23 +290,11 @@ class Corrections:
         against = contradictions(self._products[POSITION], self._distances, slope, self.noise)
         return sort_into_ways(against, self._distances, current)
 
-    @property
+    @cached_property
     def _aged(self) -> Array:
-        """What each is believed less for its age, as a variance relative to what it could have changed, shape (J,)."""
-        if self.options.half_life_s is None:
-            return np.zeros(len(self))
-        times = np.array([np.nan if c.at_s is None else c.at_s for c in self.held], dtype=np.float64)
-        if np.isnan(times).all():
-            return np.zeros(len(self))
-        ages = np.nan_to_num(np.nanmax(times) - times, nan=0.0)
-        return np.asarray(np.exp2(np.minimum(ages / self.options.half_life_s, _OLDEST)) - 1.0, dtype=np.float64)
+        return aged([correction.at_s for correction in self.held], self.options.half_life_s)
 
     @property
     def _outdated(self) -> Array:
         """How many newer ones there are at the condition of each, shape (J,)."""
         return np.asarray(np.triu(self._near, k=1).sum(axis=1) + ~self._worlds.current[POSITION] * len(self))
-
-
-_IMPROBABLE = 0.01
-_TINY = 1e-300
-_OLDEST = 60.0  # half-lives, after which a correction counts for nothing

@@ -103,6 +103,7 @@ class Applied:
         evidence: How many corrections speak for it, at least 1, shape (3,).
         left: The share of the variance, shape (3,).
         surprise: Mean square of what might be a surprise there, shape (3,).
+        near: How much the nearest alone would count in part 3, shape (3,).
     """
 
     weights: Array
@@ -110,6 +111,7 @@ class Applied:
     evidence: Array
     left: Array
     surprise: Array
+    near: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -193,7 +195,7 @@ class Solved:
         evidence = _evidence(weights)
         alone = np.maximum(2.0 / evidence - 1.0, 0.0)[:, None]
         carried = carried.clip(np.minimum(weights, 0.0), np.maximum(weights, 0.0))
-        return Applied(weights * limit, carried * (limit * alone), evidence, left, surprise)
+        return Applied(weights * limit, carried * (limit * alone), evidence, left, surprise, most[:, 0])
 
 
 def _evidence(weights: Array) -> Array:

@@ -54,6 +54,12 @@ class Kinds:
         duration = X[:, -1:]
         return np.concatenate([kept.reshape(len(X), -1), duration * _trusted(duration, variances[DURATION])], axis=1)
 
+    def details(self, X: Array, variances: Array) -> Array:
+        """The rest of them, y v / (y^2 + v), where what is kept is in no kind larger than all of it, shape (m, D)."""
+        kept, sizes = self.filtered(X, variances), self.sizes(X)
+        most = np.sqrt(sizes / np.maximum(self.sizes(kept), np.maximum(sizes, _TINY)))
+        return np.asarray(X - most[self.of_column].T * kept, dtype=np.float64)
+
     def measured(self, X: Array) -> tuple[Array, Array, Array]:
         """What is compared of vectors (m, D), kind by kind: shapes (m, 3 P), (m, 3 P) and (m, 1)."""
         m = len(X)
@@ -69,6 +75,23 @@ class Kinds:
     def sizes(self, X: Array) -> Array:
         """Squared sizes of vectors (m, D) in each kind, shape (3, m)."""
         return np.array([np.vecdot(values, values) for values in self.measured(X)])
+
+    def largest(self, X: Array) -> Array:
+        """Squared sizes of vectors (m, D), and their largest squares at a phase, in each kind, shape (2, 3, m)."""
+        outputs = self.rows @ X[:, :-1].reshape(len(X), -1, OUTPUTS)
+        poses = outputs.reshape(len(X), PHASES, DURATION, -1)
+        squares = np.vecdot(poses, poses)
+        durations = np.broadcast_to(X[:, -1] ** 2, (2, 1, len(X)))
+        pointwise = np.array([squares.sum(axis=1).T, PHASES * squares.max(axis=1).T])
+        return np.concatenate([pointwise, durations], axis=1)
+
+    def bounded(self, x: Array, largest: Array) -> Array:
+        """A vector (D,), in each kind no larger than allowed: see `largest`, shape (2, 3)."""
+        squares = self.largest(x[None])[..., 0]
+        if (squares <= largest).all():
+            return x
+        factors = np.sqrt((largest / np.maximum(squares, np.maximum(largest, _TINY))).min(axis=0))
+        return np.asarray(x * factors[self.of_column], dtype=np.float64)
 
     def products(self, X: Array) -> Array:
         """Inner products of vectors (m, D) with each other in each kind, shape (3, m, m)."""
@@ -103,3 +126,6 @@ class Kinds:
 def _trusted(values: Array, variances: Array) -> Array:
     squares = values**2
     return np.asarray(squares / (squares + variances), dtype=np.float64)
+
+
+_TINY = 1e-300

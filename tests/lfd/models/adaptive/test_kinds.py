@@ -57,3 +57,22 @@ def test_of_each_coordinate_at_each_phase_what_is_larger_than_departures_are_is_
     of_output = np.repeat(v[:2], 3)
     np.testing.assert_allclose(encoding.rows(t) @ kept[:-1].reshape(40, 6), bump**3 / (bump**2 + of_output), atol=5e-4)
     assert kept[-1] == pytest.approx(0.1**3 / (0.1**2 + v[2]))
+
+
+def test_the_largest_is_the_size_and_the_farthest_that_a_phase_goes(rng):
+    X = rng.normal(size=(4, D))
+    paths = KINDS.paths(X)
+    sizes, peaks = KINDS.largest(X)
+    np.testing.assert_allclose(sizes, KINDS.sizes(X))
+    np.testing.assert_allclose(peaks[POSITION], np.sum(paths**2, axis=2).max(axis=1))
+    np.testing.assert_allclose(peaks[DURATION], X[:, -1] ** 2)
+
+
+def test_what_is_bounded_is_the_same_where_it_is_allowed_and_as_large_as_allowed_where_not(rng):
+    x = rng.normal(size=D)
+    own = KINDS.largest(x[None])[..., 0]
+    np.testing.assert_array_equal(KINDS.bounded(x, own), x)
+    allowed = own * [[0.25, 2.0, 1.0], [1.0, 0.01, 1.0]]
+    bounded = KINDS.bounded(x, allowed)
+    np.testing.assert_allclose(bounded, x * np.array([0.5, 0.1, 1.0])[KINDS.of_column])
+    np.testing.assert_array_equal(KINDS.bounded(x, np.zeros((2, 3))), np.zeros(D))
