@@ -250,7 +250,8 @@ class AdaptiveProMP:
         """
         if self._regression.scale.unseen(expected.s) and effect.open_share == 1.0:
             return 0.0
-        beyond = math.sqrt(expected.outside @ expected.outside)
+        # A number that never varied among the demonstrations has a unit since it was corrected only.
+        beyond = max(math.sqrt(expected.outside @ expected.outside), effect.beyond)
         shown = math.exp(-beyond / self.options.correction.covariance.near)
         decided = max(2.0 * effect.way.probability - 1.0, 0.0) if effect.way.count > 1 else 1.0
         return max(shown, 1.0 - effect.open_share) * decided

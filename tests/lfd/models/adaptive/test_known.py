@@ -1,5 +1,7 @@
 """How much is known of a motion, and which of several ways it takes."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -24,6 +26,20 @@ def test_how_much_is_known_falls_as_the_detail_of_a_place_does():
     outside = model.corrections.regression.at(wanted.condition).outside
     near = model.options.correction.covariance.near
     assert predict(model, wanted).known == pytest.approx(np.exp(-np.linalg.norm(outside) / near))
+
+
+def test_far_along_what_only_a_correction_varied_little_is_known():
+    """One demonstration gives a number that is no place no unit: it is not known everywhere once it was corrected."""
+
+    def turned(angle, side=0.0):
+        return replace(placed(0.0, side=side), condition=np.array([angle]))
+
+    model = AdaptiveProMP.fit([turned(0.0)]).updated(turned(0.2, side=0.2))
+    known = [predict(model, turned(angle)).known for angle in (0.0, 0.2, 0.4, 4.0)]
+    assert known[0] == pytest.approx(1.0)
+    assert known[1] > 0.99
+    assert known[2] < 0.9
+    assert known[3] < 0.05
 
 
 @pytest.fixture(scope="module")
