@@ -158,7 +158,8 @@ class Feed:
                 )
             if self.moving_robot:
                 self.view = replace(self.view, robot=swinging(self.view.robot, tick * FEED_PERIOD_S))
-            self._page.show(self.view)
+            here = msgspec.structs.replace(self._page.attendance(), holder=self.view.authority.holder)
+            self._page.show(replace(self.view, attendances=(here,)))
 
 
 def swinging(robot, time_s):

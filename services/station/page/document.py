@@ -10,11 +10,12 @@ from string import Template
 
 import msgspec
 
-from protocol.messages import SHORTEST_REASON
+from protocol.messages import SHORTEST_REASON, Role
 from services.station.page.controls import BUTTONS, KEYBOARDS, Button, Key
 from services.station.page.devices import PADS
 from services.station.page.health import FIGURES
 from services.station.page.panels import COUNTERS, CRITERIA
+from services.station.page.people import GROUPS
 from services.station.words.table import say, speech
 
 HERE = Path(__file__).parent
@@ -79,6 +80,8 @@ def document(robot: str, description: str) -> str:
         "swap_live": _swap(_LIVE),
         "counters": "".join(_counter(name) for name in COUNTERS),
         "criteria": "".join(_criterion(name) for name in CRITERIA),
+        "people": "".join(_people(group) for group in GROUPS),
+        "roles": "".join(_role(role) for role in Role),
         "pads": "".join(_pad(name) for name in PADS),
         "keyboards": "".join(_keyboard(rows) for rows in KEYBOARDS),
         "actions": "".join(_button(number, button) for number, button in enumerate(BUTTONS)),
@@ -123,6 +126,17 @@ def _figure(name: str) -> str:
         f'<div class="figure" data-figure="{name}"><dt>{_say(f"figure.{name}")}</dt>'
         f'<dd data-value="figure-{name}" data-tone="none">{_say("figure.none")}</dd></div>'
     )
+
+
+def _people(group: str) -> str:
+    return (
+        f'<div class="person-row" data-value="people-{group}-row" hidden><dt>{_say(f"who.{group}")}</dt>'
+        f'<dd data-value="people-{group}"></dd></div>'
+    )
+
+
+def _role(role: Role) -> str:
+    return f'<option value="{role.value}">{_say(f"who.{role.value}")}</option>'
 
 
 def _camera(name: str) -> str:

@@ -6,6 +6,7 @@ import re
 from dataclasses import dataclass
 
 from protocol.messages import Role
+from services.station.words.table import say
 
 _NAME = re.compile(r"[^\W_][\w .'-]{0,39}")
 
@@ -46,10 +47,8 @@ def identify(name: str, role: str, operator: str) -> Identity:
     given = name.strip()
     faults = []
     if known is None:
-        faults.append(f"There is no role {role!r}: give {', '.join(_ROLES)}; you look on.")
+        faults.append(say("who.no_role", role=repr(role), roles=", ".join(_ROLES)))
     if given and not _NAME.fullmatch(given):
-        faults.append(
-            f"{given!r} is no name: give 1 to 40 letters, digits, spaces, '.', '-', '_', a letter or digit first."
-        )
+        faults.append(say("who.no_name", name=repr(given)))
         given = ""
     return Identity(given or (operator if chosen is Role.OPERATOR else ""), chosen, " ".join(faults))

@@ -7,6 +7,7 @@ from services.station.page.controls import actions, emergency_stop
 from services.station.page.devices import devices
 from services.station.page.health import figures, health
 from services.station.page.panels import counters, progress, scene, traffic_light, verdict
+from services.station.page.people import people
 from services.station.page.seating import seating
 from services.station.page.standing import Standing
 from services.station.page.timeline import timeline
@@ -23,6 +24,7 @@ def values(shown: Shown, standing: Standing) -> Values:
     """
     return {
         **commanding(shown, standing),
+        **people(shown, standing),
         **health(shown),
         **figures(shown, standing),
         **scene(shown),

@@ -13,9 +13,10 @@ def seating(standing: Standing) -> Values:
     """The banners' and the keys' words."""
     return {
         "view-only@data-asking": standing.asking_s > 0.0,
+        "view-only@data-role": standing.identity.role.value,
         "view-only-text": _looking_on(standing),
         "asked@data-open": standing.asked_s > 0.0,
-        "asked-text": say("seat.asked", seconds=math.ceil(standing.asked_s)),
+        "asked-text": say("seat.asked", name=_who(standing.asked_by), seconds=math.ceil(standing.asked_s)),
         "let-go": _not_counting(standing),
     }
 
@@ -25,7 +26,13 @@ def _looking_on(standing: Standing) -> str:
         return say("seat.asking", seconds=math.ceil(standing.asking_s))
     if standing.kept:
         return say("seat.kept")
-    return say("seat.elsewhere")
+    if standing.lost is not None:
+        return say("seat.lost", name=_who(standing.lost.by), why=standing.lost.why)
+    return say(f"seat.{standing.identity.role.value}")
+
+
+def _who(name: str) -> str:
+    return name or say("who.somebody_big")
 
 
 def _not_counting(standing: Standing) -> str:

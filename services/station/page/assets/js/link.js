@@ -46,8 +46,13 @@ export class Link {
     const now = performance.now();
     this.opening = now - this.since;
     this.since = this.openUntil = now;
-    this.send({ kind: "hello", seat: this.tab.seat, load: this.tab.load });
+    this.sayHello();
     this.onOpen();
+  }
+
+  sayHello() {
+    const { seat, load, name, role } = this.tab;
+    if (this.isOpen) this.send({ kind: "hello", seat, load, name, role });
   }
 
   received(data) {

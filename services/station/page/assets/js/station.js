@@ -3,6 +3,7 @@
 import { Actions } from "/assets/js/actions.js";
 import { Devices } from "/assets/js/devices.js";
 import { Held } from "/assets/js/held.js";
+import { Identity } from "/assets/js/identity.js";
 import { showInspection } from "/assets/js/inspection.js";
 import { Keyboard, isSpace, isStop } from "/assets/js/keyboard.js";
 import { Link } from "/assets/js/link.js";
@@ -42,6 +43,7 @@ const held = new Held(changed, () => devices.controllers());
 const liveView = new LiveView(() => {});
 const link = new Link(tab, { onOpen, onNews, onFrame, onSilence });
 presses.link = link;
+new Identity(tab, link);
 
 setInterval(say, INPUT_PERIOD_MS);
 setInterval(showAges, AGES_PERIOD_MS);

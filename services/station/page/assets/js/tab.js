@@ -1,10 +1,13 @@
 // What a tab carries over a reload: its seat, and a stop that was not acknowledged. A duplicated tab carries nothing.
 
+import { given } from "/assets/js/identity.js";
+
 const SEAT = "retouch-seat";
 const STOP = "retouch-stop";
 
 export class Tab {
   constructor() {
+    Object.assign(this, given());
     this.load = random();
     this.seat = take(SEAT) ?? random();
     this.stopIsDue = take(STOP) !== null;

@@ -1,0 +1,54 @@
+// Who is at this tab: a name, which the browser remembers, and a role, which stands in the page's address.
+
+const NAME = "retouch-name";
+
+export class Identity {
+  constructor(tab, link) {
+    this.tab = tab;
+    this.link = link;
+    this.card = document.querySelector(".who");
+    this.form = this.card.querySelector(".who-form");
+    this.name = this.form.querySelector(".who-name");
+    this.role = this.form.querySelector(".who-role");
+    this.name.value = tab.name;
+    this.role.value = tab.role || "operator";
+    this.form.addEventListener("submit", (event) => this.said(event));
+  }
+
+  said(event) {
+    event.preventDefault();
+    this.tab.name = this.name.value.trim();
+    this.tab.role = this.role.value;
+    remember(this.tab.name);
+    const address = new URL(location.href);
+    address.searchParams.set("role", this.tab.role);
+    address.searchParams.delete("name");
+    history.replaceState(null, "", address);
+    this.link.sayHello();
+    document.activeElement?.blur();
+  }
+}
+
+// What the address says goes before what the browser remembers.
+export function given() {
+  const parameters = new URLSearchParams(location.search);
+  const name = parameters.get("name")?.trim();
+  if (name) remember(name);
+  return { name: (name || remembered()).slice(0, 64), role: (parameters.get("role") ?? "").slice(0, 64) };
+}
+
+function remembered() {
+  try {
+    return localStorage.getItem(NAME) ?? "";
+  } catch {
+    return "";
+  }
+}
+
+function remember(name) {
+  try {
+    localStorage.setItem(NAME, name);
+  } catch {
+    // Then it is given anew next time.
+  }
+}
