@@ -86,6 +86,8 @@ def document(robot: str, description: str) -> str:
         "keyboards": "".join(_keyboard(rows) for rows in KEYBOARDS),
         "actions": "".join(_button(number, button) for number, button in enumerate(BUTTONS)),
         **{f"icon_{name}": _icon(name, size) for name, size in _SYMBOLS.items()},
+        **{f"icon_{name}": _icon(name) for name in ("step_back", "pause", "step_on")},
+        "icon_go": _icon("play"),
         **{name: escape(words) for name, words in speech.words.items()},
     }
     parts = {part.stem: _filled(part, made) for part in PARTS.glob("*.html")}

@@ -6,7 +6,7 @@ from services.station.page.commanding import commanding
 from services.station.page.controls import actions, emergency_stop
 from services.station.page.devices import devices
 from services.station.page.health import figures, health
-from services.station.page.panels import counters, progress, scene, traffic_light, verdict
+from services.station.page.panels import counters, scene, traffic_light, verdict
 from services.station.page.people import people
 from services.station.page.seating import seating
 from services.station.page.standing import Standing
@@ -32,7 +32,6 @@ def values(shown: Shown, standing: Standing) -> Values:
         **counters(shown),
         **verdict(shown),
         **actions(shown),
-        **progress(shown),
         **timeline(shown),
         **emergency_stop(shown, standing),
         **seating(standing),

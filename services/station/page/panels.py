@@ -1,4 +1,4 @@
-"""The page's regions that tell: live view, progress, traffic light, counters, verdict."""
+"""The page's regions that tell: live view, traffic light, counters, verdict."""
 
 from __future__ import annotations
 
@@ -24,18 +24,6 @@ def scene(shown: Shown) -> Values:
         "scene@data-stale": "yes" if stale else "no",
         "recording-fault": "" if recording is None else recording.fault,
         "stale": age if stale else "",
-    }
-
-
-def progress(shown: Shown) -> Values:
-    """How far the motion is that runs, or ran last."""
-    robot = shown.view.robot
-    share = 0.0 if robot is None else min(max(robot.progress, 0.0), 1.0)
-    percent = f"{100.0 * share:.0f}"
-    return {
-        "timeline-done@--done": f"{share:.3f}",
-        "timeline-done@aria-valuenow": percent,
-        "timeline-text": say("timeline.done", share=percent),
     }
 
 

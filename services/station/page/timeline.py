@@ -2,28 +2,34 @@
 
 from __future__ import annotations
 
+from protocol.messages import Part
 from services.station.page.values import Values
 from services.station.page.view import Shown
+from services.station.words.table import say
 
 CONTROLS = ("step_back", "pause", "play", "step_on", "pace", "seek", "part")
 """What is pressed, slid or dragged on it, by the names in `TeachingState.actions`."""
 
 
 def timeline(shown: Shown) -> Values:
-    """Everything that the bar and its controls show."""
-    teaching, execution, robot = shown.view.teaching, shown.view.execution, shown.view.robot
-    if teaching is None:
-        return {}
-    allowed = frozenset(teaching.actions)
-    progress = 0.0 if execution is None or robot is None else robot.progress
+    """Everything that the bar and its controls show; how far the motion is that runs, or ran last."""
+    teaching, robot, spoilt = shown.view.teaching, shown.view.robot, shown.view.spoilt
+    allowed = frozenset() if teaching is None else frozenset(teaching.actions)
+    pace, part = (1.0, Part()) if teaching is None else (teaching.pace, teaching.part)
+    progress = 0.0 if robot is None else min(max(robot.progress, 0.0), 1.0)
+    going = _going(shown)
     return {
         **{f"action-{name}@disabled": name not in allowed for name in CONTROLS},
-        "timeline@data-going": _going(shown),
-        "timeline@data-pace": f"{teaching.pace:.2f}",
-        "timeline@data-first": f"{teaching.part.first:.3f}",
-        "timeline@data-last": f"{teaching.part.last:.3f}",
+        "timeline@data-going": going,
+        "timeline@data-pace": f"{pace:.2f}",
+        "timeline@data-first": f"{part.first:.3f}",
+        "timeline@data-last": f"{part.last:.3f}",
         "timeline@data-progress": f"{progress:.3f}",
-        "timeline@data-spoilt": " ".join(f"{share:.3f}" for share in shown.view.spoilt),
+        "timeline@data-spoilt": " ".join(f"{share:.3f}" for share in spoilt),
+        "timeline-done@--done": f"{progress:.3f}",
+        "timeline-done@aria-valuenow": _percent(progress),
+        "timeline-text": _words(going, progress, part),
+        "timeline-pace": say("timeline.pace_text", share=_percent(pace)),
     }
 
 
@@ -35,3 +41,14 @@ def _going(shown: Shown) -> str:
     if execution.pace == 0.0:
         return "paused"
     return "back" if execution.pace < 0.0 else "on"
+
+
+def _words(going: str, progress: float, part: Part) -> str:
+    where = say(f"timeline.{going}" if going in ("paused", "back") else "timeline.done", share=_percent(progress))
+    if part == Part():
+        return where
+    return f"{where}; {say('timeline.part', first=_percent(part.first), last=_percent(part.last))}"
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.0f}"

@@ -3,10 +3,10 @@
 from dataclasses import replace
 
 import pytest
-from views import SEATED, robot, shown, teaching
+from views import SEATED, shown, teaching
 
-from protocol.messages import Light, Phase, Recording, SafetyState, Verdict
-from services.station.page.panels import counters, progress, scene, traffic_light, verdict
+from protocol.messages import Light, Recording, SafetyState, Verdict
+from services.station.page.panels import counters, scene, traffic_light, verdict
 
 LOOKING_ON = replace(SEATED, armed=False)
 NOT_COUNTING = replace(SEATED, let_go=True)
@@ -53,13 +53,6 @@ def test_it_is_told_where_everything_can_be_inspected_and_what_is_wrong_with_the
     assert values["inspect@data-address"] == "http://0.0.0.0:9/"
     assert values["recording-fault"] == "The disk is full."
     assert (values["scene@data-stale"], values["stale"]) == ("yes", "Robot data has not come yet")
-
-
-@pytest.mark.parametrize(("share", "words"), [(0.404, "40 % done"), (1.2, "100 % done")])
-def test_it_is_told_how_far_the_motion_is(share, words):
-    values = progress(shown(robot=robot(Phase.EXECUTE, progress=share)))
-    assert values["timeline-text"] == words
-    assert f"{values['timeline-done@aria-valuenow']} % done" == words
 
 
 def test_the_counters_tell_used_and_allowed():

@@ -38,6 +38,12 @@ export class LiveView {
     if (Object.keys(parts).length > 0) this.drawing?.show(parts);
   }
 
+  // Where the part that is corrected begins and ends, as shares of the motion; null for all of it.
+  mark(part) {
+    this.part = part;
+    this.drawing?.mark(part);
+  }
+
   receive(buffer) {
     const number = new DataView(buffer).getUint32(4, true);
     const { connection } = this;
@@ -67,6 +73,7 @@ export class LiveView {
         onForeseen: (touch, took) => this.onForeseen(touch, took),
       });
       this.drawing.show(this.parts);
+      this.drawing.mark(this.part ?? null);
       if (this.moment) this.drawing.receive(this.moment);
     } catch (error) {
       console.warn("the live view is not there:", error);

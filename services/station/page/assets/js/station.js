@@ -14,6 +14,7 @@ import { Reasons } from "/assets/js/reasons.js";
 import { RoundTrip } from "/assets/js/round_trip.js";
 import { swapOnPress } from "/assets/js/stages.js";
 import { Tab } from "/assets/js/tab.js";
+import { Timeline } from "/assets/js/timeline.js";
 import { Tour } from "/assets/js/tour.js";
 import { show } from "/assets/js/values.js";
 
@@ -40,7 +41,11 @@ const pictures = new Pictures();
 const keyboard = new Keyboard();
 const devices = new Devices(() => changed());
 const held = new Held(changed, () => devices.controllers());
-const liveView = new LiveView(() => {});
+const liveView = new LiveView((touch) => timeline.foresee(touch));
+const timeline = new Timeline(
+  (action, argument) => presses.press(action, argument),
+  (part) => liveView.mark(part),
+);
 const link = new Link(tab, { onOpen, onNews, onFrame, onSilence });
 presses.link = link;
 new Identity(tab, link);
@@ -66,6 +71,7 @@ function onNews(news) {
   show(news.values);
   actions.arrange();
   devices.follow();
+  timeline.follow();
   roundTrip.hear(news.echo);
   liveView.show(news.drawing);
   showInspection();
@@ -116,6 +122,7 @@ function down(event) {
   if (keyboard.steers(code) || isSpace(event)) event.preventDefault?.();
   if (event.repeat) return;
   if (isSpace(event)) actions.ask(document.querySelector('[data-action="finish"]'));
+  if (timeline.shortcut(code)) return;
   held.press(code);
 }
 

@@ -11,9 +11,10 @@ const LEAST_RAD = 0.02;
 const STANDING = { progress: 0, offset: [0, 0, 0], turn: [0, 0, 0], fading: 1 };
 
 export class Ahead {
-  // onForeseen: told the touch that is foreseen, null for none, and how long that took [ms].
-  constructor(labels, gripper, onForeseen) {
-    Object.assign(this, { labels, gripper, onForeseen, things: [], curve: null, going: null, dueAt: 0 });
+  // onForeseen: told the touch that is foreseen, null for none, and how long that took [ms]; onDue: asks to be moved
+  // again, since what came last was not reckoned with.
+  constructor(labels, gripper, { onForeseen, onDue }) {
+    Object.assign(this, { labels, gripper, onForeseen, onDue, things: [], curve: null, going: null, dueAt: 0 });
     this.root = new Group();
     this.way = new Dashes("refined");
     this.sign = new Sign("foreseen", "caution");
@@ -38,15 +39,23 @@ export class Ahead {
   // values: offset, turn and progress as they are now. Reckoned a few times a second, which is as often as one sees it.
   move({ progress, offset, turn }) {
     const now = performance.now();
-    if (now < this.dueAt) return;
+    clearTimeout(this.later);
+    if (now < this.dueAt) {
+      this.later = setTimeout(this.onDue, this.dueAt - now);
+      return;
+    }
     this.dueAt = now + EVERY_MS;
-    if (!this.curve || this.curve.points.length < 2) return this.show(null, null);
+    if (!this.curve || this.curve.points.length < 2) {
+      this.show(null, null);
+      this.onForeseen(null, 0);
+      return;
+    }
     const isKnown = this.going && [progress, ...offset, ...turn].every(Number.isFinite);
     const rest = released(this.curve, isKnown ? { progress, offset, turn, fading: this.going.fading } : STANDING);
     const touch = foreseen(rest, this.gripper, this.things);
     const differs = Math.hypot(...offset) > LEAST_M || Math.hypot(...turn) > LEAST_RAD;
     this.show(isKnown && this.going.corrected && differs ? rest.positions : null, touch);
-    return this.onForeseen(touch, performance.now() - now);
+    this.onForeseen(touch, performance.now() - now);
   }
 
   show(way, touch) {

@@ -45,7 +45,8 @@ export class Drawing {
     this.marks = new Marks();
     this.labels = new Labels(canvas);
     this.depth = new Depth(this.labels);
-    this.ahead = new Ahead(this.labels, description.gripper, onForeseen);
+    const onDue = () => this.show({});
+    this.ahead = new Ahead(this.labels, description.gripper, { onForeseen, onDue });
     this.drawn = [this.surroundings, this.robot, this.motions, this.marks, this.depth, this.ahead];
     this.scene.background = colourOf("ground");
     this.scene.add(...lights(), ...this.drawn.map(({ root }) => root));
@@ -83,6 +84,11 @@ export class Drawing {
     if (way !== undefined) this.motions.travel(way);
     if (criteria !== undefined) this.marks.judge(criteria);
     if (this.last) this.move(this.last);
+    this.wish();
+  }
+
+  mark(part) {
+    this.motions.mark(part);
     this.wish();
   }
 

@@ -13,8 +13,8 @@ export class Labels {
     label.hidden = !seen || Math.abs(seen.x) > 1 || Math.abs(seen.y) > 1 || seen.z > 1;
     if (label.hidden) return;
     if (label.textContent !== text) label.textContent = text;
-    const { clientWidth: width, clientHeight: height } = this.canvas;
-    label.style.translate = `${((seen.x + 1) / 2) * width}px ${((1 - seen.y) / 2) * height}px`;
+    label.style.left = `${50 * (1 + seen.x)}%`;
+    label.style.top = `${50 * (1 - seen.y)}%`;
   }
 
   made(name) {

@@ -2,6 +2,7 @@
 
 import { BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh } from "/assets/js/drawing/three.js";
 import { plain } from "/assets/js/drawing/paint.js";
+import { Sign } from "/assets/js/drawing/signs.js";
 import { ball, ellipsoid, sweep } from "/assets/js/drawing/sweep.js";
 
 const PREDICTED_M = 0.0035;
@@ -17,15 +18,29 @@ export class Motions {
     this.spread = tube("predicted", 0.22);
     this.spread.material.side = DoubleSide;
     this.way = tube("refined");
-    this.root.add(this.predicted, this.way, this.spread);
+    this.marks = [new Sign("first", "refined"), new Sign("last", "refined")];
+    this.points = [];
+    this.part = null;
+    this.root.add(this.predicted, this.way, this.spread, ...this.marks.map(({ root }) => root));
   }
 
   predict(prediction) {
     const { points = [], spread = [] } = prediction ?? {};
+    this.points = points;
+    this.mark(this.part);
     fill(this.predicted, sweep(points, (_, direction) => ball(PREDICTED_M, direction), LINE_SIDES));
     const half = spread.map((deviations) => deviations.map((deviation) => Math.max(deviation, THINNEST_M)));
     const reach = (i, direction) => ellipsoid(half[i], direction);
     fill(this.spread, spread.length === 0 ? sweep([]) : sweep(points, reach, TUBE_SIDES));
+  }
+
+  // Where the part that is corrected begins and ends, as shares of the motion; null for all of it.
+  mark(part) {
+    this.part = part;
+    this.marks.forEach(({ root }, i) => {
+      root.visible = part !== null && this.points.length > 1;
+      if (root.visible) root.position.fromArray(this.points[Math.round(part[i] * (this.points.length - 1))]);
+    });
   }
 
   travel(way) {

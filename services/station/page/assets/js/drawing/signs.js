@@ -1,4 +1,5 @@
-// Signs that are told apart by their shapes, too: a cross where something was touched, a ring where it would be.
+// Signs that are told apart by their shapes, too: a cross where something was touched, a ring where it would be,
+// brackets round the part that is corrected.
 
 import { CanvasTexture, Group, Sprite, SpriteMaterial } from "/assets/js/drawing/three.js";
 import { colourOf } from "/assets/js/drawing/paint.js";
@@ -19,6 +20,18 @@ const SHAPES = {
     pen.lineTo(32, 34);
     pen.moveTo(32, 41);
     pen.lineTo(32, 42);
+  },
+  first: (pen) => {
+    pen.moveTo(40, 14);
+    pen.lineTo(26, 14);
+    pen.lineTo(26, 50);
+    pen.lineTo(40, 50);
+  },
+  last: (pen) => {
+    pen.moveTo(24, 14);
+    pen.lineTo(38, 14);
+    pen.lineTo(38, 50);
+    pen.lineTo(24, 50);
   },
   reached: (pen) => {
     pen.moveTo(14, 34);
