@@ -9,6 +9,7 @@ from typing import NamedTuple
 from protocol.messages import (
     AuthorityEvent,
     AuthorityState,
+    Origin,
     Phase,
     Prediction,
     RobotState,
@@ -103,7 +104,7 @@ class Journal:
 
     def prediction(self, prediction: Prediction) -> Iterator[Entry]:
         """What is new about how sure the model is."""
-        text = f"prediction of model version {prediction.model_version}: {certainty(prediction)}"
+        text = f"prediction of {whose(prediction)}"
         yield from self._changed("prediction", Entry(text, "WARN" if prediction.known < LITTLE else "INFO"))
 
     def teaching(self, state: TeachingState) -> Iterator[Entry]:
@@ -129,6 +130,14 @@ class Journal:
         if self._said.get(subject) != entry.text:
             self._said[subject] = entry.text
             yield entry
+
+
+def whose(prediction: Prediction) -> str:
+    """Where a prediction comes from: the model in some version, and how sure that is; or what an operator showed."""
+    version = f"model version {prediction.model_version}"
+    if prediction.origin is Origin.MODEL:
+        return f"{version}: {certainty(prediction)}"
+    return f"{prediction.origin.value}, {version}"
 
 
 def who_commands(authority: AuthorityState) -> str:

@@ -7,9 +7,8 @@ import rerun as rr
 from protocol.messages import Attempt, Prediction, TeachingState
 from protocol.topics import MODEL_STATE, TEACHING_STATE
 from services.bus.bus import Bus
-from services.bus.predictions import certainty
 from services.viewer import entities
-from services.viewer.journal import Journal
+from services.viewer.journal import Journal, whose
 from services.viewer.news import Changes, News
 from services.viewer.run import Run
 from services.viewer.words import Words
@@ -41,7 +40,7 @@ class Teaching:
             learnt = f"{model.kind} {model.version}: {model.demonstrations} shown, {model.updates} learnt since"
             self._words.state(entities.MODEL, learnt, now_ns)
         if shown is not None:
-            self._words.state(entities.SHOWN, f"by version {shown.model_version}, {certainty(shown)}", now_ns)
+            self._words.state(entities.SHOWN, whose(shown), now_ns)
             self._words.write(*self._journal.prediction(shown))
         if teaching is None:
             return

@@ -18,6 +18,7 @@ from protocol.messages import (
     ModelState,
     ObjectPose,
     OperatorInput,
+    Origin,
     Outcome,
     Part,
     Phase,
@@ -241,16 +242,16 @@ def test_the_teaching_is_told_with_its_sentence_and_what_was_tried(record):
     assert after.splitlines()[-1] == "| 1 | refine, by hand | 2 | reached, collision | 12.3 |"
 
 
-def test_the_models_version_is_told_and_that_of_the_prediction_that_is_seen(record):
+def test_the_models_version_is_told_and_where_the_motion_that_is_seen_comes_from(record):
     motion = motion_to_wire([[0.0] * 3, [1.0] * 3], [UPRIGHT] * 2, 1.0)
-    read = record(
-        [
-            (MODEL_STATE, ModelState(kind="adaptive", version=4, demonstrations=5, updates=2, scene="dishwasher")),
-            (PREDICTION, changed(prediction(motion), model_version=3, known=0.2)),
-        ]
-    )
+    predicted = changed(prediction(motion), model_version=3, known=0.2)
+    state = ModelState(kind="adaptive", version=4, demonstrations=5, updates=2, scene="dishwasher")
+    shown = changed(predicted, id=predicted.id + 1, origin=Origin.WAYPOINTS)
+    read = record([(MODEL_STATE, state), (PREDICTION, predicted)], [(PREDICTION, shown)])
     assert read.states("/states/teaching/model") == ["adaptive 4: 5 shown, 2 learnt since"]
-    assert read.states("/states/teaching/prediction") == ["by version 3, 20 % known"]
+    told = ["model version 3: 20 % known", "waypoints, model version 3"]
+    assert read.states("/states/teaching/prediction") == told
+    assert read.journal() == [f"prediction of {text}" for text in told]
 
 
 def test_a_minute_is_few_chunks_of_many_rows_and_few_words(record):
