@@ -154,9 +154,13 @@ def _promp(header: dict[str, Any], arrays: dict[str, Array]) -> ConditionedProMP
 
 
 def _options(kind: type[_Options], values: dict[str, Any]) -> _Options:
-    """Options of options, from what `asdict` and JSON made of them."""
+    """Options of options, from what `asdict` and JSON made of them; one that came later has its default.
+
+    Raises:
+        ValueError: It has one that there is not.
+    """
     types = get_type_hints(kind)
-    if values.keys() != types.keys():
+    if not values.keys() <= types.keys():
         raise ValueError(kind.__name__)
     parsed = {
         name: _options(types[name], value)

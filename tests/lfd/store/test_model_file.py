@@ -1,3 +1,4 @@
+import json
 from dataclasses import replace
 
 import numpy as np
@@ -102,6 +103,31 @@ def test_what_is_no_model_is_refused_in_one_line(tmp_path, reach):
         load(path)
     with pytest.raises(StorageError, match="cannot be written"):
         save(AdaptiveProMP.fit([reach(PLACES[0])]), tmp_path / "missing" / "model.npz")
+
+
+def altered(path, alter):
+    """The file, its options altered."""
+    with np.load(path) as file:
+        content = dict(file)
+    header = json.loads(content["header"].tobytes())
+    alter(header["options"]["correction"])
+    np.savez(path, **(content | {"header": np.frombuffer(json.dumps(header).encode(), dtype=np.uint8)}))
+
+
+def test_a_model_that_was_saved_before_there_was_an_option_has_its_default(tmp_path, reach):
+    path = tmp_path / "model.npz"
+    model = AdaptiveProMP.fit([reach(PLACES[0])])
+    save(model, path)
+    altered(path, lambda options: options.pop("drift"))
+    assert load(path).options == model.options
+
+
+def test_an_option_that_there_is_not_is_refused(tmp_path, reach):
+    path = tmp_path / "model.npz"
+    save(AdaptiveProMP.fit([reach(PLACES[0])]), path)
+    altered(path, lambda options: options.update(other=1.0))
+    with pytest.raises(StorageError, match="not a model"):
+        load(path)
 
 
 def test_nothing_in_the_file_is_executed(tmp_path):
