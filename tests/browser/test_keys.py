@@ -7,18 +7,24 @@ from protocol.messages import OperatorInput
 
 pytestmark = pytest.mark.browser
 
-AZERTY = {"KeyQ": "a", "KeyW": "z", "KeyE": "e", "KeyA": "q", "KeyS": "s", "KeyD": "d"}
+LAYOUTS = {
+    "AZERTY": {"KeyQ": "a", "KeyW": "z", "KeyE": "e", "KeyA": "q", "KeyS": "s", "KeyD": "d", "KeyY": "y", "KeyZ": "w"},
+    "QWERTZ": {"KeyQ": "q", "KeyW": "w", "KeyE": "e", "KeyA": "a", "KeyS": "s", "KeyD": "d", "KeyY": "z", "KeyZ": "y"},
+    "Dvorak": {"KeyQ": "'", "KeyW": ",", "KeyE": ".", "KeyA": "a", "KeyS": "o", "KeyD": "e", "KeyY": "f", "KeyZ": ";"},
+}
+AZERTY = LAYOUTS["AZERTY"]
 
 WITHOUT_LAYOUT = "Object.defineProperty(navigator, 'keyboard', {value: undefined});"
-WITH_AZERTY = f"""Object.defineProperty(navigator, 'keyboard', {{value: {{
-    getLayoutMap: async () => new Map(Object.entries({AZERTY}))}}}});"""
-STALL = "setTimeout(() => { const end = performance.now() + 600; while (performance.now() < end); }, 0)"
 
-TRIGGERS = """const pad = {connected: true, timestamp: 1, axes: [0.05, 0, -1, 0, 0.3, -1]};
-    navigator.getGamepads = () => [null, pad, {...pad, timestamp: 9}, null];"""
-THROWING = "navigator.getGamepads = () => { throw new DOMException('no', 'SecurityError'); };"
-WITHOUT_GAMEPADS = "navigator.getGamepads = undefined;"
-BROKEN_PAD = "navigator.getGamepads = () => [{connected: true, timestamp: 1, axes: [NaN, 7, -Infinity]}];"
+
+def with_layout(layout):
+    """A browser that tells what is printed where."""
+    return f"""Object.defineProperty(navigator, 'keyboard', {{value: {{
+        getLayoutMap: async () => new Map(Object.entries({layout}))}}}});"""
+
+
+WITH_AZERTY = with_layout(AZERTY)
+STALL = "setTimeout(() => { const end = performance.now() + 600; while (performance.now() < end); }, 0)"
 
 
 def say_key(tab, kind, **fields):
@@ -89,30 +95,113 @@ def test_the_operator_is_present_while_the_page_is_seen(tab, station, eventually
     eventually(lambda: not page.take_input().present)
 
 
-@pytest.mark.parametrize("pads", [TRIGGERS, THROWING, WITHOUT_GAMEPADS, BROKEN_PAD])
-def test_the_keyboard_steers_whatever_gamepads_there_are(open_seated, station, pads):
-    tab = open_seated(script=pads)
-    Hand(tab, station[0], 20.0).hold("KeyE")
-    assert tab.faults == []
-
-
-def test_the_page_shows_what_is_printed_on_this_keyboard(open_seated, station):
-    tab = open_seated(script=WITH_AZERTY)
-    tab.wait("[data-key=KeyQ] .key-cap:text-is('A')")
-    assert (cap(tab, "KeyW"), cap(tab, "KeyA"), cap(tab, "KeyR")) == ("Z", "Q", "R")
+@pytest.mark.parametrize("layout", LAYOUTS.values(), ids=LAYOUTS)
+def test_the_page_shows_what_is_printed_on_this_keyboard_and_it_is_the_place_that_counts(open_seated, station, layout):
+    tab = open_seated(script=with_layout(layout))
+    tab.wait(f'[data-key=KeyW] .key-cap:text-is("{layout["KeyW"].upper()}")')
+    shown = {code: cap(tab, code) for code in layout if code != "KeyZ"}
+    assert shown == {code: legend.upper() for code, legend in layout.items() if code != "KeyZ"}
+    assert cap(tab, "KeyR") == "R"
     assert tab.page.inner_text(".keys-layout") == ""
     Hand(tab, station[0], 20.0).hold("KeyQ")
+    say_key(tab, "keydown", code="KeyY", key=layout["KeyY"])
+    tab.wait("[data-key=KeyY][data-held]")
 
 
-def test_where_the_browser_does_not_tell_the_page_learns_from_the_keys(open_seated):
+@pytest.mark.parametrize("layout", LAYOUTS.values(), ids=LAYOUTS)
+def test_where_the_browser_does_not_tell_the_page_learns_from_the_keys(open_seated, layout):
     tab = open_seated(script=WITHOUT_LAYOUT)
     assert "US keyboard" in tab.page.inner_text(".keys-layout")
-    say_key(tab, "keydown", code="KeyQ", key="'")
-    assert cap(tab, "KeyQ") == "'"
-    say_key(tab, "keydown", code="KeyE", key=".")
+    for code in ("KeyQ", "KeyY"):
+        say_key(tab, "keydown", code=code, key=layout[code])
+        assert cap(tab, code) == layout[code].upper()
     say_key(tab, "keydown", code="KeyD", key="E", shiftKey=True)
-    assert (cap(tab, "KeyE"), cap(tab, "KeyD")) == (".", "D")
+    assert cap(tab, "KeyD") == "D"
     assert tab.page.inner_text(".keys-layout") == ""
+
+
+@pytest.mark.parametrize("layout", LAYOUTS.values(), ids=LAYOUTS)
+def test_no_key_is_lost_where_the_browser_gives_no_code(open_seated, layout):
+    tab = open_seated(script=with_layout(layout))
+    tab.wait(f'[data-key=KeyW] .key-cap:text-is("{layout["KeyW"].upper()}")')
+    for code in ("KeyQ", "KeyS", "KeyY"):
+        say_key(tab, "keydown", code="", key=layout[code])
+        tab.wait(f"[data-key={code}][data-held]")
+        say_key(tab, "keyup", code="", key=layout[code])
+        tab.wait(".station:not(:has([data-held]))")
+
+
+def set_key(tab, name, **event):
+    """Set a key for what another one does."""
+    tab.page.click(".keys-set")
+    tab.page.click(f"[data-key={name}]")
+    say_key(tab, "keydown", **event)
+
+
+def test_every_key_can_be_set_and_stays_set(open_seated, station, eventually):
+    tab = open_seated()
+    set_key(tab, "KeyE", code="KeyI", key="i")
+    assert cap(tab, "KeyE") == "I"
+    tab.page.click(".keys-set")
+    hand = Hand(tab, station[0], 20.0)
+    hand.let_go()
+    tab.page.keyboard.down("KeyI")
+    eventually(lambda: station[0].take_input().keys == ("KeyE",))
+    tab.page.keyboard.up("KeyI")
+    tab.page.keyboard.down("KeyE")
+    tab.page.keyboard.down("KeyQ")
+    eventually(lambda: station[0].take_input().keys == ("KeyQ",))
+    tab.page.keyboard.up("KeyE")
+    tab.page.keyboard.up("KeyQ")
+    tab.page.reload()
+    tab.wait("[data-key=KeyE] .key-cap:text-is('I')")
+    tab.page.click(".keys-set")
+    tab.page.click(".keys-reset")
+    assert cap(tab, "KeyE") == "E"
+
+
+def test_a_key_without_a_place_can_be_set_by_what_is_printed_on_it(tab):
+    set_key(tab, "KeyE", code="", key="é")
+    assert cap(tab, "KeyE") == "É"
+    tab.page.click(".keys-set")
+    say_key(tab, "keydown", code="", key="é")
+    tab.wait("[data-key=KeyE][data-held]")
+    say_key(tab, "keyup", code="", key="é")
+    tab.wait(".station:not(:has([data-held]))")
+
+
+@pytest.mark.parametrize(
+    ("event", "said"),
+    [
+        ({"code": "KeyD", "key": "d"}, "D is for down already: press another one."),
+        ({"code": "Space", "key": " "}, "is needed for something else"),
+        ({"code": "", "key": "Unidentified"}, "does not tell which key that is"),
+    ],
+)
+def test_a_key_that_cannot_be_set_is_refused_in_one_line(tab, event, said):
+    set_key(tab, "KeyE", **event)
+    tab.wait(f".keys-note:has-text('{said}')")
+    assert cap(tab, "KeyE") == "E"
+
+
+def test_while_keys_are_set_nothing_steers_and_escape_stops(tab, station, pressed, eventually):
+    tab.page.click(".keys-set")
+    tab.page.keyboard.down("KeyQ")
+    tab.page.keyboard.up("KeyQ")
+    assert not tab.shows("[data-held]")
+    tab.page.keyboard.press("Escape")
+    assert pressed() == ["stop"]
+    tab.wait(".devices:not([data-setting])")
+
+
+def test_keys_are_set_by_keys_alone(tab):
+    tab.page.focus(".keys-set")
+    tab.page.keyboard.press("Enter")
+    tab.page.focus("[data-key=KeyE]")
+    tab.page.keyboard.press("Enter")
+    tab.wait(".keys-note:has-text('Press the key for: up.')")
+    tab.page.keyboard.press("KeyO")
+    assert cap(tab, "KeyE") == "O"
 
 
 @pytest.mark.parametrize("code", ["", "Unidentified"])

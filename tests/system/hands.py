@@ -1,4 +1,4 @@
-"""A person's hand at each device of the page: it is told how far the robot is from where it should be."""
+"""A person's hand at each device of the page: it is told what correction is wanted, and which is applied."""
 
 TOLERANCE_M = 0.008
 AXES = (("q", "a"), ("w", "s"), ("e", "d"))
@@ -26,8 +26,9 @@ class OnKeys:
         self._page = page
         self._held = set()
 
-    def steer(self, error):
-        """Lead by the error, in base axes [m]."""
+    def steer(self, wanted, applied):
+        """Lead from the correction that is applied to the one that is wanted, in base axes [m]."""
+        error = wanted - applied
         self._hold({AXES[i][0 if error[i] > 0.0 else 1] for i in range(3) if abs(error[i]) > TOLERANCE_M})
 
     def rest(self):
@@ -51,9 +52,9 @@ class OnGamepad:
     def __init__(self, page):
         self._page = page
 
-    def steer(self, error):
-        """Lead by the error, in base axes [m]."""
-        x, y, z = (float(abs(e) > TOLERANCE_M) * (1.0 if e > 0.0 else -1.0) for e in error)
+    def steer(self, wanted, applied):
+        """See `OnKeys`."""
+        x, y, z = (float(abs(e) > TOLERANCE_M) * (1.0 if e > 0.0 else -1.0) for e in wanted - applied)
         self._set([-y, -x, 0.0, -z])
 
     def rest(self):
@@ -74,11 +75,13 @@ class OnPointer:
         self._page = page
         self._place = None
 
-    def steer(self, error):
-        """Lead by the error, in base axes [m]."""
+    def steer(self, wanted, applied):
+        """See `OnKeys`: along with what is wanted, and slowly nearer to it where the robot is not there."""
         if self._place is None:
             self._grip()
-        x, y, z = (CALM * float(e) for e in error)
+            self._wanted = applied
+        x, y, z = (float(d) for d in wanted - self._wanted + CALM * (wanted - applied))
+        self._wanted = wanted
         self._place = self._place[0] - y * self._half / REACH_M, self._place[1] - z * self._half / REACH_M
         self._page.mouse.move(*self._place)
         self._page.mouse.wheel(0.0, -100.0 * x / NOTCH_M)

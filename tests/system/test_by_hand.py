@@ -69,7 +69,7 @@ class Person:
         wanted = self._wanted(robot.progress)
         if wanted is None:
             return
-        self._hand.steer(wanted - np.array(robot.offset))
+        self._hand.steer(wanted, np.array(robot.offset))
 
     def _wanted(self, progress):
         if self._correction is None:

@@ -20,9 +20,9 @@ export class Held {
   }
 
   // A release that cannot be told to be of one key lets go of all; while Meta is down some systems swallow the others'.
-  release(code) {
-    if (code !== "" && !code.startsWith("Meta") && !this.keys.has(code)) return;
-    if (code === "" || code.startsWith("Meta")) this.keys.clear();
+  release(code, isUnknown) {
+    if (!isUnknown && !code.startsWith("Meta") && !this.keys.has(code)) return;
+    if (isUnknown || code.startsWith("Meta")) this.keys.clear();
     else this.keys.delete(code);
     this.changed();
   }

@@ -5,6 +5,7 @@ import { Devices } from "/assets/js/devices.js";
 import { Held } from "/assets/js/held.js";
 import { Identity } from "/assets/js/identity.js";
 import { showInspection } from "/assets/js/inspection.js";
+import { KeySetting } from "/assets/js/key_setting.js";
 import { Keyboard, isSpace, isStop } from "/assets/js/keyboard.js";
 import { Link } from "/assets/js/link.js";
 import { LiveView, MOMENT } from "/assets/js/live_view.js";
@@ -39,6 +40,7 @@ const actions = new Actions((button) => {
 const roundTrip = new RoundTrip();
 const pictures = new Pictures();
 const keyboard = new Keyboard();
+const keySetting = new KeySetting(keyboard, () => held.clear());
 const devices = new Devices(() => changed());
 const held = new Held(changed, () => devices.controllers());
 const liveView = new LiveView((touch) => timeline.foresee(touch));
@@ -54,7 +56,7 @@ setInterval(say, INPUT_PERIOD_MS);
 setInterval(showAges, AGES_PERIOD_MS);
 setInterval(() => devices.draw(), DRAW_PERIOD_MS);
 window.addEventListener("keydown", down, { capture: true });
-window.addEventListener("keyup", (event) => held.release(keyboard.placeOf(event)), { capture: true });
+window.addEventListener("keyup", (event) => held.release(keyboard.nameOf(event), keyboard.placeOf(event) === ""), { capture: true });
 document.addEventListener("click", clicked);
 swapOnPress();
 new Tour();
@@ -112,9 +114,10 @@ function stopByHand({ target }) {
 }
 
 function down(event) {
-  const code = keyboard.placeOf(event);
   if (event.ctrlKey || event.metaKey || event.altKey) return;
   keyboard.learn(event);
+  if (keySetting.takes(event)) return;
+  const code = keyboard.nameOf(event);
   if (event.target?.closest?.(IS_TYPED_IN)) return;
   const pressed = event.target?.closest?.(IS_PRESSED);
   if (pressed && event.repeat && !keyboard.steers(code)) event.preventDefault?.();
