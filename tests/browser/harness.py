@@ -16,7 +16,7 @@ import msgspec
 import numpy as np
 
 from protocol import messages
-from protocol.messages import Box, Figure, Light, Phase, Pose
+from protocol.messages import Box, Figure, Light, Mode, Phase, Pose
 from services.bus.arrays import motion_to_wire, to_wire
 from services.process.clock import SystemClock
 from services.process.config import StationSection
@@ -89,6 +89,7 @@ def working_view() -> PageView:
             reference=GRASP,
             phase=Phase.EXECUTE,
             progress=0.0,
+            mode=Mode.REFINE,
             offset=(0.0, 0.02, 0.05),
         ),
         robot_age_s=0.008,

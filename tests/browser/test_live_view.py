@@ -7,6 +7,7 @@ import msgspec
 import numpy as np
 import pytest
 
+from protocol.messages import Mode
 from services.station.live_view.drawing import Drawing
 
 pytestmark = pytest.mark.browser
@@ -224,3 +225,13 @@ def test_a_lost_link_loads_nothing_anew(open_seated, station, cable):
     tab.wait(".notice:text-is('the link is back')")
     assert tab.page.evaluate("window.loadedOnce")
     assert sum("three.module" in url for url in tab.requests) == 1
+
+
+def test_the_force_of_a_device_without_one_is_a_bar_with_a_number(tab, station):
+    _, feed = station
+    tab.wait(".force:visible:has-text('2.5 N')")
+    feed.view = replace(feed.view, force=(3.0, 0.0, 4.0))
+    tab.wait(".force[aria-valuenow='5.0']:visible:has-text('5.0 N')")
+    feed.view = replace(feed.view, robot=msgspec.structs.replace(feed.view.robot, mode=Mode.AUTONOMOUS))
+    tab.wait(".force", state="hidden")
+    tab.wait(".legend-way:has-text('travelled')")

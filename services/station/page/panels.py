@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from protocol.messages import Light
+from protocol.messages import Light, Mode
 from services.station.page.readout import criteria, is_stale, outcome, span, tone
 from services.station.page.standing import Standing
 from services.station.page.values import Values
@@ -15,13 +15,16 @@ CRITERIA = ("reached", "kicked", "collision")
 
 
 def scene(shown: Shown) -> Values:
-    """Where all there is can be inspected, and whether the data is old."""
+    """Where all there is can be inspected, who shaped the way that is seen, and whether the data is old."""
     recording, stale = shown.view.recording, is_stale(shown)
     never = shown.view.robot is None
+    way = Mode.AUTONOMOUS if shown.view.robot is None else shown.view.robot.mode
     age = say("scene.never") if never else say("scene.stale", age=span(shown.robot_age_s))
     return {
         "inspect@data-address": "" if recording is None else recording.viewer_url,
         "scene@data-stale": "yes" if stale else "no",
+        "scene@data-way": way.value,
+        "legend-way": say(f"scene.way_{way.value}"),
         "recording-fault": "" if recording is None else recording.fault,
         "stale": age if stale else "",
     }

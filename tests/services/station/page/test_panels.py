@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from views import SEATED, shown, teaching
 
-from protocol.messages import Light, Recording, SafetyState, Verdict
+from protocol.messages import Light, Mode, Phase, Pose, Recording, RobotState, SafetyState, Verdict
 from services.station.page.panels import counters, scene, traffic_light, verdict
 
 LOOKING_ON = replace(SEATED, armed=False)
@@ -53,6 +53,16 @@ def test_it_is_told_where_everything_can_be_inspected_and_what_is_wrong_with_the
     assert values["inspect@data-address"] == "http://0.0.0.0:9/"
     assert values["recording-fault"] == "The disk is full."
     assert (values["scene@data-stale"], values["stale"]) == ("yes", "Robot data has not come yet")
+
+
+@pytest.mark.parametrize(
+    ("mode", "words"), [(Mode.AUTONOMOUS, "travelled"), (Mode.REFINE, "correction"), (Mode.TEACH, "led by hand")]
+)
+def test_the_way_is_called_after_who_shaped_it(mode, words):
+    pose = Pose((0.5, 0.0, 0.5), (1.0, 0.0, 0.0, 0.0))
+    values = scene(shown(robot=RobotState(measured=pose, reference=pose, phase=Phase.EXECUTE, mode=mode)))
+    assert (values["legend-way"], values["scene@data-way"]) == (words, mode.value)
+    assert scene(shown())["legend-way"] == "travelled"
 
 
 def test_the_counters_tell_used_and_allowed():

@@ -1,6 +1,7 @@
 // The page's own 3-D view. What cannot draw here takes nothing else away: the page says so, and goes on without it.
 
 import { contextOf } from "/assets/js/drawing/context.js";
+import { Force } from "/assets/js/force.js";
 import { say } from "/assets/js/words.js";
 
 const HEADER_BYTES = 12;
@@ -14,9 +15,11 @@ export class LiveView {
     this.reckoned = { touch: null, took: 0 };
     this.onForeseen = (touch, took) => {
       this.reckoned = { touch, took };
+      this.panel.toggleAttribute("data-foreseen", touch !== null);
       onForeseen(touch);
     };
     this.panel = document.querySelector(".scene");
+    this.force = new Force(this.panel.querySelector(".force"));
     this.parts = {};
     this.drawn = 0;
     this.connection = {};
@@ -48,6 +51,7 @@ export class LiveView {
     const number = new DataView(buffer).getUint32(4, true);
     const { connection } = this;
     this.moment = { shown: { number, connection }, values: new Float32Array(buffer, HEADER_BYTES) };
+    this.force.show(this.moment.values);
     this.drawing?.receive(this.moment);
   }
 
