@@ -130,6 +130,8 @@ function down(event) {
 }
 
 function clicked(event) {
+  const figures = document.querySelector(".health");
+  if (!figures.contains(event.target)) figures.open = false;
   const button = event.target.closest?.("[data-action]");
   if (!button) return;
   const byHand = event.detail > 0;

@@ -10,6 +10,7 @@ const STEPS = [
   { name: "stop", at: ".stop" },
   { name: "health", at: ".health" },
 ];
+const TAKEN = [".stop", ".guide", ".pad"];
 const MARGIN = 12;
 
 export class Tour {
@@ -70,7 +71,7 @@ export class Tour {
     place?.scrollIntoView({ block: "nearest" });
   }
 
-  // Beside what it speaks of where there is room, else over its middle; never over the stop.
+  // Beside what it speaks of where there is room, else over it; over nothing that is pressed, least of all the stop.
   place() {
     if (this.panel.hidden) return;
     const [about, own] = [document.querySelector(STEPS[this.step].at), this.panel].map((of) =>
@@ -83,9 +84,13 @@ export class Tour {
       [about.left, about.bottom + MARGIN],
       [about.left + (about.width - own.width) / 2, about.top + (about.height - own.height) / 2],
     ].map(([x, y]) => [within(x, innerWidth - own.width), within(y, innerHeight - own.height)]);
-    const stop = document.querySelector(".stop").getBoundingClientRect();
-    const [x, y] = spots.find((spot) => !meets(spot, own, about) && !meets(spot, own, stop)) ??
-      spots.find((spot) => !meets(spot, own, stop)) ?? [MARGIN, MARGIN];
+    const taken = TAKEN.map((part) => document.querySelector(part).getBoundingClientRect());
+    const isFree = (spot, ...others) => !others.some((other) => meets(spot, own, other));
+    const [x, y] =
+      spots.find((spot) => isFree(spot, about, ...taken)) ??
+      spots.find((spot) => isFree(spot, ...taken)) ??
+      spots.find((spot) => isFree(spot, taken[0])) ??
+      spots[0];
     this.panel.style.setProperty("left", `${x}px`);
     this.panel.style.setProperty("top", `${y}px`);
   }
