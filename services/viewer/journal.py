@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from protocol.messages import (
@@ -23,10 +23,9 @@ SETTLED_NS = 500_000_000
 """What changes sooner is only counted."""
 
 AGAIN_NS = 3_000_000_000
-"""Once a hold was said, another one is only counted, too, where it lasts no longer than this."""
+"""What comes back soon after it was said is only counted, too, where it lasts no longer than this."""
 
 SOON_NS = 10_000_000_000
-"""Until there was none for so long."""
 
 
 class Entry(NamedTuple):
@@ -48,6 +47,9 @@ class _Pending:
     text: str = ""
     since_ns: int = 0
     passed: int = 0
+    wait_ns: int = 0
+    told: dict[str, int] = field(default_factory=dict)
+    """What was said, and when it was so last [ns]."""
 
 
 class Journal:
@@ -56,8 +58,6 @@ class Journal:
     def __init__(self) -> None:
         self._said: dict[str, str] = {}
         self._pending: dict[str, _Pending] = {}
-        self._held_ns = -SOON_NS
-        self._hold_settled_ns = SETTLED_NS
 
     def robot(self, state: RobotState, now_ns: int) -> Iterator[Entry]:
         """What is new about the robot."""
@@ -66,15 +66,7 @@ class Journal:
             yield from self._changed("robot", Entry(phase, "ERROR"))
             return
         text = f"{phase}: {state.hold_reason}" if state.hold_reason else phase
-        if state.phase is not Phase.HOLD:
-            yield from self._settled("robot", Entry(text, "INFO"), now_ns)
-            return
-        if now_ns - self._held_ns >= SOON_NS:
-            self._hold_settled_ns = SETTLED_NS
-        self._held_ns = now_ns
-        for entry in self._settled("robot", Entry(text, "INFO"), now_ns, self._hold_settled_ns):
-            self._hold_settled_ns = AGAIN_NS
-            yield entry
+        yield from self._settled("robot", Entry(text, "INFO"), now_ns)
 
     def safety(self, state: SafetyState) -> Iterator[Entry]:
         """What is new about the emergency stop."""
@@ -107,9 +99,9 @@ class Journal:
         text = f"prediction of {whose(prediction)}"
         yield from self._changed("prediction", Entry(text, "WARN" if prediction.known < LITTLE else "INFO"))
 
-    def teaching(self, state: TeachingState) -> Iterator[Entry]:
+    def teaching(self, state: TeachingState, now_ns: int) -> Iterator[Entry]:
         """What is new about the teaching."""
-        yield from self._changed("teaching", Entry(f"{state.phase}: {state.told}", "INFO"))
+        yield from self._settled("teaching", Entry(f"{state.phase}: {state.told}", "INFO"), now_ns, settled_ns=0)
         if state.reason:
             yield from self._changed("reason", Entry(state.reason, "WARN"))
 
@@ -119,10 +111,14 @@ class Journal:
         said = self._said.get(subject)
         if entry.text != pending.text:
             pending.passed += pending.text not in ("", said)
-            pending.text, pending.since_ns = entry.text, now_ns
-        if entry.text == said or (said is not None and now_ns - pending.since_ns < settled_ns):
+            soon = now_ns - pending.told.get(entry.text, now_ns - SOON_NS) < SOON_NS
+            pending.text, pending.since_ns, pending.wait_ns = entry.text, now_ns, AGAIN_NS if soon else settled_ns
+        if entry.text in pending.told:
+            pending.told[entry.text] = now_ns
+        if entry.text == said or (said is not None and now_ns - pending.since_ns < pending.wait_ns):
             return
         self._said[subject] = entry.text
+        pending.told = {text: ns for text, ns in pending.told.items() if now_ns - ns < SOON_NS} | {entry.text: now_ns}
         moments, pending.passed = pending.passed, 0
         yield entry._replace(text=f"{entry.text} (after {moments} changes of a moment)") if moments else entry
 

@@ -46,7 +46,7 @@ class Teaching:
             return
         self._words.state(entities.TEACHING, teaching.phase, now_ns)
         self._words.state(entities.ATTEMPT, attempt(teaching), now_ns)
-        self._words.write(*self._journal.teaching(teaching))
+        self._words.write(*self._journal.teaching(teaching, now_ns))
         if self._changes.due("attempts", teaching.attempts, now_ns):
             document = rr.TextDocument(table(teaching.attempts), media_type=rr.MediaType.MARKDOWN)
             self._run.log(entities.ATTEMPTS, document)

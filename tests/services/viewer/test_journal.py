@@ -40,16 +40,21 @@ def test_holds_of_a_moment_are_counted_and_said_when_the_robot_settles():
     assert [entry.text for entry in entries] == ["robot: hold, episode 2 (after 9 changes of a moment)"]
 
 
-def test_holds_that_come_again_and_again_are_said_once_and_then_when_one_lasts():
+def test_holds_that_come_again_and_again_are_said_once():
     journal = Journal()
     states = [(0.1 * i, robot((Phase.EXECUTE, Phase.HOLD)[i // 8 % 2])) for i in range(600)]
     entries = said(journal, *states, *((60.0 + 0.1 * i, robot(Phase.HOLD)) for i in range(40)))
     assert [entry.text for entry in entries] == [
         "robot: execute, episode 2",
         "robot: hold, episode 2",
-        "robot: execute, episode 2",
-        "robot: hold, episode 2 (after 36 changes of a moment)",
     ]
+
+
+def test_what_comes_back_and_stays_is_said_again_with_how_often_it_was_not():
+    journal = Journal()
+    said(journal, *((0.1 * i, robot((Phase.EXECUTE, Phase.HOLD)[i // 8 % 2])) for i in range(160)))
+    entries = said(journal, *((16.0 + 0.1 * i, robot(Phase.EXECUTE)) for i in range(40)))
+    assert [entry.text for entry in entries] == ["robot: execute, episode 2 (after 9 changes of a moment)"]
 
 
 def test_a_hold_long_after_another_one_is_said_as_soon():
@@ -92,6 +97,21 @@ def test_what_is_known_of_a_prediction_is_said_once_and_little_of_it_as_a_warnin
     ]
 
 
-def test_teaching_is_said_in_its_own_words():
-    (entry,) = Journal().teaching(TeachingState(phase="watch", text="watch the robot", light=Light.RED))
-    assert entry.text == "watch: watch the robot"
+def teaching(text):
+    return TeachingState(phase="watch", text=text, light=Light.RED)
+
+
+def test_teaching_is_said_in_its_own_words_at_once():
+    journal = Journal()
+    entries = [entry for i, text in enumerate("abc") for entry in journal.teaching(teaching(text), i)]
+    assert [entry.text for entry in entries] == ["watch: a", "watch: b", "watch: c"]
+
+
+def test_a_sentence_that_comes_and_goes_is_said_once():
+    journal = Journal()
+    entries = [
+        entry
+        for i in range(600)
+        for entry in journal.teaching(teaching(("watch", "paused")[i // 5 % 2]), i * SECOND // 10)
+    ]
+    assert [entry.text for entry in entries] == ["watch: watch", "watch: paused"]
