@@ -7,8 +7,9 @@ from typing import Annotated
 
 import msgspec
 
+from protocol.messages.model import MOST_WAYPOINTS, Method, Origin
 from protocol.messages.state import Mode
-from protocol.messages.values import Condition, Count, Fraction, Message, Name, Part, Real, Text, Vector3
+from protocol.messages.values import Condition, Count, Fraction, Message, Name, Part, Pose, Real, Text, Vector3
 
 
 class Light(enum.Enum):
@@ -70,6 +71,9 @@ class TeachingState(Message, frozen=True, kw_only=True):
         reason: why not, empty where it did.
         actions: what the operator may do now, by name.
         recommended: which of them brings the run on; empty where there is nothing to choose.
+        method: by which the operator teaches.
+        waypoints: poses of the grasping frame that were stored for a motion through them, in order.
+        basis: what the next refinement starts from: a prediction, or what the previous one came to.
         pace: at which motions go; 1 is their own.
         part: of the next refinement in which corrections count, or of the one that runs.
         confidence: how far the model is to believe what it is taught next (alpha of eq. 18).
@@ -89,6 +93,9 @@ class TeachingState(Message, frozen=True, kw_only=True):
     reason: Text = ""
     actions: Annotated[tuple[Name, ...], msgspec.Meta(max_length=32)] = ()
     recommended: Name = ""
+    method: Method = Method.REFINE
+    waypoints: Annotated[tuple[Pose, ...], msgspec.Meta(max_length=MOST_WAYPOINTS)] = ()
+    basis: Origin = Origin.MODEL
     pace: Real = 1.0
     part: Part = Part()
     confidence: Fraction = 1.0

@@ -97,6 +97,9 @@ class StationSection(Section, frozen=True):
         variant: arrangement of the scene that is taught; empty for the one that has been changed.
         adapt: which way-point a correction moves: "next" (eq. 15-17), or "current" (eq. B.7) for comparison.
         alpha: how far the model believes a refinement (eq. 18), from 0 to 1; 1 is all the way.
+        demonstration_points: that a motion led by hand is learnt with.
+        demonstration_tempo: it is learnt in the tempo in which it was led; else evenly along its way, so that where it
+            lingered makes it jump nowhere.
         scripted: the workflow's buttons are pressed by a script; there is no page.
         once: finish when the loop has closed, instead of going on with another object position.
     """
@@ -110,6 +113,8 @@ class StationSection(Section, frozen=True):
     variant: str = ""
     adapt: Adapt = Adapt.NEXT
     alpha: Annotated[float, msgspec.Meta(ge=0.0, le=1.0)] = 1.0
+    demonstration_points: Annotated[int, msgspec.Meta(ge=75, le=500)] = 75
+    demonstration_tempo: bool = False
     scripted: bool = False
     once: bool = False
 

@@ -79,6 +79,8 @@ def settings(section: StationSection, operator: str) -> Settings:
         variant=section.variant,
         scripted=section.scripted,
         once=section.once,
+        points=section.demonstration_points,
+        keeps_tempo=section.demonstration_tempo,
     )
 
 
@@ -258,7 +260,7 @@ class StationService:
             object_pose=message(ears.seen.latest()),
             execution=view.execution,
             spoilt=self._stage.spoilt(now_ns),
-            drawing=self._stage.drawing(now_ns),
+            drawing=self._stage.drawing(now_ns, workflow.approach.waypoints),
             force=self._stage.force(now_ns),
             master=ears.master.fresh(now_ns),
             recording=message(ears.recording.latest()),

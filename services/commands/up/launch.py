@@ -46,6 +46,7 @@ class Launch:
         headless: a scripted operator teaches.
         once: end when the loop has closed.
         fresh: start from an empty model, kept in the run's folder.
+        untaught: an empty model is left so, for whoever shows it the first motion.
         json: where to write the report.
         page: an operator's page belongs to it.
         browser: open the page.
@@ -56,6 +57,7 @@ class Launch:
     headless: bool = False
     once: bool = False
     fresh: bool = False
+    untaught: bool = False
     json: Path | None = None
     page: bool = True
     browser: bool = True
@@ -85,6 +87,7 @@ class Launch:
             headless=arguments.headless,
             once=arguments.once,
             fresh=arguments.fresh,
+            untaught=arguments.untaught,
             json=arguments.json,
             page=page,
             browser=page and not arguments.no_browser,
@@ -196,6 +199,6 @@ def _jobs(options: Launch, resolved: Path) -> list[Job]:
     configured = ("--config", str(resolved))
     jobs = [Job(ROUTER, (ROUTER, *configured))] if options.router else []
     jobs += [Job(name, (name, *configured)) for name in options.processes]
-    if "model" in options.processes:
+    if "model" in options.processes and not options.untaught:
         jobs.append(Job(TEACHER, (TEACHER, *configured), restart=False))
     return jobs

@@ -79,6 +79,7 @@ class Drawing(msgspec.Struct, frozen=True):
         going: the motion under way; None where there is none.
         way: where the episode's motion has led so far, the correction in it, base frame [m].
         criteria: by what it is judged.
+        waypoints: that are stored, base frame [m].
     """
 
     boxes: tuple[Box, ...] = ()
@@ -87,6 +88,7 @@ class Drawing(msgspec.Struct, frozen=True):
     going: Going | None = None
     way: tuple[Point, ...] = ()
     criteria: Criteria = Criteria()
+    waypoints: tuple[Point, ...] = ()
 
     def parts(self) -> Mapping[str, Any]:
         """By name."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from lfd import haptics
-from protocol.messages import ExecutionState, MasterState, Mode, Prediction, SceneState, Vector3, Verdict
+from protocol.messages import ExecutionState, MasterState, Mode, Pose, Prediction, SceneState, Vector3, Verdict
 from services.bus.arrays import Floats, drawable, vector3
 from services.bus.trace import Trace
 from services.station.ears import Ears, message
@@ -32,8 +32,13 @@ class Stage:
         self._way: tuple[Point, ...] = ()
         self._curve: tuple[Prediction | None, Curve | None] = (None, None)
 
-    def drawing(self, now_ns: int) -> Drawing:
-        """What changes now and then, as it is now."""
+    def drawing(self, now_ns: int, waypoints: tuple[Pose, ...] = ()) -> Drawing:
+        """What changes now and then, as it is now.
+
+        Args:
+            now_ns: the time.
+            waypoints: that are stored.
+        """
         robot = message(self._ears.robot.latest())
         if robot is not None and self._trace.see(robot):
             self._way = told(self._trace.points)
@@ -45,6 +50,7 @@ class Stage:
             going=_going(self._ears.execution.fresh(now_ns)),
             way=self._way,
             criteria=_criteria(scene, message(self._ears.verdict.latest())),
+            waypoints=tuple(waypoint.position for waypoint in waypoints),
         )
 
     def force(self, now_ns: int) -> Vector3:

@@ -33,6 +33,8 @@ class Button:
 BUTTONS = (
     Button("execute", "play"),
     Button("refine", "pen"),
+    Button("lead", "hand"),
+    Button("store", "place"),
     Button("go_on", "next"),
     Button("finish", "flag"),
     Button("teach", "check"),

@@ -14,6 +14,7 @@ from protocol.messages import SHORTEST_REASON, Role
 from services.station.page.controls import BUTTONS, KEYBOARDS, Button, Key
 from services.station.page.devices import PADS
 from services.station.page.health import FIGURES
+from services.station.page.methods import BASES, METHODS
 from services.station.page.panels import COUNTERS, CRITERIA
 from services.station.page.people import GROUPS
 from services.station.words.table import say, speech
@@ -30,6 +31,7 @@ _SHEETS = (
     "scene",
     "cameras",
     "timeline",
+    "methods",
     "guide",
     "actions",
     "verdict",
@@ -49,7 +51,7 @@ _SYMBOLS = {"retouch": "brand", "view": "", "red": "lamp", "amber": "lamp", "hol
 
 _CAMERAS = ("head", "wrist")
 _LIVE = "live"
-_SCRIPTS = ("script", "tour")
+_SCRIPTS = ("script", "tour", "waypoint")
 """Sections of the words that the scripts say."""
 
 
@@ -82,6 +84,8 @@ def document(robot: str, description: str) -> str:
         "criteria": "".join(_criterion(name) for name in CRITERIA),
         "people": "".join(_people(group) for group in GROUPS),
         "roles": "".join(_role(role) for role in Role),
+        "methods_choices": "".join(_choice("method", one.value, _say(f"method.{one.value}")) for one in METHODS),
+        "bases_choices": "".join(_choice("basis", one.value, _say(f"basis.{one.value}")) for one in BASES),
         "pads": "".join(_pad(name) for name in PADS),
         "keyboards": "".join(_keyboard(rows) for rows in KEYBOARDS),
         "actions": "".join(_button(number, button) for number, button in enumerate(BUTTONS)),
@@ -191,6 +195,14 @@ def _key(key: Key) -> str:
         f'<div class="key" data-key="{key.code}" data-cap="{key.cap}"><div class="key-cap">{key.cap}</div>'
         f'<div class="key-axis" data-axis="{key.axis[-1]}">{key.axis}</div>'
         f'<div class="key-direction">{_say(f"direction.{key.direction}")}</div></div>'
+    )
+
+
+def _choice(kind: str, name: str, words: str) -> str:
+    """One of several, of which one is chosen."""
+    return (
+        f'<button type="button" class="choice" data-action="{kind}" data-argument="{name}" data-value="{kind}-{name}"'
+        f' aria-pressed="false" disabled>{words}</button>'
     )
 
 

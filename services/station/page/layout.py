@@ -6,6 +6,7 @@ from services.station.page.commanding import commanding
 from services.station.page.controls import actions, emergency_stop
 from services.station.page.devices import devices
 from services.station.page.health import figures, health
+from services.station.page.methods import methods
 from services.station.page.panels import counters, scene, traffic_light, verdict
 from services.station.page.people import people
 from services.station.page.seating import seating
@@ -32,6 +33,7 @@ def values(shown: Shown, standing: Standing) -> Values:
         **counters(shown),
         **verdict(shown),
         **actions(shown),
+        **methods(shown),
         **timeline(shown),
         **emergency_stop(shown, standing),
         **seating(standing),

@@ -24,20 +24,23 @@ UNHEARD_S = 1.0
 _WITHOUT = frozenset({Phase.WAITING, Phase.ACQUIRING, Phase.WATCHING, Phase.STOPPED, Phase.RELEASING, Phase.FINISHED})
 
 
-def missing(view: View) -> str:
-    """What there has to be before the authority is asked for; empty where all is there."""
+def missing(view: View, settings: Settings) -> str:
+    """What there has to be before the authority is asked for; empty where all is there.
+
+    A person shows an empty model the first motion; a script waits for whoever does.
+    """
     robot = view.robot and view.scene and view.authority
     absent = [say(f"waiting.{name}") for name, there in (("robot", robot), ("model", view.model)) if not there]
     if absent:
         return say("waiting.for", what=say("waiting.also").join(absent))
-    if view.model is not None and not (view.model.demonstrations or view.model.updates):
+    if settings.scripted and view.empty:
         return say("waiting.demonstrations")
     return "" if view.present else say("waiting.operator")
 
 
 def waiting(state: Workflow, view: View, settings: Settings) -> Step:
     """For robot, model and operator; the authority is asked for once all are there and nobody has it."""
-    if missing(view):
+    if missing(view, settings):
         return Step(state)
     taker = another(view, settings)
     lingers_until_s = state.retry_s or view.now_s + LINGERS_S

@@ -4,15 +4,22 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from protocol.messages import Mode
+from protocol.messages import Method, Mode, Origin
 from services.station.words.table import say
+from services.station.workflow import editing
 from services.station.workflow.asking import to
 from services.station.workflow.closure import Closure
+from services.station.workflow.editing import EDITING
 from services.station.workflow.episode import press
 from services.station.workflow.going import SETTING, set_for_next
 from services.station.workflow.history import turn, turns
+from services.station.workflow.leading import lead
+from services.station.workflow.planning import preview
 from services.station.workflow.state import WHOLE, Action, Phase, Settings, Workflow
 from services.station.workflow.view import Step, View
+
+_CHOOSING = frozenset({Action.METHOD, Action.BASIS})
+"""What says how to teach, and moves nothing."""
 
 
 def deciding(state: Workflow, view: View, settings: Settings) -> Step:
@@ -20,30 +27,64 @@ def deciding(state: Workflow, view: View, settings: Settings) -> Step:
     if state.owed is not None:
         return Step(to(state, state.owed.phase, view, intent=state.owed.intent, owed=None))
     state = set_for_next(state, view)
-    offered = {Action.EXECUTE, Action.REFINE, Action.NEXT, Action.END} | SETTING | turns(view)
-    if state.taught is not None:
-        offered.add(Action.TEACH)
+    offered = _offered(state, view)
+    if view.actions & offered & (EDITING | _CHOOSING):
+        return Step(_shown(state, view, offered))
     pressed = [action for action in Action if action in view.actions & offered - SETTING]
-    chosen = recommended(state, settings) if settings.scripted else next(iter(pressed), None)
+    chosen = recommended(state, view, settings) if settings.scripted else next(iter(pressed), None)
     if chosen is None:
         return Step(replace(state, offered=frozenset(offered)))
     return _take(state, view, settings, chosen)
 
 
+def _offered(state: Workflow, view: View) -> frozenset[Action]:
+    """What the operator may do, by the method: an empty model is shown its first motion before anything else."""
+    approach = state.approach
+    offered = {Action.METHOD, Action.END} | SETTING | turns(view) | editing.offered(state, view)
+    if not view.empty:
+        offered |= {Action.EXECUTE, Action.NEXT}
+    if approach.method is not Method.REFINE:
+        offered.add(Action.LEAD)
+    elif not view.empty:
+        offered |= {Action.REFINE, Action.BASIS} if approach.previous is not None else {Action.REFINE}
+    if approach.leads_through:
+        offered.add(Action.EXECUTE)
+    if state.taught is not None:
+        offered.add(Action.TEACH)
+    return frozenset(offered)
+
+
+def _shown(state: Workflow, view: View, offered: frozenset[Action]) -> Workflow:
+    """With another method, basis or waypoints, and what that comes to in the view; nothing moves."""
+    state = editing.heard(state, view)
+    approach = state.approach
+    if Action.METHOD in view.actions:
+        approach = approach.chosen(view.argument(Action.METHOD))
+    if Action.BASIS in view.actions & offered:
+        based = approach.based(view.argument(Action.BASIS))
+        return preview(replace(state, approach=based, event=""), view, based.basis)
+    state = replace(state, approach=approach, event="")
+    return preview(state, view, Origin.WAYPOINTS) if approach.leads_through else state
+
+
 def _take(state: Workflow, view: View, settings: Settings, chosen: Action) -> Step:
     match chosen:
         case Action.EXECUTE:
-            return Step(press(state, view, Mode.AUTONOMOUS))
+            origin = Origin.WAYPOINTS if state.approach.leads_through else Origin.MODEL
+            taken = press(state, view, Mode.AUTONOMOUS, origin)
         case Action.REFINE:
-            return _refine(state, view, settings)
+            taken = _refine(state, view, settings)
+        case Action.LEAD:
+            taken = lead(state, view)
         case Action.TEACH:
-            return Step(to(state, Phase.LEARNING, view))
+            taken = to(state, Phase.LEARNING, view)
         case Action.NEXT:
-            return Step(press(_elsewhere(state), view, Mode.AUTONOMOUS))
+            taken = press(_elsewhere(state), view, Mode.AUTONOMOUS)
         case Action.UNDO | Action.TAKE_BACK | Action.USE_AGAIN:
             return turn(state, view, chosen)
         case _:
-            return _end(state, view, say("event.ended_before"))
+            taken = _end(state, view, say("event.ended_before"))
+    return Step(taken)
 
 
 def finished(state: Workflow, view: View, settings: Settings) -> Step:
@@ -56,16 +97,29 @@ def finished(state: Workflow, view: View, settings: Settings) -> Step:
 
 
 def _elsewhere(state: Workflow) -> Workflow:
-    return replace(state, placed=None, part=WHOLE, last=None, refinements=0, learnt=(), warned=False)
+    return replace(
+        state,
+        placed=None,
+        part=WHOLE,
+        last=None,
+        refinements=0,
+        learnt=(),
+        warned=False,
+        approach=state.approach.elsewhere(),
+    )
 
 
-def recommended(state: Workflow, settings: Settings) -> Action:
-    """What brings the run on, by the verdict of the newest episode at this place, and by what is known there.
+def recommended(state: Workflow, view: View, settings: Settings) -> Action:
+    """What brings the run on, by the method, by the verdict of the newest episode here, and by what is known here.
 
     A part of a failed refinement is learnt where a person says so, and is never what is recommended.
     """
     if state.taught is not None and state.taught.whole:
         return Action.TEACH
+    if state.approach.method is not Method.REFINE:
+        return _recommended_offline(state)
+    if view.empty:
+        return Action.METHOD
     if state.last is None:
         return Action.REFINE if state.warned else Action.EXECUTE
     if not state.last.success:
@@ -73,13 +127,21 @@ def recommended(state: Workflow, settings: Settings) -> Action:
     return Action.END if settings.once else Action.NEXT
 
 
-def _refine(state: Workflow, view: View, settings: Settings) -> Step:
+def _recommended_offline(state: Workflow) -> Action:
+    """Lead, execute what was stored, and see what was learnt."""
+    if state.last is not None:
+        return Action.NEXT if state.last.success else Action.LEAD
+    learnt = state.updates > 0 and not state.approach.waypoints
+    return Action.EXECUTE if state.approach.leads_through or learnt else Action.LEAD
+
+
+def _refine(state: Workflow, view: View, settings: Settings) -> Workflow:
     if state.refinements >= settings.refinements_allowed:
         return _end(state, view, say("event.no_refinement", count=state.refinements))
     if state.updates >= settings.updates_allowed:
         return _end(state, view, say("event.no_update", count=state.updates))
-    return Step(press(state, view, Mode.REFINE))
+    return press(state, view, Mode.REFINE, state.approach.basis)
 
 
-def _end(state: Workflow, view: View, reason: str) -> Step:
-    return Step(to(state, Phase.FINISHED, view, reason="" if state.closure.closed else reason))
+def _end(state: Workflow, view: View, reason: str) -> Workflow:
+    return to(state, Phase.FINISHED, view, reason="" if state.closure.closed else reason)

@@ -10,12 +10,12 @@ from typing import Any
 import msgspec
 
 from protocol import queries
-from protocol.messages import Mode, Prediction, Vector3
+from protocol.messages import Mode, Origin, Prediction, Vector3
 from protocol.messages import Phase as RobotPhase
 from protocol.queries import Query
 from services.bus.predictions import LITTLE
 from services.station.words.table import say
-from services.station.workflow import going
+from services.station.workflow import editing, going
 from services.station.workflow.asking import RETRY_S, ask, not_done, to
 from services.station.workflow.authority import runs
 from services.station.workflow.state import WHOLE, Action, Episode, Going, Phase, Place, Settings, Workflow
@@ -41,9 +41,9 @@ ORIGIN: Vector3 = (0.0, 0.0, 0.0)
 """What motions are relative to where there is no object."""
 
 
-def press(state: Workflow, view: View, mode: Mode) -> Workflow:
+def press(state: Workflow, view: View, mode: Mode, origin: Origin = Origin.MODEL) -> Workflow:
     """The operator asked for an episode: it begins with a reset and a look, since what was seen may no longer be so."""
-    return to(state, Phase.RESETTING, view, mode=mode, pressed=True, refusals=0, taught=None, event="")
+    return to(state, Phase.RESETTING, view, mode=mode, origin=origin, pressed=True, refusals=0, taught=None, event="")
 
 
 def resetting(state: Workflow, view: View, settings: Settings) -> Step:
@@ -57,7 +57,7 @@ def resetting(state: Workflow, view: View, settings: Settings) -> Step:
     state = replace(state, placed=state.placed or view.drawn)
     reply = ask(state, view, queries.RESET, lambda intent: _reset(state, view, settings, intent))
     if isinstance(reply, queries.Refused):
-        return _refused(state, view, settings, queries.RESET, reply)
+        return refused(state, view, settings, queries.RESET, reply)
     return reply if isinstance(reply, Step) else Step(to(state, Phase.LOOKING, view))
 
 
@@ -74,7 +74,7 @@ def _reset(state: Workflow, view: View, settings: Settings, intent: int) -> quer
 def looking(state: Workflow, view: View, settings: Settings) -> Step:
     """See where the target stands; without a press the operator is asked then, and nothing has moved."""
     del settings
-    onward = Phase.PREDICTING if state.pressed else Phase.DECIDING
+    onward = _onward(state)
     if view.scene is not None and view.scene.condition:
         # Nothing to look for: the robot says where it stands, once it has been reset.
         if state.pressed and view.scene_s <= state.since_s:
@@ -90,16 +90,28 @@ def looking(state: Workflow, view: View, settings: Settings) -> Step:
     return Step(to(state, onward, view, looked=sighting.pose.position, condition=()))
 
 
+def _onward(state: Workflow) -> Phase:
+    """Where a look leads: nowhere without a press; else to a motion, but where the hand leads alone."""
+    if not state.pressed:
+        return Phase.DECIDING
+    if state.mode is Mode.TEACH:
+        return Phase.TAKING_UP
+    return Phase.PREDICTING if state.origin is Origin.MODEL else Phase.PLANNING
+
+
 def predicting(state: Workflow, view: View, settings: Settings) -> Step:
-    """Have the model predict a motion to where the target was seen."""
-    looked, robot = state.looked, view.robot
-    if looked is None or robot is None:
+    """Have the model predict a motion to where the target was seen; without a press it is only shown."""
+    looked, robot, scene = state.looked, view.robot, view.scene
+    if looked is None or robot is None or scene is None:
         return Step(to(state, Phase.LOOKING, view))
-    reply = ask(state, view, queries.PREDICT, lambda intent: queries.Predict(looked, robot.measured, state.condition))
+    start = robot.measured if state.pressed else scene.start
+    reply = ask(state, view, queries.PREDICT, lambda intent: queries.Predict(looked, start, state.condition))
     if isinstance(reply, queries.Refused):
-        return _refused(state, view, settings, queries.PREDICT, reply)
+        return refused(state, view, settings, queries.PREDICT, reply)
     if isinstance(reply, Step):
         return reply
+    if not state.pressed:
+        return Step(to(state, Phase.DECIDING, view, prediction=reply.prediction, event=state.event))
     if _doubtful(state, reply.prediction, settings):
         warned = replace(state, prediction=reply.prediction, last=None, warned=True)
         return Step(to(warned, Phase.DECIDING, view, pressed=False))
@@ -131,7 +143,8 @@ def starting(state: Workflow, view: View, settings: Settings) -> Step:
     )
     if isinstance(reply, queries.Refused):
         # The robot has moved since, or has not heard this prediction: another one is as quickly made.
-        return _refused(state, view, settings, queries.EXECUTE, reply, again=Phase.PREDICTING)
+        again = Phase.PREDICTING if state.origin is Origin.MODEL else Phase.PLANNING
+        return refused(state, view, settings, queries.EXECUTE, reply, again=again)
     if isinstance(reply, Step):
         told = Episode(reply.state.intent, robot.publisher, part=part) if reply.ask is not None else state.episode
         return Step(replace(reply.state, episode=told), reply.ask)
@@ -140,17 +153,17 @@ def starting(state: Workflow, view: View, settings: Settings) -> Step:
     return Step(to(state, Phase.EXECUTING, view, episode=started, pressed=False, let_go=False, going=paced))
 
 
-def _refused(
+def refused(
     state: Workflow,
     view: View,
     settings: Settings,
     query: Query[Any, Any],
-    refused: queries.Refused,
+    reply: queries.Refused,
     *,
     again: Phase | None = None,
 ) -> Step:
     """Once more, as another request; where the reason does not pass, the operator is told and asked."""
-    notice, refusals = not_done(query, refused.reason), state.refusals + 1
+    notice, refusals = not_done(query, reply.reason), state.refusals + 1
     if refusals < REFUSALS_SUFFERED:
         retry_s = view.now_s + RETRY_S
         return Step(to(state, again or state.phase, view, refusals=refusals, retry_s=retry_s, notice=notice))
@@ -164,7 +177,7 @@ def executing(state: Workflow, view: View, settings: Settings) -> Step:
     ended = _without_result(state, view, settings)
     if ended:
         return Step(to(state, Phase.DECIDING, view, episode=None, event=ended))
-    state = going.heard(state, view)
+    state = editing.heard(going.heard(state, view), view)
     wanted = _wanted(state, view, settings)
     if wanted is not state.wants:
         state = replace(state, wants=wanted, question=0, intent=0, retry_s=view.now_s, event="")
@@ -172,7 +185,8 @@ def executing(state: Workflow, view: View, settings: Settings) -> Step:
     if let_go is not state.let_go:
         state = replace(state, let_go=let_go)
     waits = view.robot is not None and view.robot.waiting
-    offered = going.offered(view) | ({Action.FINISH, Action.GO_ON} if waits else {Action.FINISH})
+    ends = {Action.FINISH, Action.GO_ON} if waits else {Action.FINISH}
+    offered = going.offered(view) | editing.offered(state, view) | ends
     match state.wants:
         case Action.FINISH:
             finishing = replace(state.episode, finishing=True) if state.episode is not None else None

@@ -8,7 +8,7 @@ from dataclasses import replace
 import msgspec
 
 from protocol import queries
-from protocol.messages import Method, Motion, Purpose
+from protocol.messages import Motion, Origin, Purpose
 from services.station.words.predictions import extent
 from services.station.words.table import say
 from services.station.workflow.asking import ask, not_done, to
@@ -44,8 +44,9 @@ def learning(state: Workflow, view: View, settings: Settings) -> Step:
                 learnt=(*state.learnt, reply.entry),
                 warned=False,
                 part=WHOLE,
+                approach=replace(state.approach, waypoints=(), basis=Origin.MODEL),
             )
-            event = say("event.learnt", extent=extent(taught.part))
+            event = say(f"event.learnt_{taught.method.value}", extent=extent(taught.part))
             return Step(to(learnt, Phase.DECIDING, view, owed=None, event=event))
 
 
@@ -72,7 +73,7 @@ def _share(text: str, otherwise: float | None) -> float | None:
 
 def _request(taught: Taught, alpha: float, view: View, settings: Settings, intent: int) -> queries.AddDemonstration:
     return queries.AddDemonstration(
-        Purpose.UPDATE,
+        Purpose.INITIAL if view.empty else Purpose.UPDATE,
         learnable(taught.motion, settings.autonomous_s),
         taught.object_position,
         view.scene.name if view.scene is not None else "",
@@ -80,7 +81,7 @@ def _request(taught: Taught, alpha: float, view: View, settings: Settings, inten
         operator=settings.operator,
         alpha=alpha,
         part=taught.part,
-        method=Method.REFINE,
+        method=taught.method,
         request=intent,
     )
 

@@ -6,8 +6,9 @@ from dataclasses import dataclass, field
 from enum import Enum
 
 from protocol import messages
-from protocol.messages import Attempt, Condition, Mode, Motion, Outcome, Part, Vector3
+from protocol.messages import Attempt, Condition, Method, Mode, Motion, Origin, Outcome, Part, Vector3
 from protocol.queries import Adapt, Reset
+from services.station.workflow.approach import Approach
 from services.station.workflow.closure import Closure
 
 WHOLE = Part()
@@ -38,6 +39,14 @@ class Action(Enum):
     TAKE_BACK = "take_back"
     USE_AGAIN = "use_again"
     CONFIDENCE = "confidence"
+    METHOD = "method"
+    BASIS = "basis"
+    LEAD = "lead"
+    STORE = "store"
+    DELETE = "delete"
+    EARLIER = "earlier"
+    LATER = "later"
+    CLEAR = "clear"
 
 
 class Phase(Enum):
@@ -49,6 +58,8 @@ class Phase(Enum):
     RESETTING = "resetting"
     LOOKING = "looking"
     PREDICTING = "predicting"
+    PLANNING = "planning"
+    TAKING_UP = "taking_up"
     STARTING = "starting"
     EXECUTING = "executing"
     LEARNING = "learning"
@@ -85,6 +96,8 @@ class Settings:
         updates_allowed: updates at one place.
         adapt: which way-point a correction moves.
         alpha: how far the model believes a refinement (eq. 18).
+        points: of a demonstration that is learnt.
+        keeps_tempo: a demonstration is learnt in the tempo in which it was led, else evenly along its way.
         variant: arrangement of the scene that the run is about; empty for the one that was changed.
         scripted: the recommended action is taken at once; a stop is never released.
         once: the recommended action after the loop has closed is to end.
@@ -102,6 +115,8 @@ class Settings:
     variant: str
     scripted: bool
     once: bool
+    points: int = 75
+    keeps_tempo: bool = False
     arrangement: Reset | None = None
 
     def duration_s(self, mode: Mode) -> float:
@@ -143,14 +158,15 @@ class Going:
 
 @dataclass(frozen=True)
 class Taught:
-    """What a refinement has shown.
+    """What an episode has shown.
 
     Attributes:
         motion: that it commanded.
         object_position: that the motion is relative to, base frame [m].
         condition: that it was right for; empty where it is the object's.
         part: of the motion that was right.
-        whole: the refinement succeeded, and all that was to be corrected of it was right.
+        whole: it succeeded, and all that was to be shown or corrected was right.
+        method: by which the operator showed it.
     """
 
     motion: Motion
@@ -158,6 +174,7 @@ class Taught:
     condition: Condition = ()
     part: Part = WHOLE
     whole: bool = True
+    method: Method = Method.REFINE
 
 
 @dataclass(frozen=True)
@@ -206,7 +223,9 @@ class Workflow:
         owed: to the model.
         turning: what is or was last done with an entry of the model's history.
         confidence: how far the model is to believe what it is taught next; None for what the settings say.
-        mode: of the next episode.
+        approach: how the operator teaches at this place.
+        mode: of the next episode, or of the newest.
+        origin: where its motion comes from.
         pace: at which motions go; 1 is their own.
         part: of the next refinement in which corrections count.
         going: how the operator wants the motion under way to go on, until the robot has answered.
@@ -215,7 +234,7 @@ class Workflow:
         condition: that the robot stood in then; empty where it is the object's.
         prediction: the newest.
         warned: the operator was told that little is known at this place; Execute executes all the same.
-        taught: what the newest refinement has shown, while it can be learnt.
+        taught: what the newest episode has shown, while it can be learnt.
         last: verdict of the newest episode at this place.
         refinements: attempts since the last update.
         learnt: entries of the model's history that were taught at this place and not taken back.
@@ -248,7 +267,9 @@ class Workflow:
     owed: Owed | None = None
     turning: Turning = Turning()
     confidence: float | None = None
+    approach: Approach = field(default_factory=Approach)
     mode: Mode = Mode.AUTONOMOUS
+    origin: Origin = Origin.MODEL
     pace: float = 1.0
     part: Part = WHOLE
     going: Going | None = None

@@ -10,14 +10,17 @@ import numpy as np
 from lfd.exceptions import LfdError
 from lfd.motion.resampling import at_phases
 from lfd.motion.trajectory import Trajectory
-from protocol.messages import Attempt, Cut, EpisodeResult, Mode, Motion, Outcome, Part
+from protocol.messages import Attempt, Cut, EpisodeResult, Method, Mode, Motion, Origin, Outcome, Part
 from services.bus.arrays import motion_from_wire, motion_to_wire
 from services.process.exceptions import ServiceError
 from services.station.words.table import say
+from services.station.workflow.approach import Approach
 from services.station.workflow.asking import to
+from services.station.workflow.demonstration import demonstrated
 from services.station.workflow.episode import ORIGIN
 from services.station.workflow.part import common
-from services.station.workflow.state import WHOLE, Episode, Phase, Taught, Workflow
+from services.station.workflow.planning import preview
+from services.station.workflow.state import WHOLE, Episode, Phase, Settings, Taught, Workflow
 from services.station.workflow.view import View
 
 ATTEMPTS_KEPT = 100
@@ -30,24 +33,26 @@ SHORTEST = 0.1
 """Share of a motion that is worth learning at least."""
 
 _STANDING = frozenset({Phase.STOPPED, Phase.RELEASING})
-_ATTENDING = frozenset({Phase.STARTING, Phase.EXECUTING})
+_ATTENDING = frozenset({Phase.STARTING, Phase.TAKING_UP, Phase.EXECUTING})
 
 
-def judged(state: Workflow, view: View) -> Workflow:
+def judged(state: Workflow, view: View, settings: Settings) -> Workflow:
     """With the result of the episode that the robot was told to run, however late and wherever the workflow stands."""
     result, episode = view.result, state.episode
     if result is None or episode is None or result.request != episode.request:
         return state
+    if result.mode is Mode.TEACH and state.approach.method is Method.WAYPOINTS:
+        return _led(replace(state, episode=None, last=None), view, result)
     outcome = Outcome(result.verdict.reached, result.verdict.kicked_over, result.verdict.collision)
     attempt = Attempt(
         scene=view.scene.name if view.scene is not None else "",
         object_position=state.looked or ORIGIN,
         model_version=state.prediction.model_version if state.prediction is not None else 0,
-        operator_input=result.operator_input,
+        operator_input=result.operator_input or shown(state),
         verdict=outcome,
         duration_s=result.duration,
         variant=view.scene.variant if view.scene is not None else "",
-        mode=result.mode,
+        mode=Mode.TEACH if shown(state) else result.mode,
         condition=state.condition,
         number=state.attempts[-1].number + 1 if state.attempts else 1,
     )
@@ -58,12 +63,36 @@ def judged(state: Workflow, view: View) -> Workflow:
         closure=state.closure.after(attempt),
         last=outcome,
         refinements=state.refinements + (result.mode is Mode.REFINE),
-        taught=_kept(state, _taught(state, result, outcome, episode)),
+        taught=_kept(state, _taught(state, result, outcome, episode, settings)),
+        approach=_followed(state, result),
     )
     if state.phase not in _ATTENDING:
         return known
+    if result.mode is Mode.TEACH and known.taught is not None:
+        return preview(replace(known, event=""), view, Origin.DEMONSTRATION)
     learns = known.taught is not None and known.taught.whole and result.completed
     return to(known, Phase.LEARNING if learns else Phase.DECIDING, view, pressed=False, event=_end(result))
+
+
+def shown(state: Workflow) -> bool:
+    """The motion of the newest episode is the operator's own, and no prediction."""
+    return state.mode is Mode.TEACH or state.origin in (Origin.WAYPOINTS, Origin.DEMONSTRATION)
+
+
+def _led(state: Workflow, view: View, result: EpisodeResult) -> Workflow:
+    """After the waypoints were stored: the motion through them is shown as soon as they make one."""
+    if state.phase not in _ATTENDING:
+        return state
+    event = "" if result.cut is Cut.FINISHED else _end(result)
+    if state.approach.leads_through:
+        return preview(replace(state, event=event), view, Origin.WAYPOINTS)
+    return to(state, Phase.DECIDING, view, pressed=False, event=event)
+
+
+def _followed(state: Workflow, result: EpisodeResult) -> Approach:
+    """With what a refinement came to, for whoever goes on from there."""
+    previous = _of_all_phases(result) if result.mode is Mode.REFINE else None
+    return state.approach if previous is None else replace(state.approach, previous=previous)
 
 
 def _end(result: EpisodeResult) -> str:
@@ -75,7 +104,25 @@ def _kept(state: Workflow, taught: Taught | None) -> Taught | None:
     return None if state.phase in _STANDING and taught is not None and taught.whole else taught
 
 
-def _taught(state: Workflow, result: EpisodeResult, outcome: Outcome, episode: Episode) -> Taught | None:
+def _taught(
+    state: Workflow, result: EpisodeResult, outcome: Outcome, episode: Episode, settings: Settings
+) -> Taught | None:
+    """What an episode has shown, by the way in which it was led; nothing where the model led it."""
+    if result.mode is Mode.REFINE:
+        return _corrected(state, result, outcome, episode)
+    spoilt = outcome.collision or outcome.kicked_over
+    ended = result.completed or (episode.finishing and result.cut is Cut.FINISHED)
+    if not shown(state) or spoilt or not ended:
+        return None
+    led = result.mode is Mode.TEACH
+    motion = demonstrated(_shown(result), settings) if led else _shown(result)
+    if motion is None:
+        return None
+    method = Method.DEMONSTRATE if led else Method.WAYPOINTS
+    return Taught(motion, state.looked or ORIGIN, state.condition, whole=outcome.success, method=method)
+
+
+def _corrected(state: Workflow, result: EpisodeResult, outcome: Outcome, episode: Episode) -> Taught | None:
     """What a refinement has shown: all of it where it came to its end and succeeded.
 
     In the thesis every refinement ends with the space bar, and is learnt where it succeeded. Here a motion ends by
@@ -83,8 +130,6 @@ def _taught(state: Workflow, result: EpisodeResult, outcome: Outcome, episode: E
     succeeded can be learnt, but only once the operator says so. So can the part of one before it failed, was given up
     or was stopped; what came after that, and what another station cut short, is not learnt.
     """
-    if result.mode is not Mode.REFINE:
-        return None
     finished = episode.finishing and result.cut is Cut.FINISHED
     succeeded = outcome.success and (result.completed or finished)
     part = (_part_within if succeeded else _part_before)(result, episode.part, finished=finished)

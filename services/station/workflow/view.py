@@ -91,6 +91,11 @@ class View:
         return next(arguments, "")
 
     @property
+    def empty(self) -> bool:
+        """The model says that it has learnt nothing to predict from."""
+        return self.model is not None and not (self.model.demonstrations or self.model.updates)
+
+    @property
     def latched(self) -> bool:
         """The robot says that the emergency stop is latched."""
         return self.safety is not None and self.safety.emergency_stop

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 
-from protocol.messages import Light, Mode, Outcome, RobotState, SafetyState, TeachingState
+from protocol.messages import Light, Mode, Origin, Outcome, RobotState, SafetyState, TeachingState
 from protocol.messages import Phase as RobotPhase
 from services.station.words.predictions import certainty, way_taken
 from services.station.words.table import say
+from services.station.workflow import showing
 from services.station.workflow.authority import another, missing
 from services.station.workflow.deciding import recommended
 from services.station.workflow.going import elsewhere, paused
@@ -45,11 +46,22 @@ def teaching_state(state: Workflow, view: View, settings: Settings) -> TeachingS
         loop_closed=state.closure.closed,
         reason=state.reason,
         actions=tuple(sorted(action.value for action in state.offered)),
-        recommended=recommended(state, settings).value if state.phase is Phase.DECIDING and state.offered else "",
+        recommended=_first(state, view, settings),
         pace=state.pace,
+        method=state.approach.method,
+        waypoints=state.approach.waypoints,
+        basis=state.approach.basis,
         part=state.episode.part if state.episode is not None else state.part,
         confidence=confidence(state, settings),
     )
+
+
+def _first(state: Workflow, view: View, settings: Settings) -> str:
+    """What is to be pressed first; empty where there is nothing to choose."""
+    if state.phase is Phase.DECIDING:
+        return recommended(state, view, settings).value if state.offered else ""
+    first = showing.first(state) if state.phase is Phase.EXECUTING else None
+    return first.value if first in state.offered else ""
 
 
 def _stop(view: View) -> str:
@@ -87,23 +99,24 @@ def _may_correct(state: Workflow, view: View) -> bool:
 def _text(state: Workflow, view: View, settings: Settings) -> str:
     match state.phase:
         case Phase.WAITING | Phase.WATCHING:
-            return _without(state, view, another(view, settings))
+            return _without(state, view, settings)
         case Phase.STOPPED:
             return _stopped(view)
         case Phase.EXECUTING:
             return _executing(state, view)
         case Phase.DECIDING:
-            return _deciding(state, view, settings)
+            return showing.deciding(state, view) or _deciding(state, view, settings)
         case Phase.FINISHED:
             return _finished(state)
         case phase:
             return say(f"workflow.{phase.value}")
 
 
-def _without(state: Workflow, view: View, taker: str) -> str:
+def _without(state: Workflow, view: View, settings: Settings) -> str:
     """Without the authority: what is waited for, or who has it and what can be done."""
+    taker = another(view, settings)
     if state.phase is Phase.WAITING:
-        return missing(view) or (say("workflow.taken", who=taker) if taker else "")
+        return missing(view, settings) or (say("workflow.taken", who=taker) if taker else "")
     authority = view.authority
     if authority is not None and state.asks and authority.asked == state.asks:
         return say("workflow.asked", who=taker, seconds=math.ceil(authority.asked_left))
@@ -126,7 +139,7 @@ def _deciding(state: Workflow, view: View, settings: Settings) -> str:
     if state.taught is not None:
         return f"{outcome}{say('workflow.teach' if state.taught.whole else 'workflow.teach_part')}"
     if state.last:
-        return f"{outcome}{say(f'workflow.then_{recommended(state, settings).value}')}"
+        return f"{outcome}{say(f'workflow.then_{recommended(state, view, settings).value}')}"
     if state.warned and state.prediction is not None:
         return say("workflow.little_known", known=certainty(state.prediction))
     return say("workflow.ready")
@@ -143,10 +156,14 @@ def _executing(state: Workflow, view: View) -> str:
         return say("workflow.ramp" if ramps else "workflow.over")
     if paused(view):
         return say("workflow.paused")
-    return _watching(state) if state.mode is Mode.AUTONOMOUS else _correcting(state, view)
+    if state.mode is Mode.AUTONOMOUS:
+        return _watching(state)
+    return _correcting(state, view) if state.mode is Mode.REFINE else showing.leading(state, robot)
 
 
 def _watching(state: Workflow) -> str:
+    if state.origin is Origin.WAYPOINTS:
+        return say("workflow.through")
     way = way_taken(state.prediction.way) if state.prediction is not None else ""
     return say("workflow.alone_way", way=way) if way else say("workflow.alone")
 

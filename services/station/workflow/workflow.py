@@ -14,7 +14,9 @@ from services.station.workflow.authority import acquiring, waiting
 from services.station.workflow.deciding import deciding, finished
 from services.station.workflow.episode import executing, looking, predicting, resetting, starting
 from services.station.workflow.history import turning
+from services.station.workflow.leading import taking_up
 from services.station.workflow.learning import confided, learning
+from services.station.workflow.planning import planning
 from services.station.workflow.state import Phase, Settings, Workflow
 from services.station.workflow.stop import caught, releasing, stopped
 from services.station.workflow.verdict import judged
@@ -26,7 +28,7 @@ def advance(state: Workflow, view: View, settings: Settings) -> Step:
     """One step of the workflow: what has happened to it first, then what it does where it stands."""
     if state.phase is Phase.FINISHED and settings.scripted:
         return Step(state)
-    known = authority.heard(judged(confided(state, view), view), view, settings)
+    known = authority.heard(judged(confided(state, view), view, settings), view, settings)
     moved = caught(known, view) or authority.lost(known, view, settings)
     if moved is not None:
         return Step(moved)
@@ -42,6 +44,8 @@ _PHASES: dict[Phase, Callable[[Workflow, View, Settings], Step]] = {
     Phase.RESETTING: resetting,
     Phase.LOOKING: looking,
     Phase.PREDICTING: predicting,
+    Phase.PLANNING: planning,
+    Phase.TAKING_UP: taking_up,
     Phase.STARTING: starting,
     Phase.EXECUTING: executing,
     Phase.LEARNING: learning,

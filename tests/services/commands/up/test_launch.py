@@ -2,12 +2,13 @@
 
 import re
 import socket
+from pathlib import Path
 
 import pytest
 
 from services.cli import parser
 from services.commands.settings import configuration, reachable
-from services.commands.up.launch import Launch, check_ports
+from services.commands.up.launch import TEACHER, Launch, _jobs, check_ports
 from services.process.config import Configuration, StationSection, ViewerSection
 from services.process.exceptions import CommandFailed, EndpointInUse, PortInUse
 from services.process.master_devices import Keyboard, Scripted
@@ -34,6 +35,11 @@ def test_a_network_that_is_named_is_joined():
 @pytest.mark.parametrize("words", [("--headless",), ("--no-browser",), ("--only", "robot,camera")])
 def test_there_is_no_browser_where_there_is_no_page_or_nobody_wants_it(words):
     assert not launch(*words).browser
+
+
+def test_an_empty_model_is_taught_unless_somebody_wants_to_do_that_at_the_page():
+    taught, untaught = (_jobs(launch(*words), Path("c.json")) for words in ((), ("--untaught",)))
+    assert {job.name for job in taught} - {job.name for job in untaught} == {TEACHER}
 
 
 def test_only_some_processes_are_started():

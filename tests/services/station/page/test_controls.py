@@ -7,7 +7,7 @@ from views import SEATED, shown, teaching
 
 from protocol.keys import PUSH_KEYS, TURN_KEYS
 from protocol.messages import Light, SafetyState
-from services.station.page import history
+from services.station.page import history, methods
 from services.station.page.controls import BUTTONS, KEYBOARDS, actions, emergency_stop
 from services.station.page.timeline import CONTROLS
 from services.station.workflow.state import Action
@@ -33,7 +33,7 @@ def test_the_page_shows_the_very_keys_that_the_device_obeys():
 
 
 def test_every_action_of_the_workflow_has_a_button():
-    elsewhere = {Action.RELEASE_STOP.value, *CONTROLS, *history.CONTROLS}
+    elsewhere = {Action.RELEASE_STOP.value, *CONTROLS, *history.CONTROLS, *methods.CONTROLS}
     assert {action.value for action in Action} <= {button.action for button in BUTTONS} | elsewhere
 
 

@@ -110,7 +110,7 @@ def test_a_part_of_the_drawing_is_told_when_it_changes(page, browser):
     view = PageView()
     page.show(view)
     browser.hear(0.5)
-    assert set(browser.drawing) == {"boxes", "size", "prediction", "going", "way", "criteria"}
+    assert set(browser.drawing) == {"boxes", "size", "prediction", "going", "way", "criteria", "waypoints"}
     browser.drawing.clear()
     page.show(replace(view, drawing=msgspec.structs.replace(view.drawing, way=((0.0, 0.0, 0.0),))))
     browser.hear(0.5)

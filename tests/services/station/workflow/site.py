@@ -103,22 +103,13 @@ class Site:
                 holder = messages.AuthorityState(holder=ask.request.holder, epoch=self.epoch, expires_in=1.0)
                 self.view = replace(self.view, authority=holder)
                 return queries.AuthorityGranted(self.epoch, 1.0)
-            case queries.PREDICT:
-                return queries.Predicted(
-                    messages.Prediction(
-                        id=len(self.asked),
-                        motion=MOTION,
-                        deviations=to_wire([[0.0] * 3] * 2),
-                        model_version=self.version,
-                        object_position=ask.request.object_position,
-                        **self.certainty,
-                    )
-                )
+            case queries.PREDICT | queries.PLAN:
+                return self.motion_for(ask.request)
             case queries.ADD_DEMONSTRATION | queries.UNDO | queries.REDO:
                 return self.change(ask)
-            case queries.EXECUTE:
+            case queries.EXECUTE | queries.TELEOPERATE:
                 episode = self.view.robot.episode + 1
-                self.robot(phase=EXECUTE, mode=ask.request.mode, episode=episode)
+                self.robot(phase=EXECUTE, mode=getattr(ask.request, "mode", Mode.TEACH), episode=episode)
                 return queries.EpisodeStarted(episode)
             case queries.FINISH:
                 self.robot(phase=IDLE)
@@ -137,6 +128,20 @@ class Site:
         model = msgspec.structs.replace(self.view.model, version=self.version, updates=len(self.learnt))
         self.sees(model=model)
         return queries.Learnt(model, entry)
+
+    def motion_for(self, request):
+        """What the model process answers to who wants a motion."""
+        return queries.Predicted(
+            messages.Prediction(
+                id=len(self.asked),
+                motion=getattr(request, "motion", None) or MOTION,
+                deviations=to_wire([[0.0] * 3] * 2),
+                model_version=self.version,
+                object_position=request.object_position,
+                origin=getattr(request, "origin", messages.Origin.MODEL),
+                **self.certainty,
+            )
+        )
 
     def fail(self, query, outcome=None):
         """Let the next question of this kind go wrong; without an answer where nothing else is said."""
@@ -162,7 +167,7 @@ class Site:
             mode=self.state.mode,
             completed=True,
             reason="",
-            prediction=self.state.prediction.id,
+            prediction=self.state.prediction.id if self.state.prediction is not None else 0,
             refined=changes.get("commanded", MOTION),
             commanded=MOTION,
             measured=MOTION,

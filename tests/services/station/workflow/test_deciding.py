@@ -27,7 +27,10 @@ def test_after_connecting_it_asks_for_the_authority_looks_and_stands():
     assert site.state.phase is Phase.DECIDING
     assert site.names() == ["authority/acquire"]
     assert site.state.looked == (0.85, 0.05, 0.5)
-    assert site.state.offered == {Action.EXECUTE, Action.REFINE, Action.NEXT, Action.END} | SETTING | HISTORY
+    assert (
+        site.state.offered
+        == {Action.EXECUTE, Action.REFINE, Action.NEXT, Action.END, Action.METHOD} | SETTING | HISTORY
+    )
 
 
 def test_a_press_before_it_asks_moves_nothing():

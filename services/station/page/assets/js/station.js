@@ -18,6 +18,7 @@ import { Tab } from "/assets/js/tab.js";
 import { Timeline } from "/assets/js/timeline.js";
 import { Tour } from "/assets/js/tour.js";
 import { show } from "/assets/js/values.js";
+import { Waypoints } from "/assets/js/waypoints.js";
 
 const INPUT_PERIOD_MS = 20;
 const AGES_PERIOD_MS = 100;
@@ -37,6 +38,7 @@ const actions = new Actions((button) => {
   if (button.dataset.question) reasons.ask(button);
   else presses.press(button.dataset.action, button.dataset.argument);
 });
+const waypoints = new Waypoints();
 const roundTrip = new RoundTrip();
 const pictures = new Pictures();
 const keyboard = new Keyboard();
@@ -72,6 +74,7 @@ function onNews(news) {
   presses.settle(news);
   show(news.values);
   actions.arrange();
+  waypoints.show();
   devices.follow();
   timeline.follow();
   roundTrip.hear(news.echo);

@@ -19,6 +19,7 @@ import { colourOf } from "/assets/js/drawing/paint.js";
 import { Robot } from "/assets/js/drawing/robot.js";
 import { Surroundings } from "/assets/js/drawing/surroundings.js";
 import { solids } from "/assets/js/drawing/touching.js";
+import { Waypoints } from "/assets/js/drawing/waypoints.js";
 
 const FIELD_OF_VIEW = 48;
 const POLL_MS = 3;
@@ -47,7 +48,8 @@ export class Drawing {
     this.depth = new Depth(this.labels);
     const onDue = () => this.show({});
     this.ahead = new Ahead(this.labels, description.gripper, { onForeseen, onDue });
-    this.drawn = [this.surroundings, this.robot, this.motions, this.marks, this.depth, this.ahead];
+    this.waypoints = new Waypoints();
+    this.drawn = [this.surroundings, this.robot, this.motions, this.marks, this.depth, this.ahead, this.waypoints];
     this.scene.background = colourOf("ground");
     this.scene.add(...lights(), ...this.drawn.map(({ root }) => root));
     this.moment = {};
@@ -75,7 +77,7 @@ export class Drawing {
     this.wish();
   }
 
-  show({ boxes, size, prediction, going, way, criteria }) {
+  show({ boxes, size, prediction, going, way, criteria, waypoints }) {
     if (boxes !== undefined) this.furnish(boxes);
     if (size !== undefined) this.surroundings.size((this.size = size));
     if (prediction !== undefined) this.motions.predict(prediction);
@@ -83,6 +85,7 @@ export class Drawing {
     if (going !== undefined) this.ahead.go(going);
     if (way !== undefined) this.motions.travel(way);
     if (criteria !== undefined) this.marks.judge(criteria);
+    if (waypoints !== undefined) this.waypoints.show(waypoints);
     if (this.last) this.move(this.last);
     this.wish();
   }

@@ -107,10 +107,11 @@ function axisOf(axis, k) {
   return [arrow.root, letter];
 }
 
-function letterOf(text, colour) {
+// Words that stay as large however far one looks from.
+export function letterOf(text, colour) {
   const canvas = Object.assign(document.createElement("canvas"), { width: 64, height: 64 });
   const pen = canvas.getContext("2d");
-  Object.assign(pen, { font: "bold 52px sans-serif", textAlign: "center", textBaseline: "middle" });
+  Object.assign(pen, { font: `bold ${text.length > 1 ? 40 : 52}px sans-serif`, textAlign: "center", textBaseline: "middle" });
   Object.assign(pen, { fillStyle: `#${colour.getHexString()}`, strokeStyle: `#${colourOf("ground").getHexString()}`, lineWidth: 8 });
   pen.strokeText(text, 32, 32);
   pen.fillText(text, 32, 32);

@@ -1,0 +1,53 @@
+"""The method's region: by which method is taught, what a refinement starts from, and the waypoints that are stored."""
+
+from __future__ import annotations
+
+from protocol.messages import Method, Origin, Pose, TeachingState
+from services.station.page.values import Values
+from services.station.page.view import Shown
+from services.station.words.table import say
+
+METHODS = (Method.REFINE, Method.WAYPOINTS, Method.DEMONSTRATE)
+BASES = (Origin.MODEL, Origin.REFINEMENT)
+"""Their words are in the sections "method" and "basis"."""
+
+EDITS = ("store", "earlier", "later", "delete")
+"""What can be done with one waypoint, as the workflow calls it."""
+
+CONTROLS = ("method", "basis", "clear", *EDITS)
+"""What is pressed here, by the names in `TeachingState.actions`."""
+
+
+def methods(shown: Shown) -> Values:
+    """Everything that the region shows."""
+    teaching = shown.view.teaching
+    if teaching is None:
+        return {}
+    allowed = frozenset(teaching.actions)
+    return {
+        "method": say(f"method.{teaching.method.value}"),
+        "methods@data-method": teaching.method.value,
+        "methods@data-based": "yes" if "basis" in allowed else "no",
+        **_chosen("method", [one.value for one in METHODS], teaching.method.value, open_="method" in allowed),
+        **_chosen("basis", [one.value for one in BASES], teaching.basis.value, open_="basis" in allowed),
+        "action-clear@disabled": "clear" not in allowed,
+        "waypoints@data-places": ";".join(_place(waypoint) for waypoint in teaching.waypoints),
+        "waypoints@data-edits": " ".join(name for name in EDITS if name in allowed),
+        "waypoints-count": _count(teaching),
+    }
+
+
+def _chosen(kind: str, names: list[str], chosen: str, *, open_: bool) -> dict[str, str | bool]:
+    values: dict[str, str | bool] = {}
+    for name in names:
+        values[f"{kind}-{name}@aria-pressed"] = "true" if name == chosen else "false"
+        values[f"{kind}-{name}@disabled"] = not open_
+    return values
+
+
+def _place(waypoint: Pose) -> str:
+    return " ".join(f"{100.0 * value:.0f}" for value in waypoint.position)
+
+
+def _count(teaching: TeachingState) -> str:
+    return say("waypoints.count", count=len(teaching.waypoints))

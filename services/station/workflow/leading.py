@@ -1,0 +1,35 @@
+"""The operator's hand leads the robot: waypoints are stored on the way, or the way itself is what is shown."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from protocol import queries
+from protocol.messages import Method, Mode
+from services.station.workflow.asking import ask, to
+from services.station.workflow.episode import press, refused
+from services.station.workflow.state import Episode, Phase, Settings, Workflow
+from services.station.workflow.view import Step, View
+
+
+def lead(state: Workflow, view: View) -> Workflow:
+    """The operator asked to lead: from the start, or on from where waypoints were stored last."""
+    goes_on = state.mode is Mode.TEACH and state.approach.method is Method.WAYPOINTS and state.approach.waypoints
+    if not goes_on:
+        return press(state, view, Mode.TEACH)
+    return to(state, Phase.TAKING_UP, view, pressed=True, refusals=0, taught=None, event="")
+
+
+def taking_up(state: Workflow, view: View, settings: Settings) -> Step:
+    """Have the robot follow the hand."""
+    robot = view.robot
+    if robot is None:
+        return Step(state)
+    reply = ask(state, view, queries.TELEOPERATE, lambda intent: queries.Teleoperate(state.epoch, request=intent))
+    if isinstance(reply, queries.Refused):
+        return refused(state, view, settings, queries.TELEOPERATE, reply)
+    if isinstance(reply, Step):
+        told = Episode(reply.state.intent, robot.publisher) if reply.ask is not None else state.episode
+        return Step(replace(reply.state, episode=told), reply.ask)
+    started = replace(state.episode, number=reply.episode) if state.episode is not None else None
+    return Step(to(state, Phase.EXECUTING, view, episode=started, pressed=False, let_go=False))

@@ -1,0 +1,41 @@
+"""What the operator who shows a motion reads: what to do next, in one sentence."""
+
+from __future__ import annotations
+
+from protocol.messages import Method, Mode, RobotState
+from services.station.words.table import say
+from services.station.workflow.editing import lacking
+from services.station.workflow.state import Action, Workflow
+from services.station.workflow.view import View
+
+
+def deciding(state: Workflow, view: View) -> str:
+    """While the robot stands; empty where the other words say it."""
+    if state.approach.method is Method.REFINE:
+        return say("showing.choose") if view.empty else ""
+    count = len(state.approach.waypoints)
+    if state.taught is not None or state.last is not None or (count == 0 and state.updates > 0):
+        return ""
+    if state.approach.method is Method.DEMONSTRATE:
+        return say("showing.to_lead")
+    if count == 0:
+        return say("showing.to_store")
+    return say("showing.lacking" if lacking(state) else "showing.through", count=count, missing=lacking(state))
+
+
+def leading(state: Workflow, robot: RobotState) -> str:
+    """While the hand leads."""
+    if state.let_go:
+        return say("workflow.let_go")
+    if any(name.startswith("reach") for name in robot.clamped):
+        return say("showing.reach")
+    if state.approach.method is Method.DEMONSTRATE:
+        return say("showing.lead")
+    count, missing = len(state.approach.waypoints), lacking(state)
+    return say("showing.store" if missing else "showing.store_more", count=count, missing=missing)
+
+
+def first(state: Workflow) -> Action | None:
+    """What is to be pressed first while the hand leads; None where nothing is."""
+    storing = state.mode is Mode.TEACH and state.approach.method is Method.WAYPOINTS
+    return Action.STORE if storing and lacking(state) else None
