@@ -8,11 +8,12 @@ export class Slider {
   // may move it; said(value): as it is read out; moved(value): told while it moves; done(value): told when it has been.
   constructor(knob, track, options) {
     const free = { kept: (value) => value };
-    Object.assign(this, { knob, track, ...free, ...options, value: options.least, keptUntil: 0 });
+    Object.assign(this, { knob, track, ...free, ...options, value: options.value ?? options.least, keptUntil: 0 });
     knob.addEventListener("pointerdown", (event) => this.grab(event));
     knob.addEventListener("keydown", (event) => this.key(event));
     knob.setAttribute("aria-valuemin", this.read(this.least));
     knob.setAttribute("aria-valuemax", this.read(this.most));
+    this.tell();
   }
 
   // What the station says; not while somebody moves it.
@@ -20,14 +21,18 @@ export class Slider {
     const able = this.enabled();
     this.knob.tabIndex = able ? 0 : -1;
     this.knob.setAttribute("aria-disabled", String(!able));
-    if (performance.now() >= this.keptUntil) this.put(value);
+    if (value !== this.value && performance.now() >= this.keptUntil) this.put(value);
   }
 
   put(value) {
     this.value = Math.min(Math.max(value, this.least), this.most);
+    this.tell();
+    this.moved(this.value);
+  }
+
+  tell() {
     this.knob.setAttribute("aria-valuenow", this.read(this.value));
     this.knob.setAttribute("aria-valuetext", this.said(this.value));
-    this.moved(this.value);
   }
 
   grab(event) {

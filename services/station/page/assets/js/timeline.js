@@ -23,11 +23,11 @@ export class Timeline {
     });
     this.last = this.slider(".timeline-last", this.track, {
       ...marks,
+      value: 1,
       enabled: isOpen,
       kept: (value) => Math.max(value, this.first.value + SHORTEST),
       moved: (value) => this.showPart(this.first.value, value),
     });
-    this.last.value = 1;
     this.head = this.slider(".timeline-head", this.track, {
       ...marks,
       step: 0.02,
