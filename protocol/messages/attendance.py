@@ -9,6 +9,8 @@ import msgspec
 
 from protocol.messages.values import Message, Name, Reason
 
+Address = Annotated[str, msgspec.Meta(max_length=256)]
+
 
 class Role(enum.Enum):
     """What somebody at a page may do.
@@ -57,9 +59,11 @@ class Attendance(Message, frozen=True, kw_only=True):
     Attributes:
         holder: the station's name as holder of the authority.
         people: a tab each.
+        page: its page's address; empty where it has none.
         taken: how the input was taken over last; None where it never was.
     """
 
     holder: Name
     people: Annotated[tuple[Person, ...], msgspec.Meta(max_length=16)] = ()
+    page: Address = ""
     taken: TakeOver | None = None

@@ -66,6 +66,14 @@ class Bus(Protocol):
         """Ask; returns at once."""
         ...
 
+    def neighbours(self) -> frozenset[str]:
+        """Names of the other robots that were heard on this network since the first call."""
+        ...
+
+    def neighbour(self, robot: str) -> Bus:
+        """This process' way to another robot; it ends with this one."""
+        ...
+
     def figures(self) -> tuple[TopicFigures, ...]:
         """What was received on each topic, and asked on each query, since the last call."""
         ...

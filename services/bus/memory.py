@@ -37,6 +37,7 @@ class MemoryNetwork:
     def __init__(self, clock: Clock, robot: str = "robot1") -> None:
         self.clock = clock
         self.robot = robot
+        self.others: dict[str, MemoryNetwork] = {}
         self.subscriptions: list[Subscription[Any]] = []
         self.servers: dict[str, Server[Any, Any]] = {}
 
@@ -47,6 +48,10 @@ class MemoryNetwork:
             process: its name; without one it speaks for whichever process publishes a topic.
         """
         return MemoryBus(self, process)
+
+    def join(self, other: MemoryNetwork) -> None:
+        """Be on one network with another robot's."""
+        self.others[other.robot], other.others[self.robot] = other, self
 
     def deliver(self, topic: Topic[Any], payload: bytes, schema: str = "") -> None:
         """Put bytes on a topic, as any program on a network could."""
@@ -60,6 +65,7 @@ class MemoryBus:
 
     def __init__(self, network: MemoryNetwork, process: str) -> None:
         self._network = network
+        self._process = process
         self._outbox = Outbox(new_publisher(), network.robot, process)
         self._clocks = Clocks(self.identity)
         self._own: list[Subscription[Any]] = []
@@ -106,6 +112,14 @@ class MemoryBus:
         announced = announcement(query, self._network.robot, query.request)
         server.receive(payload, announced, lambda reply: pending.settle(decode_reply(query, reply)))
         return pending
+
+    def neighbours(self) -> frozenset[str]:
+        """The robots whose networks are one with this one's."""
+        return frozenset(self._network.others)
+
+    def neighbour(self, robot: str) -> MemoryBus:
+        """The same process' way to another robot."""
+        return self._network.others[robot].bus(self._process)
 
     def figures(self) -> tuple[TopicFigures, ...]:
         """What was received since the last call."""

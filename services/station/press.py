@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-STOP, REVOKE = "stop", "revoke"
-"""What is pressed by others than who has the input."""
+STOP, STOP_OTHER, REVOKE = "stop", "stop_other", "revoke"
+"""What is pressed by others than who has the input: the robot's stop, another robot's, the end of the authority."""
+
+STOPS = frozenset((STOP, STOP_OTHER))
+"""Whoever presses one, however late it comes: it counts."""
 
 
 @dataclass(frozen=True)

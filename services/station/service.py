@@ -26,8 +26,9 @@ from services.station.ears import Ears, came_s, message, picture, young
 from services.station.handover import GIVE, KEEP, HandOver
 from services.station.history import HistoryReader
 from services.station.live_view.stage import Stage
+from services.station.neighbours import Neighbours
 from services.station.page.view import PageView
-from services.station.press import REVOKE, STOP, Press
+from services.station.press import REVOKE, STOP, STOP_OTHER, Press
 from services.station.stop import StopButton
 from services.station.workflow.state import Action, Phase, Place, Settings, Workflow
 from services.station.workflow.view import Answer, Ask, View
@@ -105,6 +106,7 @@ class StationService:
         self._stop = StopButton(bus, self._ears.safety, workflow_settings.holder)
         self._hand_over = HandOver(bus, workflow_settings.holder)
         self._company = Company(bus)
+        self._neighbours = Neighbours(bus, workflow_settings.holder) if page is not None else None
         self._stage = Stage(self._ears)
         self._history = HistoryReader(bus, page.effects) if page is not None else None
         self._buttons = DeviceButtons(self._ears.master, workflow_settings.holder)
@@ -171,7 +173,11 @@ class StationService:
         for press in pressed:
             if press.action == STOP:
                 self._stop.press(now_ns, press.by or self._settings.operator)
+            elif press.action == STOP_OTHER and self._neighbours is not None:
+                self._neighbours.press_stop(press.argument, now_ns, press.by or self._settings.operator)
         self._stop.step(now_ns)
+        if self._neighbours is not None:
+            self._neighbours.step(now_ns)
 
     def _pass_authority(self, now_ns: int, pressed: list[Press], view: View) -> None:
         """Ask for the authority that another station has, answer who asks this one for it, or end whoever's it is."""
@@ -252,6 +258,7 @@ class StationService:
             safety=view.safety,
             authority=view.authority,
             authority_is_mine=mine,
+            neighbours=self._neighbours.there(now_ns) if self._neighbours is not None else (),
             attendances=self._company.there(now_ns),
             notice=self._hand_over.fault(now_ns),
             model=view.model,

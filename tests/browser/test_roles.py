@@ -1,8 +1,11 @@
 """Operator, second operator, observer and supervisor at one station, each in a browser of their own."""
 
+from dataclasses import replace
+
 import pytest
 
-from protocol.messages import Role
+from protocol.messages import Light, Role, SafetyState
+from services.station.neighbours import Neighbour
 
 pytestmark = pytest.mark.browser
 
@@ -115,3 +118,33 @@ def test_a_role_that_does_not_exist_is_refused_in_a_line_and_watches(tab, join):
     boss.page.click(".who > summary")
     boss.wait(".who-fault:has-text(\"There is no role 'boss'\")")
     tab.wait(".who-others:has-text('Max watches')")
+
+
+GARAGE = Neighbour("garage", Light.GREEN, "bob", SafetyState(emergency_stop=False), stopping=False, page="")
+
+
+def test_another_robot_is_seen_and_stopped_from_every_page_of_this_one(tab, join, station, presses):
+    _, feed = station
+    assert not tab.shows(".robots")
+    feed.view = replace(feed.view, neighbours=(GARAGE,))
+    carl = join("Carl", "observer")
+    for page in (tab, carl):
+        page.wait(".robot:has-text('garage'):has-text('bob commands')[data-light=green]")
+        page.page.click(".robot-stop:visible")
+        (press,) = presses()
+        assert (press.action, press.argument) == ("stop_other", "garage")
+    feed.view = replace(feed.view, neighbours=(replace(GARAGE, stopping=True),))
+    tab.wait(".robot-stop:text-is('Stop not confirmed')")
+    stopped = SafetyState(emergency_stop=True, standing=True)
+    feed.view = replace(feed.view, neighbours=(replace(GARAGE, safety=stopped),))
+    tab.wait(".robot[data-stop=stopped] .robot-stop:text-is('Stopped')")
+    tab.wait(".stop[data-stop=ready]")
+
+
+def test_the_way_to_another_robot_s_page_takes_name_and_role_along(tab, join, station):
+    page, feed = station
+    feed.view = replace(feed.view, neighbours=(replace(GARAGE, page=f"{page.url}/"),))
+    carl = join("Carl", "observer")
+    carl.page.click(".robot-way:visible")
+    carl.page.wait_for_url("**/?name=Carl&role=observer")
+    tab.wait(".who-others:has-text('Carl watches')")

@@ -10,7 +10,7 @@ import pytest
 
 from protocol import queries, topics
 from protocol.codec import decode_reply, encode
-from protocol.messages import AuthorityRenewal, MasterState, ModelState
+from protocol.messages import AuthorityRenewal, EmergencyStop, MasterState, ModelState, SafetyState
 from services.bus.arrays import motion_to_wire
 from services.bus.bus import Failed
 from services.bus.zenoh import connect
@@ -211,6 +211,26 @@ def test_two_robots_under_one_router_do_not_hear_each_other(tmp_path, router):
         assert right.next(topics.MODEL_STATE).version == 0
         assert isinstance(none.ask(queries.DESCRIBE, queries.Describe()), Failed)
         assert none.beats() == {}
+
+
+def test_the_other_robots_of_a_network_are_heard_and_stopped_each_by_itself(bus):
+    station, garage, kitchen = bus("station-ann"), bus("robot", robot="garage"), bus("robot")
+    stops = garage.subscribe(topics.EMERGENCY_STOP)
+    stops_here = kitchen.subscribe(topics.EMERGENCY_STOP)
+
+    def seen():
+        for robot in (garage, kitchen):
+            robot.publish(topics.SAFETY_STATE, SafetyState(emergency_stop=False))
+        return station.neighbours()
+
+    assert eventually(seen, WITHIN_S, "the garage is heard") == {"garage"}
+    other = station.neighbour("garage")
+    safety = other.subscribe(topics.SAFETY_STATE)
+    message = heard(other, topics.EMERGENCY_STOP, EmergencyStop(pressed=True, by="ann"), stops)
+    assert (message.robot, message.process, message.by) == ("garage", "station-ann", "ann")
+    eventually(lambda: seen() and safety.latest(), WITHIN_S, "the garage is heard by its own name")
+    assert safety.latest().message.robot == "garage"
+    assert stops_here.take() == []
 
 
 def test_everybody_finds_a_router_that_was_killed_again(tmp_path):

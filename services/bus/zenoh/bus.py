@@ -13,11 +13,11 @@ import msgspec
 import zenoh
 
 from protocol.codec import decode_reply, encode_request
-from protocol.exceptions import ProtocolError
+from protocol.exceptions import InvalidName, ProtocolError
 from protocol.messages import Message, TopicFigures
 from protocol.placement import announcement, check_announced
 from protocol.queries import Query
-from protocol.topics import VERSION, QoS, Topic, checked_name
+from protocol.topics import SAFETY_STATE, VERSION, QoS, Topic, checked_name
 from services.bus.bus import Failed, Pending
 from services.bus.clocks import Clocks
 from services.bus.identity import new_publisher
@@ -27,6 +27,7 @@ from services.bus.subscription import Subscription
 from services.bus.zenoh.dialling import Opened
 from services.bus.zenoh.encoding import announced, encoding
 from services.bus.zenoh.session import Session, open_session
+from services.bus.zenoh.watch import watch
 from services.process.clock import Clock
 from services.process.exceptions import NameTaken, RouterUnreachable
 
@@ -39,6 +40,9 @@ NAME_WAIT_S = 3.0
 """How long the token of a killed predecessor may linger before its name counts as taken."""
 
 NAME_ASK_S = 0.5
+
+ROBOTS_KEPT = 64
+"""So many robots of one network are told apart."""
 
 
 @dataclass(frozen=True)
@@ -82,6 +86,7 @@ class ZenohBus:
         self._outbox = Outbox(new_publisher(), self._robot, self._process)
         self._clocks = Clocks(self.identity)
         self._inlets: list[Subscription[Any] | Server[Any, Any]] = []
+        self._robots: set[str] | None = None
 
     @property
     def identity(self) -> int:
@@ -175,6 +180,18 @@ class ZenohBus:
         )
         return pending
 
+    def neighbours(self) -> frozenset[str]:
+        """Names of the other robots that were heard on this network since the first call."""
+        if self._robots is None:
+            self._robots = robots = {self._robot}
+            key_expression = f"retouch/{VERSION}/*/{SAFETY_STATE.name}/*"
+            watch(self._session, key_expression, lambda passing: _note(robots, passing.key))
+        return frozenset(self._robots.copy() - {self._robot})
+
+    def neighbour(self, robot: str) -> ZenohBus:
+        """This process' way to another robot, over the same session."""
+        return ZenohBus(self._session, robot, self._process, self._clock)
+
     def figures(self) -> tuple[TopicFigures, ...]:
         """What was received on each topic, and asked on each query, since the last call."""
         now = self._clock.now_ns()
@@ -200,6 +217,13 @@ class ZenohBus:
                 express=transport.express,
             )
         return publisher
+
+
+def _note(robots: set[str], key: str) -> None:
+    """Remember whose key it is; bounded, since a stranger may invent more."""
+    with contextlib.suppress(InvalidName):
+        if len(robots) < ROBOTS_KEPT:
+            robots.add(checked_name(key.split("/")[2]))
 
 
 def _responder(call: zenoh.Query, key: str, says: str) -> Callable[[bytes], None]:

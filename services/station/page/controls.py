@@ -105,7 +105,7 @@ def emergency_stop(shown: Shown, standing: Standing) -> Values:
     safety = shown.view.safety
     latched = safety is not None and safety.emergency_stop
     return {
-        "stop@data-stop": _stop(standing.stop_pressed, safety),
+        "stop@data-stop": stop_state(standing.stop_pressed, safety),
         "stop-unconfirmed": say("stop.moving" if latched else "stop.unsaid"),
         "stop-reason": "" if safety is None else _because(safety),
         "stop-reason@data-at": "" if safety is None else safety.at,
@@ -123,7 +123,8 @@ def is_confirmed(safety: SafetyState | None) -> bool:
     return safety is not None and safety.emergency_stop and safety.standing
 
 
-def _stop(pressed: bool, safety: SafetyState | None) -> str:
+def stop_state(pressed: bool, safety: SafetyState | None) -> str:
+    """How a stop stands: ready, unconfirmed, moving where it is latched and the arm does not stand yet, stopped."""
     if is_confirmed(safety):
         return "stopped"
     if safety is not None and safety.emergency_stop:

@@ -17,6 +17,7 @@ from services.station.page.health import FIGURES
 from services.station.page.methods import BASES, METHODS
 from services.station.page.panels import COUNTERS, CRITERIA
 from services.station.page.people import GROUPS
+from services.station.page.robots import SLOTS
 from services.station.words.table import say, speech
 
 HERE = Path(__file__).parent
@@ -41,6 +42,7 @@ _SHEETS = (
     "stop",
     "banners",
     "roles",
+    "robots",
     "tour",
     "compact",
     "narrow",
@@ -82,6 +84,7 @@ def document(robot: str, description: str) -> str:
         "swap_live": _swap(_LIVE),
         "counters": "".join(_counter(name) for name in COUNTERS),
         "criteria": "".join(_criterion(name) for name in CRITERIA),
+        "robot_slots": "".join(_robot(slot) for slot in SLOTS),
         "people": "".join(_people(group) for group in GROUPS),
         "roles": "".join(_role(role) for role in Role),
         "methods_choices": "".join(_choice("method", one.value, _say(f"method.{one.value}")) for one in METHODS),
@@ -131,6 +134,16 @@ def _figure(name: str) -> str:
     return (
         f'<div class="figure" data-figure="{name}"><dt>{_say(f"figure.{name}")}</dt>'
         f'<dd data-value="figure-{name}" data-tone="none">{_say("figure.none")}</dd></div>'
+    )
+
+
+def _robot(slot: int) -> str:
+    name = f"robot-{slot}"
+    return (
+        f'<div class="robot" data-value="{name}" hidden><a class="robot-way" data-value="{name}-name"></a>'
+        f'<span class="robot-light" data-value="{name}-light"></span>'
+        f'<span class="robot-text" data-value="{name}-text"></span>'
+        f'<button type="button" class="robot-stop" data-action="stop_other" data-value="{name}-stop"></button></div>'
     )
 
 

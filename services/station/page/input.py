@@ -21,7 +21,7 @@ from services.station.page.said import Held, Hello, Pressed, read
 from services.station.page.seat import Seat
 from services.station.page.standing import Standing
 from services.station.page.tab import DEAD_MAN_NS, Tab
-from services.station.press import REVOKE, STOP, Press
+from services.station.press import REVOKE, STOP, STOPS, Press
 
 HEARD_NS = 1_000_000_000
 """Silence after which nobody is present at a tab."""
@@ -216,10 +216,11 @@ class Desk:
 
     def _pass_on(self, tab: int, known: Tab | None, message: Pressed, now_ns: int) -> bool:
         """Whether the press counts: a stop does at any time, from any tab, before it has said who it is as well."""
-        if message.action == STOP:
-            self._stop_pressed = True
+        if message.action in STOPS:
+            self._stop_pressed |= message.action == STOP
             self.call.set()
-            return self._presses.add(Press(STOP, by=known.identity.name if known is not None else ""))
+            by = known.identity.name if known is not None else ""
+            return self._presses.add(Press(message.action, message.argument, by))
         if known is None or not known.has_sent_in_time(message, now_ns):
             self.late += 1
             return False

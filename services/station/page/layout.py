@@ -9,6 +9,7 @@ from services.station.page.health import figures, health
 from services.station.page.methods import methods
 from services.station.page.panels import counters, scene, traffic_light, verdict
 from services.station.page.people import people
+from services.station.page.robots import robots
 from services.station.page.seating import seating
 from services.station.page.standing import Standing
 from services.station.page.timeline import timeline
@@ -26,6 +27,7 @@ def values(shown: Shown, standing: Standing) -> Values:
     return {
         **commanding(shown, standing),
         **people(shown, standing),
+        **robots(shown),
         **health(shown),
         **figures(shown, standing),
         **scene(shown),

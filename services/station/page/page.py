@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import logging
+import platform
 import socket
 import threading
 
+import msgspec
 import uvicorn
 from starlette.applications import Starlette
 from starlette.requests import Request
@@ -14,7 +16,7 @@ from starlette.routing import Mount, Route, WebSocketRoute
 from starlette.staticfiles import StaticFiles
 
 from protocol.messages import Attendance, Figure, OperatorInput
-from services.process.addresses import family, in_url
+from services.process.addresses import EVERYWHERE, family, in_url
 from services.process.clock import Clock
 from services.process.config import StationSection
 from services.process.exceptions import PortInUse
@@ -60,6 +62,8 @@ class Page:
         self._board = Board(clock)
         self.effects = Effects()
         """What entries of the history change, as far as a tab wants to see it."""
+        host = platform.node() if station.host in EVERYWHERE else station.host
+        self._address = f"http://{in_url(host)}:{station.port}/"
         self._desk = Desk(operator)
         self._link = Link(self._desk, self._board, clock, version(), description.joints)
         self._server: uvicorn.Server | None = None
@@ -107,8 +111,8 @@ class Page:
         return self._desk.take_presses()
 
     def attendance(self) -> Attendance:
-        """Who is there, its station's name aside."""
-        return self._desk.attendance()
+        """Who is there, and where the page is; its station's name aside."""
+        return msgspec.structs.replace(self._desk.attendance(), page=self._address)
 
     def figures(self) -> tuple[Figure, ...]:
         """Open tabs, and what was thrown away so far."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Mapping
 
-from services.station.press import STOP, Press
+from services.station.press import STOPS, Press
 
 PRESSES_KEPT = 64
 LOADS_REMEMBERED = 32
@@ -44,7 +44,7 @@ class Presses:
 
     def add(self, press: Press) -> bool:
         """Keep a press for the next step, a stop before all others; whether there was room."""
-        if press.action == STOP:
+        if press.action in STOPS:
             if press not in self._waiting:
                 self._waiting.insert(0, press)
             return True

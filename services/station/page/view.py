@@ -27,6 +27,7 @@ from protocol.messages import (
 )
 from services.process.clock import Clock
 from services.station.live_view.drawing import Drawing
+from services.station.neighbours import Neighbour
 
 if TYPE_CHECKING:  # they are put into words as what is shown here is
     from services.station.page.entries import Rows
@@ -65,6 +66,7 @@ class PageView:
         force: that the operator feels [N].
         master: what the operator's device says of itself.
         authority_is_mine: this station holds the authority.
+        neighbours: the other robots of the network.
         attendances: who is at which station's page.
         latencies: measured delays worth showing, in seconds.
         notice: one line about what went wrong last; empty where nothing did.
@@ -77,6 +79,7 @@ class PageView:
     safety: SafetyState | None = None
     authority: AuthorityState | None = None
     authority_is_mine: bool = False
+    neighbours: tuple[Neighbour, ...] = ()
     attendances: tuple[Attendance, ...] = ()
     model: ModelState | None = None
     prediction: Prediction | None = None

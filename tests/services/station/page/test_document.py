@@ -14,7 +14,7 @@ PAGE = document("robot1", "/view/abc/description.json")
 
 
 def test_every_value_has_one_element_that_shows_it():
-    names = re.findall(r'data-value="([a-z_-]+)"', PAGE)
+    names = re.findall(r'data-value="([a-z0-9_-]+)"', PAGE)
     assert len(names) == len(set(names))
     assert {name.partition("@")[0] for name in values(shown(), SEATED)} <= set(names)
 

@@ -4,6 +4,7 @@
 import { say } from "/assets/js/words.js";
 
 const STOP = "stop";
+const STOPS = new Set([STOP, "stop_other"]);
 const LATE_MS = 1000;
 const TOLD_MS = 6000;
 
@@ -21,10 +22,10 @@ export class Presses {
   }
 
   press(action, argument = "") {
-    if (action === STOP && this.stopWaits) return;
+    if (STOPS.has(action) && this.waiting.some((one) => one.action === action && one.argument === argument)) return;
     this.number += 1;
     const press = { number: this.number, action, argument, at: performance.now(), date: Date.now(), saidTo: null };
-    if (action === STOP) this.waiting.unshift(press);
+    if (STOPS.has(action)) this.waiting.unshift(press);
     else this.waiting.push(press);
     this.say();
   }
@@ -49,7 +50,7 @@ export class Presses {
   }
 
   dropLate() {
-    const late = this.waiting.filter((press) => press.action !== STOP && ageOf(press) > LATE_MS);
+    const late = this.waiting.filter((press) => !STOPS.has(press.action) && ageOf(press) > LATE_MS);
     late.forEach(({ action }) => tellDropped(action));
     this.waiting = this.waiting.filter((press) => !late.includes(press));
   }

@@ -12,6 +12,7 @@ import { LiveView, MOMENT } from "/assets/js/live_view.js";
 import { Pictures } from "/assets/js/pictures.js";
 import { Presses } from "/assets/js/presses.js";
 import { Reasons } from "/assets/js/reasons.js";
+import { showRobots } from "/assets/js/robots.js";
 import { RoundTrip } from "/assets/js/round_trip.js";
 import { swapOnPress } from "/assets/js/stages.js";
 import { Tab } from "/assets/js/tab.js";
@@ -24,6 +25,7 @@ const INPUT_PERIOD_MS = 20;
 const AGES_PERIOD_MS = 100;
 const DRAW_PERIOD_MS = 40;
 const IS_TYPED_IN = "input, textarea, select, [contenteditable]";
+const STOPS = '[data-action="stop"], [data-action="stop_other"]';
 const IS_PRESSED = "button, summary";
 
 const tab = new Tab();
@@ -80,6 +82,7 @@ function onNews(news) {
   roundTrip.hear(news.echo);
   liveView.show(news.drawing);
   showInspection();
+  showRobots(tab);
   document.body.dataset.link = news.armed ? "armed" : "view-only";
   document.body.toggleAttribute("data-let-go", news.armed && news.let_go);
   document.body.toggleAttribute("data-renewed", news.version !== document.body.dataset.version);
@@ -113,7 +116,8 @@ function stopByKey(event) {
 
 // The stop counts when it is touched, not when it is let go.
 function stopByHand({ target }) {
-  if (target.closest?.('[data-action="stop"]')) presses.press("stop");
+  const button = target.closest?.(STOPS);
+  if (button) presses.press(button.dataset.action, button.dataset.argument);
 }
 
 function down(event) {
@@ -138,7 +142,7 @@ function clicked(event) {
   const button = event.target.closest?.("[data-action]");
   if (!button) return;
   const byHand = event.detail > 0;
-  if (button.dataset.action !== "stop" || !byHand) actions.ask(button);
+  if (!button.matches(STOPS) || !byHand) actions.ask(button);
   // A button that was clicked does not keep the focus, so that Space is for Finish again.
   if (byHand) button.blur();
 }
