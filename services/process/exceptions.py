@@ -25,6 +25,8 @@ ServiceError
 ├── InverseFailed            the inverse kinematics found no step (services.robot.mechanism)
 ├── Unreachable              a pose that the robot does not reach (services.robot.mechanism)
 ├── Blocked                  something stands where the arm is to be put (services.robot.backends.backend)
+├── NoSuchEntry              nothing of that number in a skill's history (services.model.history)
+├── NothingPlanned           way-points or a refinement that make no motion (services.model.planning)
 ├── ViewerError              (services.viewer.exceptions)
 │   ├── WebFilesMissing      the Rerun SDK did not give its web viewer's files (an EnvironmentFault too)
 │   └── CannotReplay         a recording that cannot be opened

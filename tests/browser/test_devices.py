@@ -153,7 +153,7 @@ def test_a_grip_ends_with_the_focus_and_where_the_system_takes_the_pointer(tab, 
     eventually(lambda: [one.buttons for one in page.take_input().controllers] == [(0.0,)])
 
 
-def test_a_finger_on_the_pad_leads_nothing(tab, station, eventually):
+def test_a_finger_on_the_pad_leads_nothing_and_is_told_what_does(tab, station, eventually):
     page, _ = station
     show_pad(tab, "pointer")
     eventually(lambda: page.take_input().controllers)
@@ -161,6 +161,7 @@ def test_a_finger_on_the_pad_leads_nothing(tab, station, eventually):
         """document.querySelector('.pointer-pad').dispatchEvent(
             new PointerEvent('pointerdown', {pointerId: 5, pointerType: 'touch', button: 0, bubbles: true}))"""
     )
+    tab.wait(".pointer-touched:has-text('use a mouse or a pen')")
     assert not tab.shows(".pointer-pad[data-gripped]")
 
 

@@ -34,6 +34,7 @@ export class PointerPad {
 
   // A finger looks on: what slides over a touch screen by chance moves no robot.
   grip(event) {
+    this.element.toggleAttribute("data-touched", event.pointerType === "touch");
     if (this.gripped || event.button !== 0 || event.pointerType === "touch") return;
     event.preventDefault();
     this.element.setPointerCapture?.(event.pointerId);
