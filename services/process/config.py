@@ -90,6 +90,9 @@ class StationSection(Section, frozen=True):
     Attributes:
         host: address that the page listens on.
         port: of the page.
+        certificate: file of the page's TLS certificate, PEM, with those that vouch for it; empty for plain HTTP.
+        key: file of the certificate's private key, PEM; empty where it stands in the certificate's file.
+        language: in which the page speaks: the name of one of its tables of words.
         refinements_allowed: attempts at one update.
         updates_allowed: updates of one run.
         autonomous_s: duration of an autonomous execution [s].
@@ -106,6 +109,9 @@ class StationSection(Section, frozen=True):
 
     host: str = "127.0.0.1"
     port: Port = 8080
+    certificate: str = ""
+    key: str = ""
+    language: str = "en"
     refinements_allowed: Annotated[int, msgspec.Meta(ge=1)] = 10
     updates_allowed: Annotated[int, msgspec.Meta(ge=1)] = 8
     autonomous_s: Positive = 10.0
@@ -117,6 +123,11 @@ class StationSection(Section, frozen=True):
     demonstration_tempo: bool = False
     scripted: bool = False
     once: bool = False
+
+    @property
+    def scheme(self) -> str:
+        """Under which the page is served."""
+        return "https" if self.certificate else "http"
 
 
 FOLDER_SETTING = "[viewer] folder"

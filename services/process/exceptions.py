@@ -2,6 +2,7 @@
 
 ServiceError
 ├── ConfigurationError       a wrong key, type or value in a configuration file
+├── UnusableSetting          a value of it that cannot be used: a certificate, a language
 ├── CommandFailed            a command ended without what it was started for
 │   └── ProcessDied          a process of the pool that was killed or crashed (services.offline.pool)
 ├── EnvironmentFault         the machine or the network, not what a person wrote; exit code 3
@@ -52,6 +53,15 @@ class ConfigurationError(ServiceError):
         self.path = path
         self.reason = reason
         super().__init__(f"{what} {path}: {reason}")
+
+
+class UnusableSetting(ServiceError):
+    """A value of the configuration that is of the right kind, and cannot be used all the same."""
+
+    def __init__(self, setting: str, reason: str) -> None:
+        self.setting = setting
+        self.reason = reason
+        super().__init__(f"{setting}: {reason}")
 
 
 class EnvironmentFault(ServiceError):

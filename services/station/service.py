@@ -19,6 +19,7 @@ from services.bus.bus import Bus, Pending
 from services.bus.identity import new_number
 from services.process.clock import Clock
 from services.process.config import Configuration, StationSection
+from services.process.exceptions import UnusableSetting
 from services.process.schedule import Schedule
 from services.station.company import Company
 from services.station.device_buttons import DeviceButtons
@@ -30,6 +31,7 @@ from services.station.neighbours import Neighbours
 from services.station.page.view import PageView
 from services.station.press import REVOKE, STOP, STOP_OTHER, Press
 from services.station.stop import StopButton
+from services.station.words.table import speech
 from services.station.workflow.state import Action, Phase, Place, Settings, Workflow
 from services.station.workflow.view import Answer, Ask, View
 from services.station.workflow.words import teaching_state
@@ -47,9 +49,14 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> StationServic
     """The service, its page started where a person is to use it.
 
     Raises:
+        UnusableSetting: there are no words in the language, or the certificate cannot be used.
         PortInUse: the page cannot be served.
     """
     section = configuration.station
+    try:
+        speech.speak(section.language)
+    except LookupError as error:
+        raise UnusableSetting("[station] language", str(error)) from None
     page = None if section.scripted else _open_page(configuration, clock)
     return StationService(bus, settings(section, configuration.operator), page, configuration.seed)
 

@@ -107,7 +107,7 @@ class Page:
     """
 
     def __init__(self, section: StationSection, *, opens: bool) -> None:
-        self.url = f"http://{in_url(EVERYWHERE.get(section.host, section.host))}:{section.port}/"
+        self.url = f"{section.scheme}://{in_url(EVERYWHERE.get(section.host, section.host))}:{section.port}/"
         self._opens = opens
         self._told = False
 

@@ -22,6 +22,7 @@ from services.process.config import StationSection
 from services.process.exceptions import PortInUse
 from services.station.live_view.description import Description
 from services.station.live_view.files import Files
+from services.station.page.certificate import check
 from services.station.page.controls import is_confirmed
 from services.station.page.document import ASSETS, document, version
 from services.station.page.effects import Effects
@@ -72,14 +73,16 @@ class Page:
     @property
     def url(self) -> str:
         """Where to point a browser."""
-        return f"http://{in_url(self._station.host)}:{self._station.port}"
+        return f"{self._station.scheme}://{in_url(self._station.host)}:{self._station.port}"
 
     def start(self) -> None:
         """Listen, and return once pages are served.
 
         Raises:
+            UnusableSetting: the certificate or its key cannot be used.
             PortInUse: something else listens there, the address is not this machine's, or the server did not come up.
         """
+        check(self._station)
         listener = self._listen()
         self._server = uvicorn.Server(self._server_configuration())
         self._thread = threading.Thread(target=self._serve, args=(self._server, listener), name="page", daemon=True)
@@ -164,6 +167,8 @@ class Page:
             ws_max_size=65_536,
             ws_per_message_deflate=False,
             timeout_graceful_shutdown=1,
+            ssl_certfile=self._station.certificate or None,
+            ssl_keyfile=self._station.key or None,
         )
 
     @staticmethod

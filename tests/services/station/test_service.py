@@ -10,6 +10,7 @@ from protocol.messages import AuthorityState, Light, MasterState, OperatorInput,
 from services.bus.memory import MemoryNetwork
 from services.process.clock import ManualClock
 from services.process.config import Configuration, StationSection
+from services.process.exceptions import UnusableSetting
 from services.station import service
 from services.station.press import Press
 from services.station.workflow.state import Action
@@ -400,3 +401,9 @@ def test_the_page_is_told_what_the_device_says_of_itself():
     site.other.publish(topics.MASTER_STATE, MasterState(device="gamepad"))
     site.run(0.02)
     assert page.shown.master.device == "gamepad"
+
+
+def test_a_language_without_words_is_one_line_that_names_the_setting():
+    clock, configuration = ManualClock(), Configuration(station=StationSection(language="xx"))
+    with pytest.raises(UnusableSetting, match=r"^\[station\] language: there are no words in 'xx', only in en$"):
+        service.build(MemoryNetwork(clock).bus(), clock, configuration)

@@ -173,6 +173,7 @@ export class Drawing {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
+    this.renderer.render(this.scene, this.camera); // another size has emptied the canvas: it is not left black
     this.wish();
   }
 }
