@@ -171,7 +171,7 @@ def test_where_little_is_known_it_is_said_and_what_is_recommended_stands_out(tab
     tab.page.wait_for_selector('.light-text:has-text("I don\'t know this place")')
     tab.page.click(".health > summary")
     tab.page.wait_for_selector("[data-value=figure-prediction][data-tone=warn]:text-is('12 % known, way 2 of 2, 80 %')")
-    tab.wait(".first .action[data-action=refine][data-first=yes]:enabled")
+    tab.wait(".first .action[data-action=refine][data-first=yes]:enabled:has-text('Show me')")
     tab.wait(".others .action[data-action=execute][data-first=no]:enabled")
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from protocol.keys import PUSH_KEYS, TURN_KEYS, Direction
 from protocol.messages import Light, SafetyState, TeachingState
+from services.bus.predictions import LITTLE
 from services.station.page.standing import Standing
 from services.station.page.values import Values
 from services.station.page.view import Shown
@@ -90,7 +91,14 @@ def actions(shown: Shown) -> Values:
     for button in BUTTONS:
         values[f"action-{button.action}@disabled"] = button.action not in allowed
         values[f"action-{button.action}@data-first"] = "yes" if button.action == first else "no"
+    values["action-refine-label"] = say("action.show_me" if first == "refine" and _unknown(shown) else "action.refine")
     return values
+
+
+def _unknown(shown: Shown) -> bool:
+    """The place is one of which the model knows little: it asks to be shown."""
+    prediction = shown.view.prediction
+    return prediction is not None and prediction.known < LITTLE
 
 
 def _first(teaching: TeachingState) -> str:

@@ -53,7 +53,7 @@ _SYMBOLS = {"retouch": "brand", "view": "", "red": "lamp", "amber": "lamp", "hol
 
 _CAMERAS = ("head", "wrist")
 _LIVE = "live"
-_SCRIPTS = ("script", "tour", "waypoint")
+_SCRIPTS = ("script", "tour", "waypoint", "entry")
 """Sections of the words that the scripts say."""
 
 
@@ -230,6 +230,6 @@ def _button(number: int, button: Button) -> str:
     return (
         f'<button type="button" class="action" data-action="{button.action}" data-order="{number}"'
         f' data-value="action-{button.action}"{asks} disabled>{_icon(button.symbol)}'
-        f'<span class="action-label">{_say(f"action.{button.action}")}</span>'
+        f'<span class="action-label" data-value="action-{button.action}-label">{_say(f"action.{button.action}")}</span>'
         f'<span class="action-hint">{_say(f"hint.{button.action}")}</span></button>'
     )

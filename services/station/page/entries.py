@@ -5,17 +5,9 @@ from __future__ import annotations
 import msgspec
 
 from protocol.history import Entry, HistoryListed
-from protocol.messages import Method, Part, Purpose
-from services.bus.predictions import percent
+from protocol.messages import Method, Part
 from services.station.page.readout import length
-
-_METHODS = {
-    Method.UNKNOWN: "",
-    Method.REFINE: "corrected while it ran",
-    Method.WAYPOINTS: "through waypoints",
-    Method.DEMONSTRATE: "led by hand",
-}
-_PURPOSES = {Purpose.INITIAL: "First demonstration", Purpose.UPDATE: "Correction"}
+from services.station.words.table import say
 
 
 class Row(msgspec.Struct, frozen=True):
@@ -73,8 +65,8 @@ def rows_of(listed: HistoryListed) -> Rows:
 def _row(entry: Entry) -> Row:
     return Row(
         id=entry.id,
-        what=f"{_PURPOSES[entry.purpose]} {entry.id}",
-        how=_METHODS[entry.method],
+        what=say(f"skill.{entry.purpose.value}", id=entry.id),
+        how=say(f"skill.{entry.method.value}") if entry.method is not Method.UNKNOWN else "",
         who=entry.operator,
         at=entry.at,
         moved=_moved(entry),
@@ -87,18 +79,22 @@ def _row(entry: Entry) -> Row:
 
 def _moved(entry: Entry) -> str:
     """Nothing was predicted before where it is negative."""
-    return "" if entry.most < 0.0 else f"up to {length(entry.most)}, {length(entry.mean)} on average"
+    return "" if entry.most < 0.0 else say("skill.moved", most=length(entry.most), mean=length(entry.mean))
 
 
 def _believed(entry: Entry) -> str:
-    share = "" if entry.alpha == 1.0 else f"believed {percent(entry.alpha)}"
-    first, last = percent(entry.part.first), percent(entry.part.last)
-    part = "" if entry.part == Part() else f"from {first} to {last} of the motion"
+    share = "" if entry.alpha == 1.0 else say("skill.believed", share=_percent(entry.alpha))
+    first, last = _percent(entry.part.first), _percent(entry.part.last)
+    part = "" if entry.part == Part() else say("skill.part", first=first, last=last)
     return ", ".join(words for words in (share, part) if words)
 
 
 def _turned(entry: Entry) -> str:
-    by = f" by {entry.turned_by}" if entry.turned_by else ""
-    if not entry.in_use:
-        return f"taken back{by}"
-    return f"used again{by}" if entry.turned_at or by else ""
+    if entry.in_use and not entry.turned_at and not entry.turned_by:
+        return ""
+    turn = "used_again" if entry.in_use else "taken_back"
+    return say(f"skill.{turn}_by", name=entry.turned_by) if entry.turned_by else say(f"skill.{turn}")
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.0f}"

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from services.bus.predictions import percent
 from services.station.page.entries import Rows
 from services.station.page.values import Values
 from services.station.page.view import Shown
+from services.station.words.table import say
 
 TURNS = ("take_back", "use_again")
 CONTROLS = (*TURNS, "confidence")
@@ -18,12 +18,14 @@ def history(shown: Shown) -> Values:
     allowed = frozenset() if teaching is None else frozenset(teaching.actions)
     return {
         "history@data-turns": " ".join(name for name in TURNS if name in allowed),
-        "history-count": "" if rows is None else _count(rows),
+        "skill-count": "" if rows is None else _count(rows),
+        "skill-older": say("skill.older", number=rows.older) if rows is not None and rows.older else "",
         "confidence@data-share": "" if teaching is None else f"{teaching.confidence:.2f}",
-        "confidence-share": "" if teaching is None else percent(teaching.confidence),
+        "confidence-share": "" if teaching is None else say("skill.share", share=f"{100.0 * teaching.confidence:.0f}"),
     }
 
 
 def _count(rows: Rows) -> str:
-    older = f", {rows.older} older not shown" if rows.older else ""
-    return f"version {rows.version}: {rows.in_use} of {len(rows.rows)} in use{older}"
+    if not rows.rows:
+        return say("skill.empty")
+    return say("skill.count", version=rows.version, used=rows.in_use, all=len(rows.rows))

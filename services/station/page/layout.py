@@ -6,6 +6,7 @@ from services.station.page.commanding import commanding
 from services.station.page.controls import actions, emergency_stop
 from services.station.page.devices import devices
 from services.station.page.health import figures, health
+from services.station.page.history import history
 from services.station.page.methods import methods
 from services.station.page.panels import counters, scene, traffic_light, verdict
 from services.station.page.people import people
@@ -37,6 +38,7 @@ def values(shown: Shown, standing: Standing) -> Values:
         **actions(shown),
         **methods(shown),
         **timeline(shown),
+        **history(shown),
         **emergency_stop(shown, standing),
         **seating(standing),
         **devices(shown),

@@ -2,16 +2,20 @@
 
 from dataclasses import replace
 
+import msgspec
 import pytest
 from views import SEATED, shown, teaching
 
 from protocol.keys import PUSH_KEYS, TURN_KEYS
 from protocol.messages import Light, SafetyState
+from services.bus.arrays import motion_to_wire
 from services.station.page import history, methods
 from services.station.page.controls import BUTTONS, KEYBOARDS, actions, emergency_stop
 from services.station.page.timeline import CONTROLS
 from services.station.workflow.state import Action
+from tests.services.predictions import prediction
 
+MOTION = motion_to_wire([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], [[1.0, 0.0, 0.0, 0.0]] * 2, 1.0)
 PRESSED = replace(SEATED, stop_pressed=True)
 LATCHED = SafetyState(emergency_stop=True, by="anna", reason="too fast", at="2026-11-25T10:00:05Z")
 STANDING = SafetyState(emergency_stop=True, by="anna", standing=True)
@@ -97,3 +101,15 @@ def test_who_stopped_and_why_and_when_is_told():
 def test_who_released_and_when_is_told():
     values = emergency_stop(shown(safety=RELEASED), SEATED)
     assert (values["stop-released"], values["stop-released@data-at"]) == ("Released by bert", RELEASED.at)
+
+
+@pytest.mark.parametrize(
+    ("recommended", "known", "label"),
+    [("refine", 0.2, "Show me"), ("refine", 0.5, "Correct"), ("execute", 0.2, "Correct")],
+)
+def test_where_little_is_known_the_page_asks_to_be_shown(recommended, known, label):
+    view = shown(
+        teaching=teaching(actions=("execute", "refine"), recommended=recommended),
+        prediction=msgspec.structs.replace(prediction(MOTION), known=known),
+    )
+    assert actions(view)["action-refine-label"] == label

@@ -37,7 +37,7 @@ def test_a_correction_says_what_it_is_by_whom_when_how_and_by_how_much():
     assert (row.id, row.what, row.how, row.who, row.at) == (
         7,
         "Correction 7",
-        "corrected while it ran",
+        "while it moved",
         "anna",
         CORRECTION.at,
     )
@@ -54,8 +54,8 @@ def test_of_a_first_demonstration_nothing_is_said_that_is_not_known():
     ("changes", "words"),
     [
         ({"alpha": 0.35}, "believed 35 %"),
-        ({"part": Part(0.25, 1.0)}, "from 25 % to 100 % of the motion"),
-        ({"alpha": 0.0, "part": Part(0.0, 0.5)}, "believed 0 %, from 0 % to 50 % of the motion"),
+        ({"part": Part(0.25, 1.0)}, "25 to 100 % of the motion"),
+        ({"alpha": 0.0, "part": Part(0.0, 0.5)}, "believed 0 %, 0 to 50 % of the motion"),
     ],
 )
 def test_how_far_and_of_which_part_it_is_believed_is_said_where_it_is_not_all(changes, words):
@@ -78,7 +78,9 @@ def test_who_took_it_back_or_wanted_it_back_is_said(changes, words):
 def test_the_region_counts_what_is_in_use_and_what_is_not_shown():
     listed = HistoryListed(9, (CORRECTION, msgspec.structs.replace(FIRST, in_use=False)), older=3)
     values = history(shown(teaching=teaching(), history=rows_of(listed)))
-    assert values["history-count"] == "version 9: 1 of 2 in use, 3 older not shown"
+    assert values["skill-count"] == "Version 9: 1 of 2 in use"
+    assert values["skill-older"] == "3 older ones are not shown"
+    assert history(shown(history=rows_of(HistoryListed(0, ()))))["skill-count"] == "Nothing yet"
 
 
 def test_a_row_can_be_turned_where_the_workflow_offers_it():

@@ -47,6 +47,12 @@ export class LiveView {
     this.drawing?.mark(part);
   }
 
+  // What an entry of the history changes; null for nothing.
+  compare(effect) {
+    this.compared = effect;
+    this.drawing?.compare(effect);
+  }
+
   receive(buffer) {
     const number = new DataView(buffer).getUint32(4, true);
     const { connection } = this;
@@ -78,6 +84,7 @@ export class LiveView {
       });
       this.drawing.show(this.parts);
       this.drawing.mark(this.part ?? null);
+      this.drawing.compare(this.compared ?? null);
       if (this.moment) this.drawing.receive(this.moment);
     } catch (error) {
       console.warn("the live view is not there:", error);

@@ -4,6 +4,7 @@ import { Actions } from "/assets/js/actions.js";
 import { Devices } from "/assets/js/devices.js";
 import { Held } from "/assets/js/held.js";
 import { Identity } from "/assets/js/identity.js";
+import { History } from "/assets/js/history.js";
 import { showInspection } from "/assets/js/inspection.js";
 import { KeySetting } from "/assets/js/key_setting.js";
 import { Keyboard, isSpace, isStop } from "/assets/js/keyboard.js";
@@ -52,6 +53,7 @@ const timeline = new Timeline(
   (action, argument) => presses.press(action, argument),
   (part) => liveView.mark(part),
 );
+const history = new History(liveView, (action, argument) => presses.press(action, argument));
 const link = new Link(tab, { onOpen, onNews, onFrame, onSilence });
 presses.link = link;
 new Identity(tab, link);
@@ -81,6 +83,7 @@ function onNews(news) {
   timeline.follow();
   roundTrip.hear(news.echo);
   liveView.show(news.drawing);
+  history.show(news.history.listed);
   showInspection();
   showRobots(tab);
   document.body.dataset.link = news.armed ? "armed" : "view-only";

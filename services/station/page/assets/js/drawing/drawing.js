@@ -12,6 +12,7 @@ import {
 import { Ahead } from "/assets/js/drawing/ahead.js";
 import { Depth } from "/assets/js/drawing/depth.js";
 import { Labels } from "/assets/js/drawing/labels.js";
+import { Comparison } from "/assets/js/drawing/comparison.js";
 import { Marks } from "/assets/js/drawing/marks.js";
 import { Motions } from "/assets/js/drawing/motions.js";
 import { Cadence } from "/assets/js/drawing/cadence.js";
@@ -43,13 +44,15 @@ export class Drawing {
     this.robot = new Robot(description, shapes);
     this.surroundings = new Surroundings();
     this.motions = new Motions();
+    this.comparison = new Comparison();
     this.marks = new Marks();
     this.labels = new Labels(canvas);
     this.depth = new Depth(this.labels);
     const onDue = () => this.show({});
     this.ahead = new Ahead(this.labels, description.gripper, { onForeseen, onDue });
     this.waypoints = new Waypoints();
-    this.drawn = [this.surroundings, this.robot, this.motions, this.marks, this.depth, this.ahead, this.waypoints];
+    const signs = [this.motions, this.comparison, this.marks, this.depth, this.ahead, this.waypoints];
+    this.drawn = [this.surroundings, this.robot, ...signs];
     this.scene.background = colourOf("ground");
     this.scene.add(...lights(), ...this.drawn.map(({ root }) => root));
     this.moment = {};
@@ -100,6 +103,11 @@ export class Drawing {
     this.surroundings.furnish(boxes);
     this.depth.furnish(things);
     this.ahead.furnish(things);
+  }
+
+  compare(effect) {
+    this.comparison.show(effect);
+    this.wish();
   }
 
   receive(moment) {
