@@ -56,6 +56,15 @@ COUNT = """
 """
 """How many pictures were drawn."""
 
+FORESIGHT = """
+    window.foresights = [];
+    const watcher = new MutationObserver((changes) => {
+        for (const { target } of changes) window.foresights.push(Number(target.dataset.foresightMs));
+    });
+    watcher.observe(document.querySelector(".scene"), { attributeFilter: ["data-foresight-ms"] });
+"""
+"""How long it took each time to foresee how the motion goes on [ms]."""
+
 
 class Operator:
     """A person at the page.
@@ -158,6 +167,7 @@ def refine(operator, witness, endpoint):
     operator.press("execute", lambda: witness.robot is not None and witness.robot.episode > 0)
     operator.press("refine", lambda: is_corrected(witness.robot))
     with states(endpoint) as heard:
+        operator.page.evaluate(FORESIGHT)
         drawn, began = operator.page.evaluate("window.drawn"), time.monotonic()
         before = costs(witness)
         while time.monotonic() - began < REFINE_S / 2:
@@ -166,6 +176,7 @@ def refine(operator, witness, endpoint):
         after = costs(witness)
     latencies = np.array(latencies_ms(operator.taps_ns, *heard.values()))
     pictures = operator.page.evaluate("window.drawn") - drawn
+    foresights = np.array(operator.page.evaluate("window.foresights"))
     held = np.mean([robot.phase is Phase.HOLD for robot in heard[topics.ROBOT_STATE]])
     return [
         Result("key to displacement applied, p50", float(np.percentile(latencies, 50)), "ms", 15.0),
@@ -173,6 +184,9 @@ def refine(operator, witness, endpoint):
         Result("taps that moved the robot", len(latencies), "1"),
         Result("robot holds though somebody is at the keys", 100.0 * float(held), "%"),
         Result("3-D view, pictures a second", pictures / took, "Hz"),
+        Result("foresight reckoned, p50", float(np.percentile(foresights, 50)), "ms"),
+        Result("foresight reckoned, p99", float(np.percentile(foresights, 99)), "ms", 20.0),
+        Result("foresight, times a second", len(foresights) / took, "Hz"),
         *(
             Result(f"{name}: processor", 100.0 * (after[name] - before[name]) / took, "% of a core", GOALS.get(name))
             for name in before

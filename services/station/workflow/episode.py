@@ -18,7 +18,7 @@ from services.station.words.table import say
 from services.station.workflow import editing, going
 from services.station.workflow.asking import RETRY_S, ask, not_done, to
 from services.station.workflow.authority import runs
-from services.station.workflow.state import WHOLE, Action, Episode, Going, Phase, Place, Settings, Workflow
+from services.station.workflow.state import WHOLE, Action, Episode, Phase, Place, Settings, Workflow
 from services.station.workflow.view import Ask, Step, View
 
 LOOK_S = 0.8
@@ -149,7 +149,7 @@ def starting(state: Workflow, view: View, settings: Settings) -> Step:
         told = Episode(reply.state.intent, robot.publisher, part=part) if reply.ask is not None else state.episode
         return Step(replace(reply.state, episode=told), reply.ask)
     started = replace(state.episode, number=reply.episode) if state.episode is not None else None
-    paced = Going(state.pace) if state.pace != 1.0 else None
+    paced = going.begun(state, settings, part)
     return Step(to(state, Phase.EXECUTING, view, episode=started, pressed=False, let_go=False, going=paced))
 
 

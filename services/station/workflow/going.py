@@ -9,7 +9,7 @@ from protocol import queries
 from protocol.messages import Mode, Part
 from services.station.words.predictions import extent
 from services.station.words.table import say
-from services.station.workflow.state import WHOLE, Action, Going, Workflow
+from services.station.workflow.state import WHOLE, Action, Going, Settings, Workflow
 from services.station.workflow.view import View
 
 SLOWEST, FASTEST = 0.25, 2.0
@@ -40,6 +40,16 @@ def heard(state: Workflow, view: View) -> Workflow:
         state = replace(state, pace=_pace(view.argument(Action.PACE), state.pace))
     going = _going(state, view)
     return state if going is None else replace(state, going=going, question=0, intent=0, wants=None)
+
+
+def begun(state: Workflow, settings: Settings, part: Part) -> Going | None:
+    """How a motion that has begun is to go on; None where at its own pace.
+
+    To where the part begins that is corrected it goes as fast as the robot alone would, and pauses there.
+    """
+    if part.first > 0.0:
+        return Going(min(max(settings.refine_s / settings.autonomous_s, 1.0), FASTEST), part.first)
+    return Going(state.pace) if state.pace != 1.0 else None
 
 
 def set_for_next(state: Workflow, view: View) -> Workflow:

@@ -165,6 +165,15 @@ def test_the_part_that_is_marked_is_executed_and_learnt():
     assert site.state.part == Part(), "the next prediction is another motion"
 
 
+def test_the_robot_goes_to_where_the_part_begins_as_fast_as_alone_and_pauses_there():
+    site = Site(BY_HAND)
+    site.run_to(Phase.DECIDING)
+    say(site, Action.PART, "0.3 0.6")
+    site.press(Action.REFINE, Phase.EXECUTING)
+    site.stay()
+    assert asked(site) == [(BY_HAND.refine_s / BY_HAND.autonomous_s, 0.3)]
+
+
 def test_the_robot_alone_executes_the_whole_motion_whatever_is_marked():
     site = Site(BY_HAND)
     site.run_to(Phase.DECIDING)

@@ -12,10 +12,9 @@ export const MOMENT = 2;
 export class LiveView {
   // onForeseen: told where the gripper would touch something on its way, null for nowhere.
   constructor(onForeseen) {
-    this.reckoned = { touch: null, took: 0 };
     this.onForeseen = (touch, took) => {
-      this.reckoned = { touch, took };
       this.panel.toggleAttribute("data-foreseen", touch !== null);
+      this.panel.dataset.foresightMs = took.toFixed(2); // for whoever measures
       onForeseen(touch);
     };
     this.panel = document.querySelector(".scene");

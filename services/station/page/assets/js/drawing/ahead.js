@@ -36,19 +36,20 @@ export class Ahead {
     this.dueAt = 0;
   }
 
-  // values: offset, turn and progress as they are now. Reckoned a few times a second, which is as often as one sees it.
+  // Offset, turn and progress as they are now. Reckoned a few times a second, which is as often as one sees it; whether
+  // it was.
   move({ progress, offset, turn }) {
     const now = performance.now();
     clearTimeout(this.later);
     if (now < this.dueAt) {
       this.later = setTimeout(this.onDue, this.dueAt - now);
-      return;
+      return false;
     }
     this.dueAt = now + EVERY_MS;
     if (!this.curve || this.curve.points.length < 2) {
       this.show(null, null);
       this.onForeseen(null, 0);
-      return;
+      return true;
     }
     const isKnown = this.going && [progress, ...offset, ...turn].every(Number.isFinite);
     const rest = released(this.curve, isKnown ? { progress, offset, turn, fading: this.going.fading } : STANDING);
@@ -56,6 +57,7 @@ export class Ahead {
     const differs = Math.hypot(...offset) > LEAST_M || Math.hypot(...turn) > LEAST_RAD;
     this.show(isKnown && this.going.corrected && differs ? rest.positions : null, touch);
     this.onForeseen(touch, performance.now() - now);
+    return true;
   }
 
   show(way, touch) {

@@ -48,7 +48,7 @@ export class Drawing {
     this.marks = new Marks();
     this.labels = new Labels(canvas);
     this.depth = new Depth(this.labels);
-    const onDue = () => this.show({});
+    const onDue = () => this.foresee(this.newest);
     this.ahead = new Ahead(this.labels, description.gripper, { onForeseen, onDue });
     this.waypoints = new Waypoints();
     const signs = [this.motions, this.comparison, this.marks, this.depth, this.ahead, this.waypoints];
@@ -90,6 +90,7 @@ export class Drawing {
     if (criteria !== undefined) this.marks.judge(criteria);
     if (waypoints !== undefined) this.waypoints.show(waypoints);
     if (this.last) this.move(this.last);
+    if (this.newest) this.foresee(this.newest);
     this.wish();
   }
 
@@ -112,7 +113,15 @@ export class Drawing {
 
   receive(moment) {
     this.moment = moment;
+    this.newest = moment.values;
+    this.foresee(this.newest);
     this.wish();
+  }
+
+  // As often as it is told where the robot is, however seldom a picture is drawn.
+  foresee(values) {
+    const [offset, turn, progress] = [values.subarray(14, 17), values.subarray(17, 20), values[20]];
+    if (this.ahead.move({ progress, offset: [...offset], turn: [...turn] })) this.wish();
   }
 
   wish() {
@@ -159,11 +168,9 @@ export class Drawing {
     this.last = values;
     const [grasp, object] = [poseOf(values, 0), poseOf(values, 7)];
     this.surroundings.see(object);
-    const [offset, turn, progress] = [values.subarray(14, 17), values.subarray(17, 20), values[20]];
-    this.marks.move(grasp, offset, values.subarray(21, 24));
+    this.marks.move(grasp, values.subarray(14, 17), values.subarray(21, 24));
     this.depth.see(object, this.size ?? [0, 0, 0]);
     this.depth.move(grasp);
-    this.ahead.move({ progress, offset: [...offset], turn: [...turn] });
     if (grasp.isKnown) this.robot.follow(new Vector3().fromArray(grasp.position));
     this.robot.move(values.subarray(24));
   }
