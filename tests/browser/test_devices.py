@@ -92,6 +92,7 @@ def test_what_is_no_number_is_at_rest(open_seated, read):
 )
 def test_where_there_is_no_gamepad_the_page_says_why_and_what_to_do(open_seated, script, said):
     tab = open_seated(script=script)
+    tab.wait(f".device-tab[data-absent][title*='{said}']")
     show_pad(tab, "gamepad")
     tab.wait(f".gamepads-none:has-text('{said}')")
 

@@ -97,8 +97,8 @@ class LedMaster:
         if self._quarrel:
             return _Trouble(Trouble.TWO, " and ".join(sorted(self._quarrel)))
         self.name = next(iter(used), self.name)
-        if self.name not in self._met:
-            self.name = next(iter(hands), self.name)
+        if self.name not in self._met or (robot is None and self.name not in hands):
+            self.name = next(iter(hands), self.name)  # between two episodes nothing is lost with a device
         self._met |= hands.keys()
         if self.name not in hands:
             return _Trouble(Trouble.GONE if self.name in self._met else Trouble.ABSENT, self.name)

@@ -32,5 +32,7 @@ def trouble(master: MasterState) -> str:
     """What is wrong and what to do; empty where nothing is."""
     if master.trouble is Trouble.NONE:
         return ""
+    if master.trouble is Trouble.GONE and master.trouble_with == "pointer":
+        return say("device.pointer_gone")
     those = say("device.also").join(named(device) for device in master.trouble_with.split(" and "))
     return say(f"device.{master.trouble.value}", devices=those)

@@ -245,6 +245,16 @@ def test_where_a_pad_was_pulled_out_the_keys_take_over_when_they_are_used():
     assert (hold(master, 0.1).engaged, master.name) == (True, "keyboard")
 
 
+def test_a_device_that_was_taken_away_between_two_episodes_is_not_missed():
+    master = seated(pad())
+    hold(master, 0.5, pads=[pad(UP)])
+    idle = msgspec.structs.replace(REFINING, phase=Phase.IDLE)
+    hold(master, 0.02, pads=[pad()], robot=idle)
+    sample = hold(master, 0.02, robot=idle)
+    assert (sample.trouble, master.name) == (Trouble.NONE, "keyboard")
+    assert hold(master, 0.02).engaged
+
+
 def test_a_stick_that_drifts_asks_for_nothing_and_leaves_the_keys_alone():
     drifting = pad((0.3, 0.0, 0.0, 0.0))
     master = seated(drifting)

@@ -35,3 +35,8 @@ def test_a_device_that_has_no_other_name_is_called_by_its_own():
 def test_every_trouble_is_one_sentence_that_names_the_device(trouble):
     said = told(trouble=trouble, trouble_with="gamepad and keyboard")["device-trouble"]
     assert "gamepad and keys" in said
+
+
+def test_of_a_pointer_pad_that_is_gone_it_is_said_that_it_is_not_shown():
+    said = told(trouble=Trouble.GONE, trouble_with="pointer")["device-trouble"]
+    assert said == "The pointer pad is not shown any more: bring it forward, or use another device."

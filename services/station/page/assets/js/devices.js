@@ -56,8 +56,18 @@ export class Devices {
   }
 
   draw() {
+    this.markAbsent();
     if (this.shown === "gamepad") this.drawGamepads();
     if (this.shown === "pointer") this.drawPointer();
+  }
+
+  // A device that is not there is said to be so, with the reason, before anybody looks for it.
+  markAbsent() {
+    const because = noGamepadBecause();
+    const tab = this.tabs.find(({ dataset }) => dataset.padFor === "gamepad");
+    if (tab.title === because) return;
+    tab.title = because;
+    tab.toggleAttribute("data-absent", because !== "");
   }
 
   drawGamepads() {
