@@ -189,6 +189,17 @@ def test_the_pad_of_the_device_that_is_taken_into_use_comes_forward(tab, calm_st
     tab.wait("[data-value=device-name]:text-is('gamepad')")
 
 
+def test_a_master_that_is_not_heard_for_a_moment_takes_no_pad_away(tab, calm_station):
+    _, feed = calm_station
+    show_pad(tab, "pointer")
+    heard = feed.view
+    feed.view = replace(heard, master=None)
+    tab.wait(".devices[data-device='']")
+    feed.view = heard
+    tab.wait(".devices[data-device=keyboard]")
+    tab.wait(".device-pad[data-pad-of=pointer]")
+
+
 def test_a_tab_that_was_clicked_leaves_space_to_finish(tab, pressed):
     show_pad(tab, "gamepad")
     tab.page.keyboard.press("Space")
