@@ -30,7 +30,8 @@ LEASH = 0.03
 or against a wall, slips, and the arm follows again as soon as the hand turns back."""
 
 LEASH_TURN = 0.15
-"""The same of its orientation [rad]."""
+"""A hand turns the reference no further from how the arm is oriented [rad]. Where the orientation gives way by itself,
+at a joint's limit, the reference stays what the hand made it, and the arm turns back to it as soon as it can."""
 
 SAMPLE_S = 0.04
 """Between two points of the account of a motion by hand [s]; more where there would be too many of them."""
@@ -121,21 +122,19 @@ class Teleoperation:
         """
         if not self.finished:
             self._ticks += 1
-            self.reference = _leashed(wanted.of(self.reference), self._measured())
+            self.reference = _leashed(self.reference, wanted.of(self.reference), self._measured())
         return self.reference
 
     def rejoin(self, measured: Pose, *, at_once: bool) -> None:
-        """Go on after a hold, from where the arm is."""
-        del at_once
-        self.reference = measured
+        """Go on after a hold: from where the arm is, unless it was short and the arm did not leave."""
+        if not (at_once and np.linalg.norm(measured.position - self.reference.position) <= LEASH):
+            self.reference = measured
 
 
-def _leashed(reference: Pose, measured: Pose) -> Pose:
-    """The reference, drawn to within the leash of where the arm is."""
+def _leashed(before: Pose, reference: Pose, measured: Pose) -> Pose:
+    """The reference after a hand moved it: drawn to within the leash of where the arm is, and turned no further."""
     offset, far = clamp_length(reference.position - measured.position, LEASH)
     position = measured.position + offset if far else reference.position
-    if angle_between(measured.orientation, reference.orientation) <= LEASH_TURN:
-        return Pose(position, reference.orientation)
-    turn = log_map(multiply(reference.orientation, conjugate(measured.orientation)))
-    shortened = exp_map(turn * (LEASH_TURN / float(np.linalg.norm(turn))))
-    return Pose(position, multiply(shortened, measured.orientation))
+    gap = angle_between(measured.orientation, reference.orientation)
+    slips = gap > LEASH_TURN and gap > angle_between(measured.orientation, before.orientation)
+    return Pose(position, before.orientation if slips else reference.orientation)

@@ -111,11 +111,34 @@ def test_a_hand_that_pulls_where_the_arm_cannot_follow_slips_and_is_followed_bac
     assert max(back) == pytest.approx(max(far, wide) - 0.011)
 
 
-def test_after_a_hold_it_goes_on_from_where_the_arm_is():
+@given(st.lists(st.tuples(displacements, rotations), min_size=1, max_size=20))
+def test_where_the_orientation_gives_way_a_hand_that_turns_nothing_keeps_it(ways):
+    """However the arm is oriented meanwhile, it is asked for what it was asked for."""
+    arm = [HERE]
+    motion = Teleoperation(lambda: arm[0], PERIOD)
+    for offset, turn in ways:
+        arm[0] = Pose(motion.reference.position, multiply(exp_map(turn), HERE.orientation))
+        motion.advance(Correction(0.01 * offset, np.zeros(3)))
+        np.testing.assert_array_equal(motion.reference.orientation, HERE.orientation)
+
+
+FAR = Pose(HERE.position + 0.1, HERE.orientation)
+
+
+@pytest.mark.parametrize(("measured", "at_once"), [(HERE, False), (FAR, True), (FAR, False)])
+def test_after_a_hold_it_goes_on_from_where_the_arm_is(measured, at_once):
+    motion = Teleoperation(lambda: HERE, PERIOD)
+    motion.rejoin(measured, at_once=at_once)
+    assert motion.reference is measured
+
+
+def test_short_holds_that_come_often_move_nothing():
     led = Led()
-    list(led.stroke(Correction(np.zeros(3), np.zeros(3)), Correction(np.array([0.1, 0.0, 0.0]), np.zeros(3))))
-    led.motion.rejoin(HERE, at_once=False)
-    assert led.pose is HERE
+    list(led.stroke(Correction(np.zeros(3), np.zeros(3)), Correction(np.zeros(3), np.array([0.0, 0.5, 0.0]))))
+    before = led.pose
+    for _ in range(100):
+        led.motion.rejoin(Pose(before.position + 0.001, HERE.orientation), at_once=True)
+    assert led.pose is before
 
 
 def test_it_ends_by_itself_after_the_longest_time():

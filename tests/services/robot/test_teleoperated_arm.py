@@ -93,3 +93,14 @@ def test_a_hand_that_pulls_out_of_reach_slips_and_is_followed_back_at_once(site)
     steer(site, far, back, 0.6)
     be(site, back, 0.3)
     assert stuck - site.state.measured.position[2] > LEASH
+
+
+def test_where_the_orientation_gives_way_it_is_asked_for_all_the_same(site):
+    before = site.state.reference
+    far, back = ((-0.1, 0.0, 1.1), STILL[1]), ((-0.1, 0.0, 0.1), STILL[1])
+    steer(site, STILL, back, 0.8)
+    steer(site, back, far, 5.0)
+    assert apart(before, site.state.measured)[1] > np.radians(20.0), "it gave way"
+    steer(site, far, back, 5.0)
+    assert apart(before, site.state.reference)[1] < np.radians(0.2)
+    assert apart(before, site.state.measured)[1] < np.radians(15.0)
