@@ -159,7 +159,8 @@ class Feed:
                 )
             if self.moving_robot:
                 self.view = replace(self.view, robot=swinging(self.view.robot, tick * FEED_PERIOD_S))
-            here = msgspec.structs.replace(self._page.attendance(), holder=self.view.authority.holder)
+            holder = self.view.authority.holder if self.view.authority is not None else ""
+            here = msgspec.structs.replace(self._page.attendance(), holder=holder)
             self._page.show(replace(self.view, attendances=(here,)))
 
 
