@@ -1,6 +1,7 @@
 """Somebody at the operator's page without a browser: alive, in view, holding nothing, pressing as they are told."""
 
 import contextlib
+import secrets
 import threading
 import time
 
@@ -19,9 +20,21 @@ class Somebody:
     Args:
         host: that the page is served on.
         port: of the page.
+        name: that they give.
+        role: that they ask for.
+
+    Attributes:
+        shown: what the page shows them, by name.
+        armed: they have the input.
     """
 
-    def __init__(self, host, port):
+    def __init__(self, host, port, name="", role=""):
+        self.shown = {}
+        self.armed = False
+        self._seat = f"seat-of-{name or 'somebody'}"
+        self._load = f"load-{secrets.token_hex(8)}"
+        self._name = name
+        self._role = role
         self._address = f"{host}:{port}"
         self._over = threading.Event()
         self._presses = []
@@ -33,17 +46,21 @@ class Somebody:
         return self
 
     def __exit__(self, *_):
+        self.leave()
+
+    def leave(self):
+        """Close the page."""
         self._over.set()
         self._thread.join(5.0)
 
-    def press(self, action):
+    def press(self, action, argument=""):
         """Press a button, once."""
-        self._presses.append(action)
+        self._presses.append((action, argument))
 
     def _sit(self):
         while not self._over.is_set():
             with contextlib.suppress(OSError, ConnectionClosed), self._opened() as link:
-                self._say(link, Hello("seat-of-somebody", "load-of-somebody"))
+                self._say(link, Hello(self._seat, self._load, self._name, self._role))
                 self._stay(link)
             self._over.wait(0.1)
 
@@ -57,7 +74,8 @@ class Somebody:
             self._say(link, Held(keys=(), visible=True, focused=True, controllers=(), drawn=(0, 0, 0), **self._stamp()))
             while pressed < len(self._presses):
                 pressed += 1
-                self._say(link, Pressed(number=pressed, action=self._presses[pressed - 1], **self._stamp()))
+                action, argument = self._presses[pressed - 1]
+                self._say(link, Pressed(number=pressed, action=action, argument=argument, **self._stamp()))
             self._read(link, time.monotonic() + PERIOD_S)
 
     def _stamp(self):
@@ -68,11 +86,14 @@ class Somebody:
     def _say(link, message):
         link.send(msgspec.json.encode(message).decode())
 
-    @staticmethod
-    def _read(link, until):
-        """Let what the page is told pass."""
+    def _read(self, link, until):
+        """Look at what the page is told."""
         while (left := until - time.monotonic()) > 0.0:
             try:
-                link.recv(timeout=left)
+                frame = link.recv(timeout=left)
             except TimeoutError:
                 return
+            if isinstance(frame, str):
+                news = msgspec.json.decode(frame)
+                self.shown.update(news["values"])
+                self.armed = news["armed"]

@@ -23,8 +23,9 @@ def watching(state: Workflow, view: View, settings: Settings) -> Step:
     if authority is not None and state.asks and authority.kept_from == state.asks:
         return Step(replace(state, asks=0, notice=say("event.keeps", who=taker or say("event.whoever"))))
     offered = frozenset({Action.TAKE_OVER} if state.asks else {Action.ASK, Action.TAKE_OVER})
-    wanted = _wanted(state, view, taker) if view.present else None
-    return Step(wanted or replace(state, offered=offered))
+    if not view.present:  # what would be pressed now would not count
+        return Step(replace(state, offered=frozenset()))
+    return Step(_wanted(state, view, taker) or replace(state, offered=offered))
 
 
 def _wanted(state: Workflow, view: View, taker: str) -> Workflow | None:

@@ -196,6 +196,9 @@ def test_an_absent_operator_asks_for_nothing():
     taken_over(site)
     site.step(Action.TAKE_OVER, present=False)
     assert site.state.phase is Phase.WATCHING
+    assert site.state.offered == frozenset(), "what would not count is not offered"
+    site.step()
+    assert site.state.offered == {Action.ASK, Action.TAKE_OVER}
 
 
 def test_a_station_that_watched_watches_on_after_a_stop_and_its_release():
