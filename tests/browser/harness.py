@@ -14,6 +14,7 @@ from typing import Any
 import cv2
 import msgspec
 import numpy as np
+from lessons import history
 
 from protocol import messages
 from protocol.messages import Box, Figure, Light, Mode, Phase, Pose
@@ -113,6 +114,7 @@ def working_view() -> PageView:
             known=0.6,
             way=messages.Way(1, 2, 0.8),
         ),
+        history=history(),
         object_pose=messages.ObjectPose(pose=OBJECT, tag=582, error=0.0021, pictures=9),
         drawing=drawing(),
         force=(0.0, 0.0, 2.5),

@@ -28,8 +28,10 @@ export class History {
     const share = this.panel.querySelector(".confidence").dataset.share;
     if (share && document.activeElement !== this.slider) this.slider.value = share;
     if (listed) this.arrange(listed);
-    const turns = this.panel.dataset.turns.split(" ");
+    const isSeated = document.body.dataset.link === "armed";
+    const turns = isSeated ? this.panel.dataset.turns.split(" ") : [];
     for (const button of this.list.querySelectorAll(".turn")) button.disabled = !turns.includes(button.dataset.action);
+    this.slider.disabled = !isSeated;
   }
 
   arrange({ version, rows }) {
