@@ -21,8 +21,9 @@ pytestmark = [pytest.mark.system, pytest.mark.browser, pytest.mark.zenoh, pytest
 
 EPISODE_S = 120.0
 TRIES = 3
-SHOWN = "[document.body.matches('[data-let-go]'), document.querySelector('[data-action=go_on]:enabled') !== null]"
-"""Whether the page says to let go of the keys, and whether it asks to go on: one look, not one for each."""
+SHOWN = """[document.body.matches('[data-let-go]') || document.querySelector('.device-trouble').textContent !== '',
+    document.querySelector('[data-action=go_on]:enabled') !== null]"""
+"""Whether the page says to let go, and whether it asks to go on: one look, not one for each."""
 
 LEAD = 0.03
 """A person looks a little ahead: share of the motion."""
