@@ -18,6 +18,11 @@ SEAT = "the-seat-of-all-tests"
 SIZE = {"width": 1600, "height": 900}
 
 
+def pytest_addoption(parser):
+    """Where to write the documentation's pictures."""
+    parser.addoption("--pictures", help="folder to write the pictures of all states to")
+
+
 @pytest.fixture(scope="session")
 def eventually():
     """A function that waits until a condition holds, and fails where it does not within a few seconds."""

@@ -39,7 +39,7 @@ def states():
         "learning": _view("learning", "learning", Light.AMBER, (), progress=1.0, verdict=reached),
         "watching": _of_bert(_view("watching", "watching", Light.AMBER, ("ask", "take_over"))),
         "stopped": _stopped(_view("stopped", "stopped", Light.RED, ("release_stop",), phase=Phase.STOPPED)),
-        "finished": _view("finished", "finished", Light.AMBER, ("next",), progress=1.0, verdict=reached),
+        "finished": _view("finished", "finished", Light.GREEN, ("next",), progress=1.0, verdict=reached),
         "stale": replace(_view("alone", "executing", Light.RED, ("finish",), phase=Phase.EXECUTE), robot_age_s=1.4),
         "nothing": type(working_view())(),
     }

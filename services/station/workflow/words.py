@@ -80,7 +80,7 @@ def _who(safety: SafetyState) -> str:
 
 
 def _light(state: Workflow, view: View) -> Light:
-    if state.phase is Phase.DECIDING:
+    if state.phase is Phase.DECIDING or (state.phase is Phase.FINISHED and state.offered):
         return Light.GREEN
     if state.phase is not Phase.EXECUTING:
         return Light.AMBER

@@ -116,6 +116,12 @@ def test_light_and_text(state, seen, light, text):
     assert told(state, **seen) == (light, text)
 
 
+def test_a_run_that_is_over_is_the_operator_s_turn_where_another_one_can_begin():
+    over = Workflow(phase=Phase.FINISHED, closure=Closure(closed=True))
+    assert told(over)[0] is Light.AMBER
+    assert told(replace(over, offered=frozenset({Action.NEXT})))[0] is Light.GREEN
+
+
 @pytest.mark.parametrize("state", [REFINING, ALONE])
 def test_a_held_robot_has_a_light_of_its_own_and_never_green(state):
     light, text = told(state, robot=robot(HOLD, hold_reason="no hand is at the operator's keys or device"))

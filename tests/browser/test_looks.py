@@ -1,0 +1,131 @@
+"""How the main states look: regions where they belong, none of them empty. They are pictured for the documentation by
+
+deploy/test tests/browser/test_looks.py --pictures deploy/pictures/states
+"""
+
+from dataclasses import replace
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from states import states
+
+pytestmark = pytest.mark.browser
+
+STATES = states()
+TOLERANCE = 0.05
+"""Share of the window by which a region may be elsewhere: other fonts, another word."""
+
+REGIONS = {
+    ".header": (0.0, 0.0, 1.0, 0.06),
+    ".scene": (0.0, 0.05, 0.64, 0.70),
+    ".timeline": (0.0, 0.71, 0.64, 0.79),
+    ".pad": (0.0, 0.79, 0.64, 1.0),
+    ".guide": (0.65, None, 1.0, None),
+    ".verdict": (0.65, None, 1.0, None),
+    ".history": (0.65, None, 1.0, 0.79),
+    ".stop": (0.65, 0.79, 1.0, 1.0),
+}
+"""Left, top, right and bottom as shares of a window of 1600 x 900; None where it depends on what is said."""
+
+PICTURE = (1280, 720)
+AT_LEAST_SENT = 3
+"""So often the cameras' pictures are sent, as new ones each time: one that is old is grey."""
+
+COLOURS = {"red": (229, 72, 77), "amber": (240, 180, 41), "hold": (185, 163, 255), "green": (46, 194, 126)}
+
+
+def show(tab, feed, view):
+    """Show a view, until its sentence is there."""
+    feed.view = view
+    words = view.teaching.text if view.teaching is not None else "The station is starting."
+    tab.wait(f'.light-text:text-is("{words}")')
+
+
+def seen(tab, selector):
+    """A region as it is seen, shape (height, width, 3), red first."""
+    image = cv2.imdecode(np.frombuffer(tab.page.locator(selector).first.screenshot(), np.uint8), cv2.IMREAD_COLOR)
+    return cv2.cvtColor(image, cv2.COLOR_BGR2RGB).astype(int)
+
+
+@pytest.mark.parametrize("name", STATES)
+def test_every_region_is_where_it_belongs_in_every_state(tab, station, name):
+    show(tab, station[1], STATES[name])
+    boxes = {region: tab.page.locator(region).first.bounding_box() for region in REGIONS}
+    sides = {
+        region: (box["x"] / 1600, box["y"] / 900, (box["x"] + box["width"]) / 1600, (box["y"] + box["height"]) / 900)
+        for region, box in boxes.items()
+    }
+    moved = {
+        region: (sides[region], wanted)
+        for region, wanted in REGIONS.items()
+        if any(w is not None and abs(s - w) > TOLERANCE for s, w in zip(sides[region], wanted, strict=True))
+    }
+    assert moved == {}
+
+
+@pytest.mark.parametrize("scheme", ["dark", "light"])
+def test_no_region_is_empty(tab, station, scheme):
+    tab.page.emulate_media(color_scheme=scheme)
+    show(tab, station[1], STATES["failed"])
+    flat = [region for region in REGIONS if seen(tab, region).std() < 5.0]
+    tab.page.emulate_media(color_scheme="dark")
+    assert flat == []
+
+
+@pytest.mark.parametrize(
+    ("name", "light"), [("alone", "red"), ("learning", "amber"), ("paused", "hold"), ("correcting", "green")]
+)
+def test_the_light_is_seen_in_its_colour_and_no_other_is(tab, station, name, light):
+    show(tab, station[1], STATES[name])
+    lamps = seen(tab, ".lamps")
+    shares = {colour: np.mean(np.all(np.abs(lamps - np.array(rgb)) < 12, axis=2)) for colour, rgb in COLOURS.items()}
+    assert shares[light] > 0.02
+    assert all(share < 0.002 for colour, share in shares.items() if colour != light)
+
+
+@pytest.fixture(scope="session")
+def scenery():
+    """What the robot's cameras see of the scene, as JPEG: head and wrist."""
+    pytest.importorskip("mujoco")
+    from harness import OBJECT, Picture
+
+    from sim.robots.description import prepare
+    from sim.tasks import DISHWASHER
+    from sim.world.cameras import Cameras
+    from sim.world.physics import World
+
+    variant, description = DISHWASHER.variants[1], prepare()
+    world = World(DISHWASHER, variant, description)
+    world.reset(np.array(OBJECT.position))
+    cameras = Cameras(DISHWASHER, description)
+    cameras.show(variant)
+    drawn = [cameras.render(name, world.state) for name in ("head", "wrist")]
+    cameras.close()
+    encoded = [cv2.imencode(".jpg", cv2.cvtColor(image, cv2.COLOR_RGB2BGR))[1].tobytes() for image in drawn]
+    return {name: Picture(jpeg, 0.02) for name, jpeg in zip(("head", "wrist"), encoded, strict=True)}
+
+
+@pytest.fixture
+def folder(request, tmp_path):
+    """Where the pictures go."""
+    chosen = Path(request.config.getoption("--pictures", default=None) or tmp_path)
+    chosen.mkdir(parents=True, exist_ok=True)
+    return chosen
+
+
+@pytest.mark.parametrize("name", STATES)
+def test_every_state_is_pictured(tab, station, scenery, folder, name):
+    """The pictures are the documentation's; how they look in detail is for people to judge."""
+    width, height = PICTURE
+    tab.page.set_viewport_size({"width": width, "height": height})
+    tab.wait(".scene[data-view=live]")
+    show(tab, station[1], STATES[name])
+    tab.page.wait_for_timeout(1500)  # the view is drawn as finely as it can once nothing changes
+    for _ in range(AT_LEAST_SENT if STATES[name].head is not None else 0):
+        sent = {camera: replace(picture, jpeg=bytes(bytearray(picture.jpeg))) for camera, picture in scenery.items()}
+        station[1].view = replace(STATES[name], **sent)
+        tab.page.wait_for_timeout(200)
+    tab.page.screenshot(path=folder / f"{name}.jpg", type="jpeg", quality=60)
+    assert (folder / f"{name}.jpg").stat().st_size > 10_000
