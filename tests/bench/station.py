@@ -1,7 +1,8 @@
 """The operator's page in a real browser: what it loads, how often it draws, how soon a key moves the robot.
 
 Runs `retouch up` as a person would, opens the page in Chromium, lets two people look on from elsewhere, and taps a key
-all through a refinement. Without a graphics card the 3-D view is drawn by the processor, beside all else.
+all through a refinement. Then a scripted person teaches an empty skill by waypoints, and their time
+is taken. Without a graphics card the 3-D view is drawn by the processor, beside all else.
 """
 
 import argparse
@@ -29,6 +30,8 @@ from services.process.config import load
 from services.station.page.link import FRAME_HEADER
 from services.station.page.said import Held, Hello
 from tests.bench.support.results import Result, report
+from tests.bench.support.teaching import SCENE as TAUGHT
+from tests.bench.support.teaching import teach
 from tests.conftest import CHROMIUM_FLAGS
 from tests.system.harness import START_S, Command, Witness, configured, free_endpoint
 
@@ -76,7 +79,7 @@ class Operator:
 
     def __init__(self, browser, url):
         self.page = browser.new_page(viewport=SIZE)
-        self.page.add_init_script(COUNT)
+        self.page.add_init_script(f"localStorage.setItem('retouch-tour', 'seen'); {COUNT}")
         self.loaded, self.taps_ns = 0, []
         network = self.page.context.new_cdp_session(self.page)
         network.send("Network.enable")
@@ -136,29 +139,38 @@ class Onlooker(threading.Thread):
                 link.send(msgspec.json.encode(held).decode())
 
 
-def run(scene):
-    """One run; its figures."""
+@contextlib.contextmanager
+def operated(*flags, refine_s=20.0):
+    """A whole system with somebody at its page: the operator, a witness, where the page is and its network."""
     with tempfile.TemporaryDirectory() as name, sync_playwright() as started:
         folder, endpoint = Path(name), free_endpoint()
-        configuration = configured(folder, endpoint, station=f"refine_s = {REFINE_S}\n")
+        configuration = configured(folder, endpoint, station=f"refine_s = {refine_s}\n")
         section = load(configuration).station
-        up = ("up", "--fresh", "--no-browser", "--scene", scene, "--config", configuration)
+        up = ("up", "--fresh", "--no-browser", *flags, "--config", configuration)
         browser = started.chromium.launch(executable_path=shutil.which("chromium"), args=list(CHROMIUM_FLAGS))
         with Command(*up, folder=folder) as command, Witness(endpoint) as witness:
             command.until(lambda: witness.teaching, START_S, "the station is there")
             url = f"http://{section.host}:{section.port}/"
-            operator = Operator(browser, url)
-            onlookers = [Onlooker(url) for _ in range(2)]
-            for onlooker in onlookers:
-                onlooker.start()
-            figures = refine(operator, witness, endpoint)
-            for onlooker in onlookers:
-                onlooker.over.set()
+            yield Operator(browser, url), witness, url, endpoint
         browser.close()
+
+
+def run(scene):
+    """One run; its figures."""
+    with operated("--scene", scene, refine_s=REFINE_S) as (operator, witness, url, endpoint):
+        onlookers = [Onlooker(url) for _ in range(2)]
+        for onlooker in onlookers:
+            onlooker.start()
+        figures = refine(operator, witness, endpoint)
+        for onlooker in onlookers:
+            onlooker.over.set()
+    with operated("--scene", TAUGHT, "--untaught") as (teacher, witness, _, _):
+        taught = teach(teacher.page, witness)
     return [
         Result("page until it can be used", operator.usable_s, "s", 2.0),
         Result("page, all that is loaded", operator.loaded / 1e6, "MB", 3.0),
         *figures,
+        *taught,
     ]
 
 
@@ -244,7 +256,7 @@ def main():
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures as JSON")
     parser.add_argument("--scene", default="dishwasher", help="where the robot stands (default: dishwasher)")
     arguments = parser.parse_args()
-    print("bench: one refinement at the page, about two minutes", file=sys.stderr)
+    print("bench: one refinement and one skill taught at the page, about four minutes", file=sys.stderr)
     report(run(arguments.scene), arguments.json)
 
 

@@ -1,0 +1,60 @@
+"""The chooser of methods and the list of waypoints, in a real browser."""
+
+from dataclasses import replace
+
+import msgspec
+import pytest
+
+from protocol.messages import Method, Pose
+from services.station.press import Press
+
+pytestmark = pytest.mark.browser
+
+WAYPOINTS = tuple(Pose((0.5 + 0.1 * i, 0.0, 0.6), (1.0, 0.0, 0.0, 0.0)) for i in range(3))
+EDITS = ("store", "delete", "earlier", "later", "clear", "method")
+
+
+@pytest.fixture
+def storing(tab, station):
+    """A tab in which waypoints are stored."""
+    _, feed = station
+    shown = msgspec.structs.replace(
+        feed.view.teaching, method=Method.WAYPOINTS, waypoints=WAYPOINTS, actions=("finish", *EDITS)
+    )
+    drawing = msgspec.structs.replace(feed.view.drawing, waypoints=tuple(one.position for one in WAYPOINTS))
+    feed.view = replace(feed.view, teaching=shown, drawing=drawing)
+    tab.wait(".waypoint:nth-child(3)")
+    return tab
+
+
+def test_a_method_is_chosen_by_its_button(storing, presses):
+    assert storing.page.get_attribute("[data-argument=waypoints]", "aria-pressed") == "true"
+    storing.page.click("[data-argument=demonstrate]")
+    assert presses() == [Press("method", "demonstrate")]
+
+
+def test_each_waypoint_is_told_with_its_number_and_place(storing):
+    rows = storing.page.locator(".waypoint-place").all_inner_texts()
+    assert rows == ["1: 50, 0, 60 cm", "2: 60, 0, 60 cm", "3: 70, 0, 60 cm"]
+    assert storing.faults == []
+
+
+@pytest.mark.parametrize("edit", ["store", "delete", "earlier", "later"])
+def test_a_waypoint_is_changed_by_the_buttons_of_its_row(storing, presses, edit):
+    storing.page.click(f".waypoint:nth-child(2) [data-action={edit}]")
+    assert presses() == [Press(edit, "2")]
+
+
+def test_the_first_goes_no_earlier_and_the_last_no_later(storing):
+    ends = (".waypoint:first-child [data-action=earlier]", ".waypoint:last-child [data-action=later]")
+    assert all(storing.page.is_disabled(end) for end in ends)
+
+
+def test_all_are_taken_away_only_when_that_is_confirmed(storing, presses):
+    storing.page.click("[data-action=clear]")
+    storing.page.click(".confirm-yes")
+    assert presses() == [Press("clear")]
+
+
+def test_while_it_moves_there_is_no_list(tab):
+    assert not tab.shows(".waypoints-panel")
