@@ -23,7 +23,8 @@ SHOWN = "[document.body.matches('[data-let-go]'), document.querySelector('[data-
 """Whether the page says to let go of the keys, and whether it asks to go on: one look, not one for each."""
 
 LOOK_MS = 20
-LEADS_S = 60.0
+LEADS_S = 180.0
+HEARD_S = 3.0
 DECIDES_S = 120.0
 
 
@@ -40,10 +41,32 @@ class Teacher:
         self._witness = witness
         self._seen = witness.bus.subscribe(topics.OBJECT_POSE)
 
-    def press(self, action, argument=""):
-        """Press a button of the page once it is offered."""
+    def press(self, action, argument="", seen=None):
+        """Press a button of the page until it counts; again where the press came too late to be done.
+
+        Args:
+            action: its name.
+            argument: what it is about.
+            seen: whether it counts; where nothing is said, that the robot is not waited with any more.
+        """
         about = f"[data-argument='{argument}']" if argument else ":not([data-argument])"
-        self._page.locator(f"[data-action={action}]{about}:enabled").click(timeout=DECIDES_S * 1e3)
+        button = self._page.locator(f"[data-action={action}]{about}:enabled")
+        counts = seen or (lambda: self._witness.teaching is not None and self._witness.teaching.phase != "deciding")
+        deadline = time.monotonic() + DECIDES_S
+        while not counts():
+            assert time.monotonic() < deadline, f"{action} does not count; {self._witness.teaching}"
+            with contextlib.suppress(NotThere):
+                button.click(timeout=HEARD_S * 1e3)
+            with contextlib.suppress(AssertionError):
+                self.until(counts, HEARD_S, action)
+
+    def choose(self, method):
+        """Choose how to teach."""
+        self.press("method", method, lambda: self._taught(lambda teaching: teaching.method.value == method))
+
+    def _taught(self, says):
+        teaching = self._witness.teaching
+        return teaching is not None and says(teaching)
 
     def until(self, seen, within_s, what):
         """Look on until something is seen; what `seen()` says. The browser lives on meanwhile."""
@@ -81,9 +104,8 @@ class Teacher:
     def store(self, place):
         """Lead to a place and store it as a waypoint."""
         self.lead_to(place)
-        before = len(self._witness.teaching.waypoints)
-        self.press("store")
-        self.until(lambda: len(self._witness.teaching.waypoints) > before, DECIDES_S, "the waypoint is stored")
+        before = len(self.until(lambda: self._witness.teaching, DECIDES_S, "the station is heard").waypoints)
+        self.press("store", seen=lambda: self._taught(lambda teaching: len(teaching.waypoints) > before))
 
     def done(self):
         """Space: the motion ends here."""

@@ -38,7 +38,7 @@ def way(teacher):
 def test_waypoints_teach_an_empty_skill(teacher):
     asked = teacher.decides()
     assert "Nothing is learnt yet" in asked.text
-    teacher.press("method", "waypoints")
+    teacher.choose("waypoints")
     teacher.take_up()
     for place in way(teacher)[1:]:
         teacher.store(place)
@@ -58,7 +58,7 @@ def test_waypoints_teach_an_empty_skill(teacher):
 
 def test_a_demonstration_teaches_an_empty_skill(teacher):
     teacher.decides()
-    teacher.press("method", "demonstrate")
+    teacher.choose("demonstrate")
     teacher.take_up()
     for place in np.array(way(teacher))[1:]:
         teacher.lead_to(place)
@@ -68,7 +68,7 @@ def test_a_demonstration_teaches_an_empty_skill(teacher):
     assert shown.updates == 0, "nothing is learnt unasked"
     assert shown.recommended == "teach"
     teacher.press("teach")
-    teacher.until(lambda: teacher.decides().updates == 1, START_S, "it is learnt")
+    assert teacher.decides(attempts=1).updates == 1
     teacher.press("execute")
     alone = teacher.decides(attempts=2).attempts[-1]
     assert alone.mode is Mode.AUTONOMOUS

@@ -21,7 +21,7 @@ def teach(page, witness):
     teacher = Teacher(page, witness)
     teacher.decides()
     began = time.monotonic()
-    teacher.press("method", "waypoints")
+    teacher.choose("waypoints")
     teacher.take_up()
     # Where the gripper begins is where the motion begins: the first place of the way is no waypoint.
     for place in TABLE.corridor(TABLE.variants[-1], teacher.object_seen()).positions[1:]:
