@@ -92,7 +92,7 @@ def test_a_message_says_who_sent_it_and_when(bus):
     ("payload", "schema", "cause"),
     [
         (b"\xc1", "", "malformed"),
-        (b"\0" * 2000, "", "oversized"),
+        (b"\0" * (topics.MASTER_STATE.max_bytes + 1), "", "oversized"),
         (b"\x80", "MasterState/9", "wrong_version"),
     ],
 )

@@ -56,7 +56,7 @@ def test_a_sample_ages_on_the_receivers_clock(network, clock):
     ("payload", "schema", "cause"),
     [
         (b"\xc1", "", "malformed"),
-        (b"\0" * 2000, "", "oversized"),
+        (b"\0" * (topics.MASTER_STATE.max_bytes + 1), "", "oversized"),
         (b"", "MasterState/9", "wrong_version"),
     ],
 )

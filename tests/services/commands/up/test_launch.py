@@ -11,7 +11,7 @@ from services.commands.settings import configuration, reachable
 from services.commands.up.launch import TEACHER, Launch, _jobs, check_ports
 from services.process.config import Configuration, StationSection, ViewerSection
 from services.process.exceptions import CommandFailed, EndpointInUse, PortInUse
-from services.process.master_devices import Keyboard, Scripted
+from services.process.master_devices import Page, Scripted
 from services.process.processes import PROCESS_NAMES
 from sim.exceptions import SimError
 
@@ -68,7 +68,7 @@ def test_a_report_that_could_not_be_written_is_refused_before_anything_starts(tm
 
 def test_headless_puts_a_script_in_the_operators_place():
     by_hand, scripted = configuration(arguments()), configuration(arguments("--headless", "--once"))
-    assert isinstance(by_hand.master.device, Keyboard)
+    assert isinstance(by_hand.master.device, Page)
     assert isinstance(scripted.master.device, Scripted)
     assert (by_hand.station.scripted, by_hand.station.once) == (False, False)
     assert (scripted.station.scripted, scripted.station.once) == (True, True)
