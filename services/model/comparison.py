@@ -12,9 +12,8 @@ from lfd.models.model import MovementModel
 from lfd.motion.demonstration import Situation
 from lfd.motion.trajectory import Trajectory
 from lfd.store.stored import StoredDemonstration
-from protocol.history import Compared, Effect, Field
 from protocol.messages import Motion
-from protocol.queries import Refused
+from protocol.queries import Compared, Effect, Field, Refused
 from services.bus.arrays import Floats, motion_to_wire, to_wire, vector3
 from services.model.history import History
 from sim.tasks import AnyScene

@@ -12,7 +12,7 @@ from lfd.motion.departure import Departure
 from lfd.store.database import DemonstrationStore
 from lfd.store.stored import Binding, Counts, Made, Purpose, StoredDemonstration, Turn
 from protocol import messages
-from protocol.history import ENTRIES_AT_ONCE, Entry, HistoryListed
+from protocol.queries import ENTRIES_AT_ONCE, Entry, HistoryListed
 from services.bus.arrays import vector3
 from services.model.learning import Fit, learn_all
 from services.process.exceptions import ServiceError

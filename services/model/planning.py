@@ -11,7 +11,7 @@ from lfd.motion.resampling import resample
 from lfd.motion.trajectory import PREDICTION_POINTS, Trajectory
 from lfd.motion.waypoints import LEAST_WAYPOINTS, Passing, passed_at, through_waypoints
 from protocol.messages import Origin, Pose
-from protocol.plan import Plan
+from protocol.queries import Plan
 from services.bus.arrays import motion_from_wire
 from services.model.skill import check_duration
 from services.process.exceptions import ServiceError

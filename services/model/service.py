@@ -17,9 +17,20 @@ from lfd.motion.trajectory import Trajectory
 from lfd.store.database import DemonstrationStore
 from lfd.store.stored import Counts, Purpose
 from protocol import messages, queries, topics
-from protocol.history import Compare, Compared, HistoryListed, ListHistory
-from protocol.plan import Plan
-from protocol.queries import AddDemonstration, Learnt, Predict, Predicted, Redo, Refused, Undo
+from protocol.queries import (
+    AddDemonstration,
+    Compare,
+    Compared,
+    HistoryListed,
+    Learnt,
+    ListHistory,
+    Plan,
+    Predict,
+    Predicted,
+    Redo,
+    Refused,
+    Undo,
+)
 from services.bus.arrays import motion_from_wire, motion_to_wire, to_wire
 from services.bus.bus import Bus, Rep, Req
 from services.bus.identity import new_number

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from protocol import queries
-from protocol.history import Compare, Compared, HistoryListed, ListHistory
 from protocol.messages import ModelState
+from protocol.queries import Compare, Compared, HistoryListed, ListHistory
 from services.bus.bus import Bus, Pending
 from services.station.page.entries import Rows, rows_of
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from protocol.history import Effect, Entry, Field, HistoryListed
 from protocol.messages import Method, Part, Purpose
+from protocol.queries import Effect, Entry, Field, HistoryListed
 from services.bus.arrays import motion_to_wire, to_wire
 from services.station.page.entries import rows_of
 

@@ -9,8 +9,8 @@ import msgspec
 from starlette.requests import Request
 from starlette.responses import Response
 
-from protocol.history import Effect
 from protocol.messages import Array, Motion
+from protocol.queries import Effect
 from services.bus.arrays import Floats, drawable
 from services.station.live_view.drawing import Point
 from services.station.live_view.stage import told

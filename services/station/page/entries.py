@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import msgspec
 
-from protocol.history import Entry, HistoryListed
 from protocol.messages import Method, Part
+from protocol.queries import Entry, HistoryListed
 from services.station.page.readout import length
 from services.station.words.table import say
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from protocol import queries
 from protocol.messages import Motion, Origin
-from protocol.plan import Plan
+from protocol.queries import Plan
 from services.station.workflow.asking import ask, not_done, to
 from services.station.workflow.episode import ORIGIN
 from services.station.workflow.state import Phase, Settings, Workflow

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from protocol import queries
-from protocol.history import Compare
 from protocol.messages import Purpose
-from protocol.queries import Predicted, Redo, Undo
+from protocol.queries import Compare, Predicted, Redo, Undo
 from services.bus.arrays import from_wire, motion_from_wire
 from services.model.comparison import PLACES
 from tests.services.model.rig import Rig, positions

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from protocol import queries
-from protocol.messages import Part
-from protocol.queries import Purpose, Undo
+from protocol.messages import Part, Purpose
+from protocol.queries import Undo
 from services.bus.arrays import motion_from_wire
 from tests.services.model.rig import Rig, positions
 

@@ -8,9 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from protocol import queries
-from protocol.history import ENTRIES_AT_ONCE, ListHistory
 from protocol.messages import Method, Part, Purpose
-from protocol.queries import Redo, Refused, Undo
+from protocol.queries import ENTRIES_AT_ONCE, ListHistory, Redo, Refused, Undo
 from tests.services.model.rig import OBJECT, Rig, positions
 
 FARTHER = (0.87, 0.15, 0.55)

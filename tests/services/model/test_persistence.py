@@ -10,7 +10,8 @@ from lfd.exceptions import StorageError
 from lfd.store import connection
 from lfd.store.database import DemonstrationStore
 from protocol import queries
-from protocol.queries import Predicted, Purpose, Undo
+from protocol.messages import Purpose
+from protocol.queries import Predicted, Undo
 from tests.services.model.rig import Rig, positions
 
 

@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 
 from protocol import queries, topics
-from protocol.messages import Origin, Pose
-from protocol.plan import Plan
-from protocol.queries import Predicted, Purpose, Refused
+from protocol.messages import Origin, Pose, Purpose
+from protocol.queries import Plan, Predicted, Refused
 from services.bus.arrays import from_wire, motion_from_wire, motion_to_wire
 from tests.services.model.rig import OBJECT, START, positions
 

@@ -8,7 +8,8 @@ import numpy as np
 from lfd.models.adaptive.adaptation import AdaptiveProMP
 from lfd.models.model import Way
 from protocol import messages, topics
-from protocol.queries import Predicted, Purpose
+from protocol.messages import Purpose
+from protocol.queries import Predicted
 from tests.services.model.rig import OBJECT, START, positions
 
 

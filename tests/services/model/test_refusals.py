@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from protocol import queries
-from protocol.messages import Part
-from protocol.queries import AddDemonstration, Learnt, Purpose
+from protocol.messages import Part, Purpose
+from protocol.queries import AddDemonstration, Learnt
 from services.bus.arrays import motion_to_wire
 from tests.services.model.rig import OBJECT, START
 

@@ -3,8 +3,8 @@
 import pytest
 
 from protocol import queries
-from protocol.history import Compared, Effect, HistoryListed
 from protocol.messages import ModelState
+from protocol.queries import Compared, Effect, HistoryListed
 from services.bus.memory import MemoryNetwork
 from services.process.clock import ManualClock
 from services.station.history import AGAIN_NS, HistoryReader

@@ -13,11 +13,12 @@ from protocol.messages import (
     ObjectPose,
     Phase,
     Pose,
+    Purpose,
     RobotState,
     SceneState,
     Verdict,
 )
-from protocol.queries import AddDemonstration, Purpose
+from protocol.queries import AddDemonstration
 from services.bus.arrays import motion_from_wire, motion_to_wire
 from services.bus.memory import MemoryNetwork
 from services.model.service import build

@@ -6,7 +6,7 @@ import msgspec
 import pytest
 from starlette.requests import Request
 
-from protocol.history import Effect, Field
+from protocol.queries import Effect, Field
 from services.bus.arrays import motion_to_wire, to_wire
 from services.station.page.effects import KEPT, Effects
 

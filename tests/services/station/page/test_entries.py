@@ -4,8 +4,8 @@ import msgspec
 import pytest
 from views import shown, teaching
 
-from protocol.history import Entry, HistoryListed
 from protocol.messages import Method, Part, Purpose
+from protocol.queries import Entry, HistoryListed
 from services.station.page.entries import rows_of
 from services.station.page.history import history
 
