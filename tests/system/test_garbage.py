@@ -11,7 +11,7 @@ import pytest
 
 from protocol import messages, queries, topics
 from protocol.codec import decode_reply, encode
-from protocol.messages import Array, Phase
+from protocol.messages import Array, Phase, Purpose
 from protocol.topics import TOPICS
 from services.bus.identity import new_publisher
 from services.bus.outbox import Outbox
@@ -214,7 +214,7 @@ def test_a_command_without_authority_is_refused(network, unmoved):
         (queries.UNDO, queries.Undo()),
         (
             queries.ADD_DEMONSTRATION,
-            queries.AddDemonstration(queries.Purpose.UPDATE, hollow(predicted.motion), (0.7, 0.0, 0.5), "x"),
+            queries.AddDemonstration(Purpose.UPDATE, hollow(predicted.motion), (0.7, 0.0, 0.5), "x"),
         ),
     ):
         outcome = network.witness.ask(query, request)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from protocol import queries, topics
-from protocol.messages import Mode, Phase
+from protocol.messages import Mode, Phase, Purpose
 from services.bus.arrays import motion_to_wire
 from tests.system.harness import (
     EVERYBODY,
@@ -175,4 +175,4 @@ def demonstration(rng):
     positions = np.linspace((0.4, 0.0, 0.8), place, 75)
     orientations = np.tile((1.0, 0.0, 0.0, 0.0), (75, 1))
     motion = motion_to_wire(positions, orientations, 10.0)
-    return queries.AddDemonstration(queries.Purpose.INITIAL, motion, tuple(place.tolist()), "dishwasher")
+    return queries.AddDemonstration(Purpose.INITIAL, motion, tuple(place.tolist()), "dishwasher")

@@ -10,7 +10,7 @@ from lfd.motion.demonstration import Demonstration
 from lfd.motion.trajectory import Trajectory
 from lfd.store.database import DemonstrationStore
 from lfd.store.stored import Binding, Purpose
-from protocol import queries
+from protocol import messages, queries
 from protocol.queries import Undo
 from services.bus.arrays import motion_to_wire
 from tests.system.harness import Command, Witness, configured
@@ -29,8 +29,8 @@ def demonstration(purpose, request):
 def test_a_request_that_is_repeated_after_kill_9_changes_nothing_and_is_answered_the_same(tmp_path, router):
     configuration = configured(tmp_path, router, model=f'database = "{tmp_path / "model.sqlite"}"')
     asked = (
-        (queries.ADD_DEMONSTRATION, demonstration(queries.Purpose.INITIAL, 1)),
-        (queries.ADD_DEMONSTRATION, demonstration(queries.Purpose.UPDATE, 2)),
+        (queries.ADD_DEMONSTRATION, demonstration(messages.Purpose.INITIAL, 1)),
+        (queries.ADD_DEMONSTRATION, demonstration(messages.Purpose.UPDATE, 2)),
         (queries.UNDO, Undo(request=3)),
     )
     answers = []
@@ -49,7 +49,7 @@ def test_a_request_that_is_repeated_after_kill_9_changes_nothing_and_is_answered
 def test_what_was_taught_is_taken_back_from_the_command_line(tmp_path, router):
     configuration = configured(tmp_path, router, model=f'database = "{tmp_path / "model.sqlite"}"')
     with Command("model", "--config", configuration, folder=tmp_path), Witness(router) as witness:
-        for purpose in (queries.Purpose.INITIAL, Purpose.UPDATE):
+        for purpose in (messages.Purpose.INITIAL, messages.Purpose.UPDATE):
             witness.asked(queries.ADD_DEMONSTRATION, demonstration(purpose, 0))
         for left in ((1, 0), (0, 0)):
             with Command("teach", "--undo", "--config", configuration, folder=tmp_path) as teach:

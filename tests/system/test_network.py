@@ -10,7 +10,7 @@ import pytest
 
 from protocol import queries, topics
 from protocol.codec import decode_reply, encode
-from protocol.messages import AuthorityRenewal, EmergencyStop, MasterState, ModelState, SafetyState
+from protocol.messages import AuthorityRenewal, EmergencyStop, MasterState, ModelState, Purpose, SafetyState
 from services.bus.arrays import motion_to_wire
 from services.bus.bus import Failed
 from services.bus.zenoh import connect
@@ -190,7 +190,7 @@ def test_a_router_that_is_not_there_is_an_error_in_time():
 def demonstration():
     positions = np.linspace((0.5, 0.0, 0.4), (0.85, 0.05, 0.55), 75)
     motion = motion_to_wire(positions, np.tile((1.0, 0.0, 0.0, 0.0), (75, 1)), 10.0)
-    return queries.AddDemonstration(queries.Purpose.INITIAL, motion, (0.85, 0.05, 0.55), "dishwasher")
+    return queries.AddDemonstration(Purpose.INITIAL, motion, (0.85, 0.05, 0.55), "dishwasher")
 
 
 def test_two_robots_under_one_router_do_not_hear_each_other(tmp_path, router):

@@ -10,7 +10,7 @@ from lfd.motion.resampling import from_samples
 from lfd.motion.rotations import exp_map, multiply
 from lfd.store.database import DemonstrationStore
 from protocol import messages, queries, topics
-from protocol.messages import Mode
+from protocol.messages import Mode, Purpose
 from services.bus.arrays import from_wire, motion_from_wire, motion_to_wire, vector3
 from services.bus.identity import new_number
 from services.bus.memory import MemoryNetwork
@@ -87,9 +87,7 @@ class Site:
             share = np.clip(np.linspace(-2.0, 2.0, len(way.positions)), 0.0, 1.0)
             rolled = multiply(way.orientations, exp_map(np.outer(share, ROLL)))
             motion = from_samples(np.linspace(0.0, AUTONOMOUS_S, len(rolled)), way.positions, rolled, 75)
-            self.learn(
-                queries.Purpose.INITIAL, motion_to_wire(motion.positions, motion.orientations, AUTONOMOUS_S), position
-            )
+            self.learn(Purpose.INITIAL, motion_to_wire(motion.positions, motion.orientations, AUTONOMOUS_S), position)
 
     def learn(self, kind, motion, position):
         request = queries.AddDemonstration(kind, motion, vector3(position), self.scene.name)
@@ -146,7 +144,7 @@ def test_an_orientation_that_was_taught_wrongly_is_corrected_once_and_learnt(sit
         np.testing.assert_allclose(np.linalg.norm(from_wire(executed.orientations), axis=1), 1.0, atol=1e-12)
 
     learnt = msgspec.structs.replace(refinement.commanded, duration=AUTONOMOUS_S)
-    site.learn(queries.Purpose.UPDATE, learnt, site.place)
+    site.learn(Purpose.UPDATE, learnt, site.place)
     right = site.predict()
     distances, angles = site.errors(right.motion)
     assert np.max(angles) < 0.1 * np.max(before)

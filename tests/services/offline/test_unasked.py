@@ -3,7 +3,7 @@
 import pytest
 
 from protocol import queries
-from protocol.messages import Attendance, EmergencyStop, OperatorInput, Phase
+from protocol.messages import Attendance, EmergencyStop, OperatorInput, Phase, Purpose
 from protocol.topics import EMERGENCY_STOP, ROBOT_STATE, SAFETY_STATE, TEACHING_STATE
 from services.bus.arrays import motion_to_wire, vector3
 from services.offline.first_demonstrations import first_demonstrations
@@ -69,9 +69,7 @@ class Person(Stage):
             way = shown.trajectory
             motion = motion_to_wire(way.positions, way.orientations, way.duration)
             condition = tuple(shown.condition.tolist())
-            request = queries.AddDemonstration(
-                queries.Purpose.INITIAL, motion, vector3(shown.origin), "particle", condition
-            )
+            request = queries.AddDemonstration(Purpose.INITIAL, motion, vector3(shown.origin), "particle", condition)
             pending = self.way_in.ask(queries.ADD_DEMONSTRATION, request)
             self.run(lambda pending=pending: pending.poll() is not None)
 

@@ -3,7 +3,7 @@
 import pytest
 
 from protocol import queries
-from protocol.messages import Phase
+from protocol.messages import Mode, Phase
 from protocol.queries import Accepted, Refused
 from tests.services.predictions import announce
 from tests.services.robot.site import Site, straight
@@ -18,7 +18,7 @@ def site():
 
 def execution(site, number):
     identity = announce(site.operator, straight())
-    return queries.Execute(site.epoch, queries.Mode.AUTONOMOUS, identity, 1.0, request=number)
+    return queries.Execute(site.epoch, Mode.AUTONOMOUS, identity, 1.0, request=number)
 
 
 def test_an_execution_is_begun_once_while_it_runs_and_after_its_end(site):

@@ -5,7 +5,7 @@ from dataclasses import replace
 import msgspec
 
 from protocol import queries
-from protocol.messages import Mode
+from protocol.messages import Mode, Purpose
 from services.station.workflow.state import Phase, Place
 from tests.services.station.workflow.site import COLLIDED, MISSED, POSE, REACHED, SCRIPTED, Site
 
@@ -90,7 +90,7 @@ def test_a_refinement_is_learnt_as_its_operators_and_as_far_as_it_is_believed():
     assert (learnt.operator, learnt.alpha) == (SCRIPTED.operator, 0.5)
     assert learnt.motion.duration == SCRIPTED.autonomous_s
     assert (learnt.purpose, learnt.scene, learnt.object_position) == (
-        queries.Purpose.UPDATE,
+        Purpose.UPDATE,
         "dishwasher",
         (0.85, 0.05, 0.5),
     )
