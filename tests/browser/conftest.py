@@ -16,6 +16,13 @@ HEARD_WITHIN_S = 1.5
 POLL_S = 0.02
 SEAT = "the-seat-of-all-tests"
 SIZE = {"width": 1600, "height": 900}
+UNDRAWN = """
+    const get = HTMLCanvasElement.prototype.getContext;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+        return kind === "webgl2" ? null : get.call(this, kind, ...rest);
+    };
+"""
+"""As in a browser that cannot draw in three dimensions."""
 
 
 def pytest_addoption(parser):
@@ -110,13 +117,14 @@ def window(browser):
 
 
 @pytest.fixture
-def open_tab(browser, window, station):
+def open_tab(request, browser, window, station):
     """A function that opens another tab, in a window of its own: of one window only one tab is seen at a time."""
     tabs = []
+    drawn = "" if request.node.get_closest_marker("undrawn") is None else UNDRAWN
 
-    def open_one(url=None, **options):
+    def open_one(url=None, script="", **options):
         page = browser.new_page(viewport=SIZE) if tabs else window.new_page()
-        tabs.append(Tab(page, url or station[0].url, **options))
+        tabs.append(Tab(page, url or station[0].url, script=drawn + script, **options))
         return tabs[-1]
 
     yield open_one

@@ -6,7 +6,7 @@ import pytest
 
 from protocol.messages import Controller, MasterState, Trouble
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.undrawn]
 
 PADS = """
     window.pads = [];

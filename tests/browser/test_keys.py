@@ -5,7 +5,7 @@ from hand import Hand
 
 from protocol.messages import OperatorInput
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.undrawn]
 
 LAYOUTS = {
     "AZERTY": {"KeyQ": "a", "KeyW": "z", "KeyE": "e", "KeyA": "q", "KeyS": "s", "KeyD": "d", "KeyY": "y", "KeyZ": "w"},

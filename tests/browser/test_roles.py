@@ -7,7 +7,7 @@ import pytest
 from protocol.messages import Light, Role, SafetyState
 from services.station.neighbours import Neighbour
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.undrawn]
 
 
 @pytest.fixture

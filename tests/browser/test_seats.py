@@ -5,7 +5,7 @@ from dataclasses import replace
 import msgspec
 import pytest
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.undrawn]
 
 
 @pytest.fixture

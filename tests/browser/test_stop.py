@@ -7,7 +7,7 @@ import pytest
 from protocol.messages import SafetyState
 from services.station.press import Press
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.undrawn]
 
 MODIFIERS = ("", "Control+", "Alt+", "Shift+", "Meta+", "Control+Shift+Alt+")
 

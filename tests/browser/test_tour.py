@@ -2,7 +2,7 @@
 
 import pytest
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.undrawn]
 
 FIRST_TIME = "localStorage.removeItem('retouch-tour');"
 NAMES = ["What happens", "What to do now", "How to steer", "How to stop", "Whether to trust it"]

@@ -2,6 +2,7 @@
 // small picture; each entry is taken back or used again. And how far what is taught next is to be believed.
 
 import { mapOf, summaryOf } from "/assets/js/history_map.js";
+import { timeOf } from "/assets/js/time.js";
 import { say } from "/assets/js/words.js";
 
 const AGAIN_MS = 300;
@@ -129,12 +130,4 @@ function showMap(row, effect) {
   map.replaceChildren(...(effect?.field ? [mapOf(effect)] : []));
   map.setAttribute("aria-label", summaryOf(effect));
   map.title = summaryOf(effect);
-}
-
-// A moment as this person's clock and calendar show it.
-function timeOf(iso) {
-  const moment = new Date(iso);
-  if (!iso || Number.isNaN(moment.getTime())) return "";
-  const isToday = moment.toDateString() === new Date().toDateString();
-  return isToday ? moment.toLocaleTimeString() : moment.toLocaleString();
 }

@@ -1,6 +1,8 @@
 // Shows what the station says, value by value: a text, or after "@" an attribute or a style property of the
 // element of that name.
 
+import { timeOfDay } from "/assets/js/time.js";
+
 export function show(values) {
   for (const [name, value] of Object.entries(values)) {
     const [element, attribute] = find(name);
@@ -16,10 +18,4 @@ export function show(values) {
 function find(name) {
   const [element, attribute] = name.split("@");
   return [document.querySelector(`[data-value="${element}"]`), attribute];
-}
-
-// A moment by this person's clock, always from 0 to 24 hours.
-function timeOfDay(iso) {
-  const moment = new Date(iso);
-  return Number.isNaN(moment.getTime()) ? "" : moment.toLocaleTimeString(document.documentElement.lang, { hourCycle: "h23" });
 }
