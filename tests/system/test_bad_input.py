@@ -76,7 +76,7 @@ def test_wrong_arguments_are_named(tmp_path, arguments, words):
         ("[robot]\nhold_after_s = -1.0\n", ("[robot] hold_after_s",)),
         ("[robot]\nhold_after_s = nan\n", ("[robot] hold_after_s",)),
         ("[model]\nkind = 'magic'\n", ("[model] kind", "adaptive, promp")),
-        ("[master.device]\nkind = 'mouse'\n", ("[master.device] kind", "mouse", "keyboard, scripted")),
+        ("[master.device]\nkind = 'mouse'\n", ("[master.device] kind", "mouse", "page, keyboard, gamepad")),
         ("[robot\n", ("line 1",)),
     ],
     ids=["key", "type", "value", "negative", "nan", "kind", "device", "syntax"],

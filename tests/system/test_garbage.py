@@ -93,14 +93,17 @@ def network(tmp_path_factory):
         up.until(lambda: decides(witness, attempts=0), START_S, "the operator is asked")
         somebody.press("execute")
         up.until(lambda: decides(witness, attempts=1), EPISODE_S, "a prediction is executed, and the operator is asked")
-        # The only topic on which nothing passes.
-        passed = {topic.name for topic in TOPICS if topic is not topics.EMERGENCY_STOP}
+        passed = {topic.name for topic in TOPICS} - {topics.EMERGENCY_STOP.name, topics.AUTHORITY_REQUEST.name}
         up.until(lambda: passed <= set(newest), START_S, "something has passed on every topic")
         samples = dict(newest)
         press = messages.EmergencyStop(
             robot="robot1", topic=topics.EMERGENCY_STOP.name, pressed=True, by="stranger", sequence=1
         )
         samples[topics.EMERGENCY_STOP.name] = encode(topics.EMERGENCY_STOP, press)
+        request = messages.AuthorityRequest(holder="station-b", number=1)
+        asking = Outbox(new_publisher(), "robot1", "station")
+        asked = asking.stamp(topics.AUTHORITY_REQUEST, request, SystemClock().now_ns())
+        samples[topics.AUTHORITY_REQUEST.name] = encode(topics.AUTHORITY_REQUEST, asked)
         for topic in TOPICS:
             if topic.publisher == "any":
                 fields = msgpack.unpackb(samples[topic.name]) | {"process": SOURCE_OF_ANY}
@@ -110,6 +113,8 @@ def network(tmp_path_factory):
         network = Network(up, witness, stranger, samples, marks)
         # A process that came up after the only prediction was made has not heard it yet.
         network.send(topics.PREDICTION, [samples[topics.PREDICTION.name]])
+        # Nobody repeats it, so that nobody is asked for long.
+        network.send(topics.AUTHORITY_REQUEST, [samples[topics.AUTHORITY_REQUEST.name]])
         yield network
 
 
