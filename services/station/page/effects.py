@@ -21,7 +21,7 @@ KEPT = 64
 _SHARE = 2
 """Digits of what is known."""
 
-_WORKING, _GONE, _JSON = 202, 404, "application/json"
+_WORKING, _GONE, _JSON = 202, 204, "application/json"
 
 
 class Moved(msgspec.Struct, frozen=True):

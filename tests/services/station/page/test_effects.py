@@ -65,7 +65,7 @@ def test_effects_of_another_model_are_gone(effects):
     effects.put(5, 3, EFFECT)
     effects.renew(6)
     assert effects.wanted() is None
-    assert _ask(effects, 5, 3).status_code == 404
+    assert _ask(effects, 5, 3).status_code == 204
     effects.put(5, 4, EFFECT)
     assert _ask(effects, 6, 4).status_code == 202
 

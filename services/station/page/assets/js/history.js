@@ -78,7 +78,7 @@ export class History {
       if (this.looked === id) this.look(id);
     } else {
       this.effects.delete(id);
-      if (answer?.status !== 404) setTimeout(() => version === this.version && this.ask(id), AGAIN_MS);
+      if (answer?.status !== 204) setTimeout(() => version === this.version && this.ask(id), AGAIN_MS);
     }
   }
 }
