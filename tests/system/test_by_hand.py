@@ -95,7 +95,14 @@ def page(browser):
     opened.close()
 
 
-@pytest.mark.parametrize("on_device", HANDS, ids=lambda hand: hand.device)
+KEYS, *OTHERS = HANDS
+
+
+@pytest.mark.parametrize(
+    "on_device",
+    [KEYS, *(pytest.param(hand, marks=pytest.mark.long) for hand in OTHERS)],
+    ids=lambda hand: hand.device,
+)
 def test_one_correction_by_hand_is_learnt(on_device, tmp_path, page):
     endpoint = free_endpoint()
     configuration = configured(tmp_path, endpoint)

@@ -56,6 +56,7 @@ def test_waypoints_teach_an_empty_skill(teacher):
     assert alone.verdict.success
 
 
+@pytest.mark.long
 def test_a_demonstration_teaches_an_empty_skill(teacher):
     teacher.decides()
     teacher.choose("demonstrate")
