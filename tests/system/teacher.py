@@ -51,7 +51,9 @@ class Teacher:
         """
         about = f"[data-argument='{argument}']" if argument else ":not([data-argument])"
         button = self._page.locator(f"[data-action={action}]{about}:enabled")
-        counts = seen or (lambda: self._witness.teaching is not None and self._witness.teaching.phase != "deciding")
+        before = self._witness.teaching
+        # What the model does at once may be over before anybody looks.
+        counts = seen or (lambda: self._taught(lambda now: now.phase != "deciding" or now.event != before.event))
         deadline = time.monotonic() + DECIDES_S
         while not counts():
             assert time.monotonic() < deadline, f"{action} does not count; {self._witness.teaching}"
