@@ -8,7 +8,7 @@ import pytest
 from protocol.messages import ExecutionState, Mode, Part
 from services.station.press import Press
 
-pytestmark = [pytest.mark.browser, pytest.mark.undrawn]
+pytestmark = pytest.mark.browser
 
 STANDING = ("execute", "refine", "pace", "part")
 RUNNING = ("finish", "pause", "step_back", "step_on", "seek", "pace")
