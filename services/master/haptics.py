@@ -115,16 +115,8 @@ class HapticThread:
     def figures(self) -> tuple[Figure, ...]:
         """How regular the ticks were since the last call, and how many came late so far."""
         with self._lock:
-            period_p50, period_p99, step_p99 = self._ticks.take_quantiles()
-            ticks, late = self._ticks.ticks, self._ticks.late
-        return (
-            Figure("haptic_period_p50", 1e3 * period_p50, "ms"),
-            Figure("haptic_period_p99", 1e3 * period_p99, "ms"),
-            Figure("haptic_step_p99", 1e3 * step_p99, "ms"),
-            Figure("haptic_ticks", float(ticks), "ticks"),
-            Figure("haptic_late_ticks", float(late), "ticks"),
-            Figure("haptic_realtime", float(self._realtime), "granted"),
-        )
+            figures = regularity(self._ticks)
+        return (*figures, Figure("haptic_realtime", float(self._realtime), "granted"))
 
     def close(self) -> None:
         """Stop, and wait until it has."""
@@ -142,6 +134,18 @@ class HapticThread:
                 self._ticks.tick(due, started, ended)
             due += max(1, (ended - due) // _PERIOD_NS) * _PERIOD_NS
             self._clock.sleep_until(due, self._stop)
+
+
+def regularity(ticks: TickStatistics) -> tuple[Figure, ...]:
+    """How regular the ticks of a force loop were since the last call, and how many came late so far."""
+    period_p50, period_p99, step_p99 = ticks.take_quantiles()
+    return (
+        Figure("haptic_period_p50", 1e3 * period_p50, "ms"),
+        Figure("haptic_period_p99", 1e3 * period_p99, "ms"),
+        Figure("haptic_step_p99", 1e3 * step_p99, "ms"),
+        Figure("haptic_ticks", float(ticks.ticks), "ticks"),
+        Figure("haptic_late_ticks", float(ticks.late), "ticks"),
+    )
 
 
 def _take_realtime_priority() -> bool:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from protocol.messages import AuthorityState, OperatorInput
 from protocol.topics import AUTHORITY_STATE, OPERATOR_INPUT
 from services.bus.bus import Bus
-from services.bus.subscription import Received
+from services.bus.senders import Senders
 
 
 @dataclass(frozen=True)
@@ -44,24 +44,16 @@ class Seat:
 
     def __init__(self, bus: Bus, station: str) -> None:
         self.call = threading.Event()
-        self._station = station
-        self._inputs = bus.subscribe(OPERATOR_INPUT, self.call)
+        self._inputs = Senders(
+            bus.subscribe(OPERATOR_INPUT, self.call), lambda held: held.holder if held.process == station else None
+        )
         self._authority = bus.subscribe(AUTHORITY_STATE)
-        self._stations: dict[str, Received[OperatorInput]] = {}
 
     def look(self, now_ns: int) -> Sitting:
         """Who sits there now."""
-        for received in self._inputs.take():
-            if received.message.process == self._station:
-                self._stations[received.message.holder] = received
-        limit = OPERATOR_INPUT.stale_after_ns
-        self._stations = {
-            holder: received
-            for holder, received in self._stations.items()
-            if limit is None or now_ns - received.received_ns <= limit
-        }
+        stations = self._inputs.there(now_ns)
         authority = self._authority.fresh(now_ns)
-        newest = sorted(self._stations.values(), key=lambda received: received.received_ns, reverse=True)
+        newest = sorted(stations.values(), key=lambda received: received.received_ns, reverse=True)
         for received in newest:
             if _confirms(authority, received.message):
                 return Sitting(received.message, commands=True)

@@ -4,18 +4,14 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from datetime import UTC, datetime
 from typing import TypeVar
 
 import numpy as np
 
 from lfd.exceptions import LfdError
-from lfd.motion.demonstration import Demonstration, Situation
-from lfd.motion.provenance import Method, Provenance
-from lfd.motion.trajectory import Trajectory
 from lfd.store.database import DemonstrationStore
-from lfd.store.stored import Counts, Purpose
+from lfd.store.stored import Counts, Purpose, StoredDemonstration
 from protocol import messages, queries, topics
 from protocol.queries import (
     AddDemonstration,
@@ -31,7 +27,7 @@ from protocol.queries import (
     Refused,
     Undo,
 )
-from services.bus.arrays import motion_from_wire, motion_to_wire, to_wire
+from services.bus.arrays import motion_to_wire, to_wire
 from services.bus.bus import Bus, Rep, Req
 from services.bus.identity import new_number
 from services.bus.server import Server
@@ -39,6 +35,7 @@ from services.model.comparison import Comparisons
 from services.model.history import History
 from services.model.learning import MODELS, Fit
 from services.model.planning import planned
+from services.model.requests import demonstration_in, situation_in
 from services.model.skill import binding_of, check_demonstration, check_duration, check_situation, open_store
 from services.process.clock import Clock
 from services.process.config import Configuration
@@ -171,7 +168,7 @@ class ModelService:
         model = self._history.model
         if model is None:
             return Refused("the model has no demonstration yet: teach it first")
-        situation = _situation(request)
+        situation = situation_in(request)
         check_situation(self._scene, situation)
         prediction = model.predict(situation)
         check_duration("the prediction's duration", prediction.trajectory)
@@ -217,7 +214,7 @@ class ModelService:
     def _learnt(self, request: AddDemonstration) -> Learnt | Refused:
         if request.scene != self._scene.name:
             return self._elsewhere(f"the demonstration is of scene {request.scene}", request.scene)
-        demonstration = _demonstration(request, self._now_s())
+        demonstration = demonstration_in(request, self._now_s())
         check_demonstration(self._scene, demonstration)
         self._history.add(demonstration, Purpose(request.purpose.value), request.request)
         return self._changed(self._history.version)
@@ -232,12 +229,13 @@ class ModelService:
                 known = "update" if purpose is Purpose.UPDATE else "first demonstration"
                 return Refused(f"there is no {known} to take back")
             entry = newest
-        self._history.turn(entry, in_use=False, author=request.operator, at_s=self._now_s(), request=request.request)
-        return self._changed(entry.version)
+        return self._turned(entry, request, in_use=False)
 
     def _redone(self, request: Redo) -> Learnt | Refused:
-        entry = self._history.find(request.entry)
-        self._history.turn(entry, in_use=True, author=request.operator, at_s=self._now_s(), request=request.request)
+        return self._turned(self._history.find(request.entry), request, in_use=True)
+
+    def _turned(self, entry: StoredDemonstration, request: Undo | Redo, *, in_use: bool) -> Learnt:
+        self._history.turn(entry, in_use=in_use, author=request.operator, at_s=self._now_s(), request=request.request)
         return self._changed(entry.version)
 
     def _changed(self, entry: int) -> Learnt:
@@ -271,24 +269,6 @@ class ModelService:
             scene=self._binding.scene,
             robot_kind=self._binding.robot,
         )
-
-
-def _demonstration(request: AddDemonstration, at_s: float) -> Demonstration:
-    motion = Trajectory(*motion_from_wire(request.motion))
-    origin = np.array(request.object_position, dtype=np.float64)
-    provenance = Provenance(request.operator, at_s, request.alpha, Method(request.method.value))
-    part = request.part.first, request.part.last
-    if request.condition:
-        return Demonstration(motion, origin, np.array(request.condition), provenance, part)
-    return replace(Demonstration.reaching(motion, origin, provenance), part=part)
-
-
-def _situation(request: Predict) -> Situation:
-    origin, start = np.array(request.object_position), request.start
-    position, orientation = np.array(start.position), np.array(start.orientation)
-    if not request.condition:
-        return Situation.reaching(origin, position, orientation)
-    return Situation(np.array(request.condition), origin, position, orientation)
 
 
 def _answer(server: Server[Req, Rep], answer: Callable[[Req], Rep | Refused]) -> None:

@@ -18,7 +18,8 @@ from services.process.clock import ManualClock
 from services.process.config import Configuration
 from services.robot.memory import Volatile
 from services.robot.service import build as build_robot
-from services.station.service import StationService, settings
+from services.station.service import StationService
+from services.station.settings import settings
 
 HOLDER = "rehearsal"
 

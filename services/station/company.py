@@ -5,7 +5,7 @@ from __future__ import annotations
 from protocol import topics
 from protocol.messages import Attendance
 from services.bus.bus import Bus
-from services.bus.subscription import Received
+from services.bus.senders import Senders
 from services.process.schedule import Schedule
 
 
@@ -18,8 +18,7 @@ class Company:
 
     def __init__(self, bus: Bus) -> None:
         self._bus = bus
-        self._heard = bus.subscribe(topics.ATTENDANCE)
-        self._stations: dict[str, Received[Attendance]] = {}
+        self._stations = Senders(bus.subscribe(topics.ATTENDANCE), lambda told: told.process)
         self._schedule = Schedule()
         self._told: Attendance | None = None
 
@@ -31,12 +30,4 @@ class Company:
 
     def there(self, now_ns: int) -> tuple[Attendance, ...]:
         """Who is at which station now, this one included, in the order of the stations' names."""
-        for received in self._heard.take():
-            self._stations[received.message.process] = received
-        limit = topics.ATTENDANCE.stale_after_ns
-        self._stations = {
-            process: received
-            for process, received in self._stations.items()
-            if limit is None or now_ns - received.received_ns <= limit
-        }
-        return tuple(received.message for _, received in sorted(self._stations.items()))
+        return tuple(received.message for _, received in sorted(self._stations.there(now_ns).items()))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import secrets
 import threading
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -18,7 +17,7 @@ from services.bus.arrays import vector3
 from services.bus.bus import Bus, Pending
 from services.bus.identity import new_number
 from services.process.clock import Clock
-from services.process.config import Configuration, StationSection
+from services.process.config import Configuration
 from services.process.exceptions import UnusableSetting
 from services.process.schedule import Schedule
 from services.station.company import Company
@@ -30,9 +29,11 @@ from services.station.live_view.stage import Stage
 from services.station.neighbours import Neighbours
 from services.station.page.view import PageView
 from services.station.press import REVOKE, STOP, STOP_OTHER, Press
+from services.station.settings import settings
 from services.station.stop import StopButton
 from services.station.words.table import speech
-from services.station.workflow.state import Action, Phase, Place, Settings, Workflow
+from services.station.workflow.action import Action
+from services.station.workflow.state import Phase, Place, Settings, Workflow
 from services.station.workflow.view import Answer, Ask, View
 from services.station.workflow.words import teaching_state
 from services.station.workflow.workflow import advance
@@ -72,26 +73,6 @@ def _open_page(configuration: Configuration, clock: Clock) -> Page:
     return page
 
 
-def settings(section: StationSection, operator: str) -> Settings:
-    """The workflow's settings as configured, for the person at this station."""
-    return Settings(
-        # A station that was restarted is another one: the robot ends what it does not know of.
-        holder=f"station-{secrets.token_hex(2)}",
-        operator=operator,
-        autonomous_s=section.autonomous_s,
-        refine_s=section.refine_s,
-        refinements_allowed=section.refinements_allowed,
-        updates_allowed=section.updates_allowed,
-        adapt=section.adapt,
-        alpha=section.alpha,
-        variant=section.variant,
-        scripted=section.scripted,
-        once=section.once,
-        points=section.demonstration_points,
-        keeps_tempo=section.demonstration_tempo,
-    )
-
-
 class StationService:
     """Runs the workflow, holds the authority's lease, publishes what the operator does.
 
@@ -129,11 +110,14 @@ class StationService:
         return self._page.call if self._page is not None else self._never
 
     def step_early(self, now_ns: int) -> None:
-        """What a person does acts at once."""
-        self.step(now_ns)
+        """What a person does acts at once; what comes of it is told in the next step."""
+        self._act(now_ns)
 
     def step(self, now_ns: int) -> None:
         """A stop before all; then look, advance the workflow, ask, tell."""
+        self._tell(now_ns, self._act(now_ns))
+
+    def _act(self, now_ns: int) -> View:
         pressed = self._page.take_presses() if self._page is not None else []
         pressed += self._buttons.take(now_ns)
         self._press_stop(now_ns, pressed)
@@ -153,6 +137,9 @@ class StationService:
         self._publish(held)
         self._pass_authority(now_ns, pressed, view)
         self._company.tell(self._attendance(), now_ns)
+        return view
+
+    def _tell(self, now_ns: int, view: View) -> None:
         told = self._schedule.due(topics.TEACHING_STATE, now_ns)
         if not told and self._page is None:
             return

@@ -14,7 +14,7 @@ from services.master.devices.device import ZERO, Moment, Sample
 from services.master.devices.phantom import PhantomStylus
 from services.master.devices.profiles import Profiles
 from services.master.feedback import Feedback
-from services.master.haptics import HapticLoop
+from services.master.haptics import HapticLoop, regularity
 from services.process.clock import Clock
 from services.process.master_devices import Phantom
 from services.process.runner import TickStatistics
@@ -87,15 +87,7 @@ class StylusMaster:
     def figures(self) -> tuple[Figure, ...]:
         """How regular the vendor's thread calls."""
         with self._lock:
-            p50, p99, step_p99 = self._ticks.take_quantiles()
-            ticks, late = self._ticks.ticks, self._ticks.late
-        return (
-            Figure("haptic_period_p50", 1e3 * p50, "ms"),
-            Figure("haptic_period_p99", 1e3 * p99, "ms"),
-            Figure("haptic_step_p99", 1e3 * step_p99, "ms"),
-            Figure("haptic_ticks", float(ticks), "ticks"),
-            Figure("haptic_late_ticks", float(late), "ticks"),
-        )
+            return regularity(self._ticks)
 
     def close(self) -> None:
         """Render nothing any more, and let go."""

@@ -7,8 +7,9 @@ from dataclasses import replace
 from protocol import queries
 from protocol.messages import AuthorityEvent, AuthorityState
 from services.station.words.table import say
+from services.station.workflow.action import Action
 from services.station.workflow.asking import RETRY_S, ask, not_done, to
-from services.station.workflow.state import Action, Phase, Settings, Workflow
+from services.station.workflow.state import Phase, Settings, Workflow
 from services.station.workflow.view import Step, View
 
 LINGERS_S = 2.0

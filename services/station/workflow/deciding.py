@@ -7,6 +7,7 @@ from dataclasses import replace
 from protocol.messages import Method, Mode, Origin
 from services.station.words.table import say
 from services.station.workflow import editing
+from services.station.workflow.action import Action
 from services.station.workflow.asking import to
 from services.station.workflow.closure import Closure
 from services.station.workflow.editing import EDITING
@@ -15,7 +16,7 @@ from services.station.workflow.going import SETTING, set_for_next
 from services.station.workflow.history import turn, turns
 from services.station.workflow.leading import lead
 from services.station.workflow.planning import preview
-from services.station.workflow.state import WHOLE, Action, Phase, Settings, Workflow
+from services.station.workflow.state import WHOLE, Phase, Settings, Workflow
 from services.station.workflow.view import Step, View
 
 _CHOOSING = frozenset({Action.METHOD, Action.BASIS})

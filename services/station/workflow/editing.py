@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from protocol.messages import Method, Mode, Pose
+from services.station.workflow.action import Action
 from services.station.workflow.approach import LEAST_WAYPOINTS, edited
-from services.station.workflow.state import Action, Phase, Workflow
+from services.station.workflow.state import Phase, Workflow
 from services.station.workflow.view import View
 
 EDITING = frozenset({Action.STORE, Action.DELETE, Action.EARLIER, Action.LATER, Action.CLEAR})

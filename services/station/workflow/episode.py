@@ -16,9 +16,10 @@ from protocol.queries import Query
 from services.bus.predictions import LITTLE
 from services.station.words.table import say
 from services.station.workflow import editing, going
+from services.station.workflow.action import Action
 from services.station.workflow.asking import RETRY_S, ask, not_done, to
 from services.station.workflow.authority import runs
-from services.station.workflow.state import WHOLE, Action, Episode, Phase, Place, Settings, Workflow
+from services.station.workflow.state import WHOLE, Episode, Phase, Place, Settings, Workflow
 from services.station.workflow.view import Ask, Step, View
 
 LOOK_S = 0.8

@@ -6,8 +6,9 @@ from dataclasses import replace
 
 from protocol import queries
 from services.station.words.table import say
+from services.station.workflow.action import Action
 from services.station.workflow.asking import ask, not_done, to
-from services.station.workflow.state import Action, Phase, Settings, Turning, Workflow
+from services.station.workflow.state import Phase, Settings, Turning, Workflow
 from services.station.workflow.view import Step, View
 
 _TURNS = {Action.UNDO: False, Action.TAKE_BACK: False, Action.USE_AGAIN: True}

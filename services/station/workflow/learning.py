@@ -11,8 +11,9 @@ from protocol import queries
 from protocol.messages import Motion, Origin, Purpose
 from services.station.words.predictions import extent
 from services.station.words.table import say
+from services.station.workflow.action import Action
 from services.station.workflow.asking import ask, not_done, to
-from services.station.workflow.state import WHOLE, Action, Phase, Settings, Taught, Workflow
+from services.station.workflow.state import WHOLE, Phase, Settings, Taught, Workflow
 from services.station.workflow.view import Step, View
 
 

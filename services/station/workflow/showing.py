@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from protocol.messages import Method, Mode, RobotState
 from services.station.words.table import say
+from services.station.workflow.action import Action
 from services.station.workflow.editing import lacking
-from services.station.workflow.state import Action, Workflow
+from services.station.workflow.state import Workflow
 from services.station.workflow.view import View
 
 

@@ -8,45 +8,12 @@ from enum import Enum
 from protocol import messages
 from protocol.messages import Attempt, Condition, Method, Mode, Motion, Origin, Outcome, Part, Vector3
 from protocol.queries import Adapt, Reset
+from services.station.workflow.action import Action
 from services.station.workflow.approach import Approach
 from services.station.workflow.closure import Closure
 
 WHOLE = Part()
 """All phases of a motion."""
-
-
-class Action(Enum):
-    """What the operator may do."""
-
-    EXECUTE = "execute"
-    REFINE = "refine"
-    FINISH = "finish"
-    GO_ON = "go_on"
-    TEACH = "teach"
-    NEXT = "next"
-    UNDO = "undo"
-    END = "end"
-    RELEASE_STOP = "release_stop"
-    ASK = "ask"
-    TAKE_OVER = "take_over"
-    PACE = "pace"
-    PAUSE = "pause"
-    PLAY = "play"
-    STEP_BACK = "step_back"
-    STEP_ON = "step_on"
-    SEEK = "seek"
-    PART = "part"
-    TAKE_BACK = "take_back"
-    USE_AGAIN = "use_again"
-    CONFIDENCE = "confidence"
-    METHOD = "method"
-    BASIS = "basis"
-    LEAD = "lead"
-    STORE = "store"
-    DELETE = "delete"
-    EARLIER = "earlier"
-    LATER = "later"
-    CLEAR = "clear"
 
 
 class Phase(Enum):

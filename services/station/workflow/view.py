@@ -12,7 +12,8 @@ from protocol import messages
 from protocol.messages import EpisodeResult, ModelState, ObjectPose
 from protocol.queries import Query
 from services.station.press import Press
-from services.station.workflow.state import Action, Place, Workflow
+from services.station.workflow.action import Action
+from services.station.workflow.state import Place, Workflow
 
 _ACTIONS = {action.value: action for action in Action}
 

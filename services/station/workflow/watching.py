@@ -6,9 +6,10 @@ from dataclasses import replace
 
 from protocol.messages import AuthorityEvent
 from services.station.words.table import say
+from services.station.workflow.action import Action
 from services.station.workflow.asking import to
 from services.station.workflow.authority import another, passed
-from services.station.workflow.state import Action, Phase, Settings, Workflow
+from services.station.workflow.state import Phase, Settings, Workflow
 from services.station.workflow.view import Step, View
 
 

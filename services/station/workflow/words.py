@@ -9,11 +9,12 @@ from protocol.messages import Phase as RobotPhase
 from services.station.words.predictions import certainty, way_taken
 from services.station.words.table import say
 from services.station.workflow import showing
+from services.station.workflow.action import Action
 from services.station.workflow.authority import another, missing
 from services.station.workflow.deciding import recommended
 from services.station.workflow.going import elsewhere, paused
 from services.station.workflow.learning import confidence
-from services.station.workflow.state import Action, Phase, Settings, Workflow
+from services.station.workflow.state import Phase, Settings, Workflow
 from services.station.workflow.view import View
 
 _HOLDS = (

@@ -11,7 +11,8 @@ from services.offline.stage import Stage
 from services.process.config import Configuration, ModelSection, RobotSection, StationSection
 from services.station.page.effects import Effects
 from services.station.press import Press
-from services.station.service import StationService, settings
+from services.station.service import StationService
+from services.station.settings import settings
 from services.station.workflow.episode import UNSEEN_AFTER_RESET_S
 from sim.tasks.particle import PARTICLE
 

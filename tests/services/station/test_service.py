@@ -13,7 +13,7 @@ from services.process.config import Configuration, StationSection
 from services.process.exceptions import UnusableSetting
 from services.station import service
 from services.station.press import Press
-from services.station.workflow.state import Action
+from services.station.workflow.action import Action
 from tests.services.station.site import BY_HAND, REGION, SETTINGS, Site, Tab
 
 

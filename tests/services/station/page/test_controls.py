@@ -12,7 +12,7 @@ from services.bus.arrays import motion_to_wire
 from services.station.page import history, methods
 from services.station.page.controls import BUTTONS, KEYBOARDS, actions, emergency_stop
 from services.station.page.timeline import CONTROLS
-from services.station.workflow.state import Action
+from services.station.workflow.action import Action
 from tests.services.predictions import prediction
 
 MOTION = motion_to_wire([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], [[1.0, 0.0, 0.0, 0.0]] * 2, 1.0)

@@ -6,8 +6,9 @@ import pytest
 
 from protocol import queries
 from services.bus.bus import Failed
+from services.station.workflow.action import Action
 from services.station.workflow.asking import RETRY_S
-from services.station.workflow.state import Action, Phase
+from services.station.workflow.state import Phase
 from services.station.workflow.view import Answer
 from tests.services.station.workflow.site import BY_HAND, COLLIDED, REACHED, UNANSWERED, Site, lose_authority
 

@@ -4,8 +4,9 @@ import pytest
 
 from protocol import queries
 from protocol.messages import Mode
+from services.station.workflow.action import Action
 from services.station.workflow.going import SETTING
-from services.station.workflow.state import Action, Phase
+from services.station.workflow.state import Phase
 from tests.services.station.workflow.site import (
     BY_HAND,
     COLLIDED,

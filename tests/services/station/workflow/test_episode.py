@@ -5,7 +5,8 @@ import pytest
 
 from protocol import messages, queries
 from services.bus.bus import Failed
-from services.station.workflow.state import Action, Phase
+from services.station.workflow.action import Action
+from services.station.workflow.state import Phase
 from tests.services.station.workflow.site import (
     BY_HAND,
     COLLIDED,

@@ -6,8 +6,9 @@ import pytest
 from protocol import queries
 from protocol.messages import Cut, ExecutionState, Light, Mode, Part
 from services.station.press import Press
+from services.station.workflow.action import Action
 from services.station.workflow.going import FASTEST, SLOWEST, STEP
-from services.station.workflow.state import Action, Phase
+from services.station.workflow.state import Phase
 from services.station.workflow.words import teaching_state
 from tests.services.station.workflow.site import BY_HAND, COLLIDED, EXECUTE, MISSED, REACHED, Site
 

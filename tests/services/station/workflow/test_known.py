@@ -3,7 +3,8 @@
 import pytest
 
 from protocol.messages import Mode, Way
-from services.station.workflow.state import Action, Phase
+from services.station.workflow.action import Action
+from services.station.workflow.state import Phase
 from services.station.workflow.words import teaching_state
 from tests.services.station.workflow.site import BY_HAND, COLLIDED, MISSED, REACHED, SCRIPTED, Site, lose_authority
 

@@ -10,7 +10,8 @@ from protocol import queries
 from protocol.messages import Cut, Method, Mode, ModelState, Origin, Purpose
 from services.bus.arrays import from_wire, motion_to_wire
 from services.station.press import Press
-from services.station.workflow.state import Action, Phase
+from services.station.workflow.action import Action
+from services.station.workflow.state import Phase
 from services.station.workflow.words import teaching_state
 from tests.services.station.workflow.site import (
     BY_HAND,

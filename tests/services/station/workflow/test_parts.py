@@ -7,7 +7,8 @@ import pytest
 from protocol import queries
 from protocol.messages import Cut, Outcome, Part
 from services.bus.arrays import motion_from_wire, motion_to_wire
-from services.station.workflow.state import Action, Phase
+from services.station.workflow.action import Action
+from services.station.workflow.state import Phase
 from services.station.workflow.verdict import MARGIN
 from tests.services.station.workflow.site import (
     BY_HAND,

@@ -4,7 +4,8 @@ import msgspec
 import pytest
 
 from protocol import queries
-from services.station.workflow.state import Action, Phase
+from services.station.workflow.action import Action
+from services.station.workflow.state import Phase
 from tests.services.station.workflow.site import BY_HAND, HOLD, SCRIPTED, UNANSWERED, Site, authority
 
 

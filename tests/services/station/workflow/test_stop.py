@@ -4,7 +4,8 @@ import pytest
 
 from protocol import queries
 from protocol.messages import Cut, SafetyState
-from services.station.workflow.state import Action, Phase
+from services.station.workflow.action import Action
+from services.station.workflow.state import Phase
 from tests.services.station.workflow.site import (
     BY_HAND,
     COLLIDED,

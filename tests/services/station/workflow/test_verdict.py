@@ -10,7 +10,8 @@ import pytest
 
 from protocol import queries
 from protocol.messages import Cut, Mode
-from services.station.workflow.state import Action, Phase
+from services.station.workflow.action import Action
+from services.station.workflow.state import Phase
 from services.station.workflow.verdict import ATTEMPTS_KEPT
 from services.station.workflow.words import teaching_state
 from tests.services.station.workflow.site import BY_HAND, COLLIDED, MISSED, REACHED, SCRIPTED, Site, lose_authority

@@ -1,7 +1,7 @@
 """What the workflow reads from the presses of one step."""
 
 from services.station.press import Press
-from services.station.workflow.state import Action
+from services.station.workflow.action import Action
 from services.station.workflow.view import View
 
 

@@ -5,7 +5,8 @@ import pytest
 
 from protocol import queries
 from protocol.messages import AuthorityEvent
-from services.station.workflow.state import Action, Phase
+from services.station.workflow.action import Action
+from services.station.workflow.state import Phase
 from services.station.workflow.words import teaching_state
 from tests.services.station.workflow.site import BY_HAND, HOLD, SCRIPTED, STOPPED, Site, authority
 

@@ -8,8 +8,9 @@ import pytest
 from protocol.messages import Light, Mode, Outcome, Part, RobotState, SafetyState, Verdict, Way
 from services.robot.hold import ANOTHER_AUTHORITY, TOO_LONG
 from services.robot.safety import Watchdog
+from services.station.workflow.action import Action
 from services.station.workflow.closure import Closure
-from services.station.workflow.state import Action, Episode, Phase, Taught, Workflow
+from services.station.workflow.state import Episode, Phase, Taught, Workflow
 from services.station.workflow.view import View
 from services.station.workflow.words import outcome_text, teaching_state
 from tests.services.predictions import prediction

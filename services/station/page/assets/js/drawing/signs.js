@@ -21,24 +21,21 @@ const SHAPES = {
     pen.moveTo(32, 41);
     pen.lineTo(32, 42);
   },
-  first: (pen) => {
-    pen.moveTo(40, 14);
-    pen.lineTo(26, 14);
-    pen.lineTo(26, 50);
-    pen.lineTo(40, 50);
-  },
-  last: (pen) => {
-    pen.moveTo(24, 14);
-    pen.lineTo(38, 14);
-    pen.lineTo(38, 50);
-    pen.lineTo(24, 50);
-  },
+  first: (pen) => bracket(pen, 40, 26),
+  last: (pen) => bracket(pen, 24, 38),
   reached: (pen) => {
     pen.moveTo(14, 34);
     pen.lineTo(27, 47);
     pen.lineTo(50, 18);
   },
 };
+
+function bracket(pen, open, closed) {
+  pen.moveTo(open, 14);
+  pen.lineTo(closed, 14);
+  pen.lineTo(closed, 50);
+  pen.lineTo(open, 50);
+}
 
 export class Sign {
   constructor(shape, colour) {

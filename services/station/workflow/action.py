@@ -1,0 +1,39 @@
+"""What the operator may do, by the name of its press."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+
+class Action(Enum):
+    """What the operator may do."""
+
+    EXECUTE = "execute"
+    REFINE = "refine"
+    FINISH = "finish"
+    GO_ON = "go_on"
+    TEACH = "teach"
+    NEXT = "next"
+    UNDO = "undo"
+    END = "end"
+    RELEASE_STOP = "release_stop"
+    ASK = "ask"
+    TAKE_OVER = "take_over"
+    PACE = "pace"
+    PAUSE = "pause"
+    PLAY = "play"
+    STEP_BACK = "step_back"
+    STEP_ON = "step_on"
+    SEEK = "seek"
+    PART = "part"
+    TAKE_BACK = "take_back"
+    USE_AGAIN = "use_again"
+    CONFIDENCE = "confidence"
+    METHOD = "method"
+    BASIS = "basis"
+    LEAD = "lead"
+    STORE = "store"
+    DELETE = "delete"
+    EARLIER = "earlier"
+    LATER = "later"
+    CLEAR = "clear"
