@@ -22,6 +22,7 @@ _TUNSETIFF = 0x400454CA
 _IFF_TUN = 0x0001
 _IFF_NO_PI = 0x1000
 _PACKET = 65536
+_FULL_PACKET = 1500
 
 
 @dataclass(frozen=True)
@@ -33,14 +34,18 @@ class Shape:
         delay_s: of each packet [s].
         jitter_s: the delay varies by so much, either way; the order stays [s].
         loss: share of packets that are lost.
+        reordered: share of packets that take half the delay, and so overtake others.
+        duplicated: share of packets that come twice.
         rate: most that passes [bit/s]; 0 for no bound.
-        queue: packets that wait at most where the rate is bounded.
+        queue: full packets that wait at most where the rate is bounded; what finds no room is lost.
     """
 
     cut: bool = False
     delay_s: float = 0.0
     jitter_s: float = 0.0
     loss: float = 0.0
+    reordered: float = 0.0
+    duplicated: float = 0.0
     rate: float = 0.0
     queue: int = 200
 
@@ -56,7 +61,7 @@ class Direction:
     _count: int = 0
     _last_s: float = 0.0
     _free_s: float = 0.0
-    _random: random.Random = field(default_factory=lambda: random.Random(1))
+    _random: random.Random = field(default_factory=lambda: random.Random(1))  # of its own, the same in each run
 
     def take(self, now):
         """Read what has come, and give each packet its time."""
@@ -68,13 +73,21 @@ class Direction:
         shape = self.shape
         if shape.cut or self._random.random() < shape.loss:
             return
-        due = now
+        sent = now
         if shape.rate:
-            if self._free_s > now and len(self._waiting) >= shape.queue:
+            if (self._free_s - now) * shape.rate > 8 * _FULL_PACKET * shape.queue:
                 return
-            self._free_s = due = max(now, self._free_s) + 8 * len(packet) / shape.rate
-        due += shape.delay_s + self._random.uniform(-1.0, 1.0) * shape.jitter_s
+            self._free_s = sent = max(now, self._free_s) + 8 * len(packet) / shape.rate
+        if self._random.random() < shape.reordered:
+            self._push(sent + 0.5 * shape.delay_s, packet)
+            return
+        due = sent + shape.delay_s + self._random.uniform(-1.0, 1.0) * shape.jitter_s
         self._last_s = due = max(due, self._last_s)
+        self._push(due, packet)
+        if self._random.random() < shape.duplicated:
+            self._push(due, packet)
+
+    def _push(self, due, packet):
         self._count += 1
         heapq.heappush(self._waiting, (due, self._count, packet))
 

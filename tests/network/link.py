@@ -15,8 +15,20 @@ _FORWARDER = Path(__file__).with_name("forwarder.py")
 _numbers = itertools.cycle(random.SystemRandom().sample(range(2, 252), 250))
 """Several links of one machine have networks of their own."""
 
-_PRIVATE_MEMORY = ("sh", "-c", 'mount -t tmpfs tmpfs /dev/shm && exec "$@"', "sh")
-"""Zenoh uses shared memory across the namespaces of one kernel, which no link can cut."""
+AHEAD_S = 1000
+"""The far machine's clock, which is another one for it, shows so much more than this machine's [s]."""
+
+_CLOCK = ("unshare", "--time", "--boottime", str(AHEAD_S), "--monotonic", str(AHEAD_S))
+
+_OTHER_MACHINE = (
+    "sh",
+    "-c",
+    'mount -t tmpfs tmpfs /dev/shm && cat /proc/sys/kernel/random/uuid >/dev/shm/boot'
+    ' && mount --bind /dev/shm/boot /proc/sys/kernel/random/boot_id && exec "$@"',
+    "sh",
+)
+"""It has started at another time; and Zenoh uses shared memory across the namespaces of one kernel, which no link can
+cut."""
 
 
 class Impossible(Exception):
@@ -40,7 +52,7 @@ class Link:
         self.near, self.far = f"10.97.{number}.1", f"10.97.{number}.2"
         self._tag = secrets.token_hex(3)
         self._namespace = f"far{self._tag}"
-        self.there = ("ip", "netns", "exec", self._namespace, *_PRIVATE_MEMORY)
+        self.there = (*_CLOCK, "ip", "netns", "exec", self._namespace, *_OTHER_MACHINE)
         self._forwarder = None
 
     def __enter__(self):
@@ -48,6 +60,7 @@ class Link:
             raise Impossible("a cut link needs root and /dev/net/tun")
         near, far = f"near{self._tag}", f"far{self._tag}"
         try:
+            _run("unshare", "--time", "--boottime", "1", "true")
             _ip("netns", "add", self._namespace)
             self._forwarder = subprocess.Popen(
                 [sys.executable, _FORWARDER, near, far], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
@@ -90,6 +103,13 @@ class Link:
 
 
 def _ip(*arguments):
-    done = subprocess.run(["ip", *arguments], capture_output=True, text=True, check=False)
+    _run("ip", *arguments)
+
+
+def _run(*command):
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+    except FileNotFoundError:
+        raise Impossible(f"a cut link needs the command {command[0]}") from None
     if done.returncode:
-        raise Impossible(f"ip {' '.join(arguments)}: {done.stderr.strip()}")
+        raise Impossible(f"{' '.join(command)}: {done.stderr.strip()}")

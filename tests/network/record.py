@@ -1,0 +1,139 @@
+"""What a run over a bad network was like, from what was heard at both its ends."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from protocol import topics
+from protocol.codec import decode
+from protocol.messages import Mode, Phase
+from tests.network.link import AHEAD_S
+
+MOVING = (Phase.RAMP, Phase.EXECUTE)
+SETTLED_S = 0.3
+"""A robot that began to hold stands after so long."""
+
+SMOOTHED = 21
+"""Control periods over which a path is a parabola in time, nearly; shorter ones are rounding of the measurement."""
+
+
+@dataclass(frozen=True)
+class Figures:
+    """Of one run.
+
+    Attributes:
+        up_ms: median and 99th percentile of the master's samples on their way to the robot.
+        down_ms: the same, of the robot's state on its way to the desk.
+        held: share of the refinements' time in which the robot held.
+        hold_after_ms: from the last sample that took effect to the hold, at most.
+        oldest_ms: age of a sample when it shaped a command, at most.
+        jerk: of the refinements' paths, root of the mean square [m/s^3].
+        unasked_mm: how far the robot moved in a hold, at most.
+        pictures_hz: of both cameras together at the desk.
+        pictures_ms: median and 99th percentile of their age there.
+    """
+
+    up_ms: tuple[float, float]
+    down_ms: tuple[float, float]
+    held: float
+    hold_after_ms: float
+    oldest_ms: float
+    jerk: float
+    unasked_mm: float
+    pictures_hz: float
+    pictures_ms: tuple[float, float]
+
+
+class Record:
+    """A run as it was heard.
+
+    Args:
+        near: what passed at the robot's site: when [ns], the topic's name, the message.
+        far: the same at the desk, by the desk's clock.
+        pictures: that came to the desk: when [ns], the camera, when it was sent [ns], its size.
+    """
+
+    def __init__(self, near, far, pictures):
+        ahead = AHEAD_S * 1_000_000_000
+        self.states = [decode(topics.ROBOT_STATE, raw) for _, name, raw in near if name == topics.ROBOT_STATE.name]
+        heard = [(at, decode(topics.MASTER_STATE, raw)) for at, name, raw in near if name == topics.MASTER_STATE.name]
+        self._sent = {sample.sequence: sample.stamp_ns - ahead for _, sample in heard}
+        self._came = {sample.sequence: at for at, sample in reversed(heard)}
+        self._up = np.array([at - sample.stamp_ns + ahead for at, sample in heard]) / 1e6
+        told = [(at, decode(topics.ROBOT_STATE, raw)) for at, name, raw in far if name == topics.ROBOT_STATE.name]
+        self._down = np.array([at - ahead - state.stamp_ns for at, state in told]) / 1e6
+        self._shown = np.array([(at - ahead, at - ahead - sent) for at, _, sent, _ in pictures]).reshape(-1, 2)
+
+    def figures(self):
+        """See `Figures`."""
+        refining = [state for state in self.states if state.mode is Mode.REFINE and state.phase.running]
+        held = [state for state in refining if state.phase is Phase.HOLD]
+        seconds = np.ptp(self._shown[:, 0]) / 1e9 if len(self._shown) else np.inf
+        return Figures(
+            up_ms=_quantiles(self._up),
+            down_ms=_quantiles(self._down),
+            held=len(held) / len(refining) if refining else np.nan,
+            hold_after_ms=max(self._hold_delays(), default=0.0),
+            oldest_ms=max(self._applied_ages(refining), default=np.nan),
+            jerk=self._jerk(refining),
+            unasked_mm=1e3 * max(self._drifts(), default=0.0),
+            pictures_hz=len(self._shown) / seconds,
+            pictures_ms=_quantiles(self._shown[:, 1] / 1e6),
+        )
+
+    def moved_between(self, began_ns, ended_ns):
+        """How far the robot came in a time, at most [m]."""
+        positions = np.array(
+            [state.measured.position for state in self.states if began_ns <= state.stamp_ns <= ended_ns]
+        )
+        return float(np.linalg.norm(positions - positions[0], axis=1).max()) if len(positions) else 0.0
+
+    def _applied_ages(self, refining):
+        """Of the sample behind each command of a refinement [ms]."""
+        for state in refining:
+            sent = self._sent.get(state.applied_sequence)
+            if state.phase is Phase.EXECUTE and sent is not None:
+                yield (state.stamp_ns - sent) / 1e6
+
+    def _hold_delays(self):
+        """From the coming of the last sample that took effect to each hold of a refinement [ms]."""
+        for before, after in zip(self.states, self.states[1:], strict=False):
+            begins = before.phase is Phase.EXECUTE and after.phase is Phase.HOLD
+            came = self._came.get(before.applied_sequence)
+            if begins and after.mode is Mode.REFINE and came is not None:
+                yield (after.stamp_ns - came) / 1e6
+
+    def _drifts(self):
+        """How far it moved in each hold, once it had settled [m]."""
+        began_ns = None
+        for state in self.states:
+            if state.phase in MOVING:
+                began_ns = None
+                continue
+            if began_ns is None:
+                began_ns, start = state.stamp_ns, None
+            if state.phase is Phase.HOLD and state.stamp_ns - began_ns > SETTLED_S * 1e9:
+                start = state.measured.position if start is None else start
+                yield float(np.linalg.norm(np.subtract(state.measured.position, start)))
+
+    def _jerk(self, refining):
+        """Root of the mean square over all refinements' paths, holds included [m/s^3]."""
+        squares = []
+        for episode in {state.episode for state in refining}:
+            path = [state for state in refining if state.episode == episode]
+            squares.extend(_squared_jerk(np.array([state.reference.position for state in path])))
+        return float(np.sqrt(np.mean(squares))) if squares else np.nan
+
+
+def _squared_jerk(path):
+    """Of a path that is sampled once a control period, shape (n, 3)."""
+    if len(path) <= SMOOTHED:
+        return []
+    times = (np.arange(SMOOTHED) - SMOOTHED // 2) / topics.ROBOT_STATE.rate_hz
+    weights = np.linalg.pinv(np.vander(times, 4, increasing=True))[3] * 6.0
+    jerk = np.stack([np.convolve(axis, weights[::-1], "valid") for axis in path.T], axis=1)
+    return np.sum(jerk**2, axis=1)
+
+
+def _quantiles(samples):
+    return tuple(np.quantile(samples, (0.5, 0.99)).tolist()) if len(samples) else (np.nan, np.nan)
