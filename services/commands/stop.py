@@ -11,7 +11,7 @@ from contextlib import contextmanager
 
 from protocol import topics
 from protocol.messages import LONGEST_REASON, SHORTEST_REASON
-from services.bus.zenoh import ZenohBus, open_session
+from services.bus.zenoh import Lanes, ZenohBus, open_session
 from services.commands.arguments import add_network, within
 from services.commands.pressing import Press, Release, Revoke, story
 from services.commands.settings import configuration as configured
@@ -147,7 +147,7 @@ class _Attempt:
         except RouterUnreachable as error:
             reason = f"no router at {error.endpoint}: {error.reason}"
             raise NotConfirmed(self._what, self._robot, self._timeout_s, reason, self._remedy) from None
-        bus = ZenohBus(session, self._robot, f"cli-{os.getpid()}", SystemClock())
+        bus = ZenohBus(Lanes(session), self._robot, f"cli-{os.getpid()}", SystemClock())
         try:
             yield bus
         finally:

@@ -39,6 +39,16 @@ class Endpoint:
     port: int
 
     @property
+    def is_loopback(self) -> bool:
+        """Whether it is on this machine, and no network leads there."""
+        return self.host == "localhost" or (self.is_address and ip_address(self.host).is_loopback)
+
+    @property
+    def datagrams(self) -> str:
+        """The endpoint of datagrams beside it; empty on this machine alone, and where what travels is encrypted."""
+        return self.text.replace("tcp/", "udp/", 1) if self.protocol == "tcp" and not self.is_loopback else ""
+
+    @property
     def is_address(self) -> bool:
         """Whether the host is an address, and no name that has to be looked up."""
         try:

@@ -1,4 +1,4 @@
-"""The loop over bad networks: whether it closes, how late commands come, how long the robot holds, how smoothly it goes.
+"""The loop over bad networks: whether it closes, how late commands come, how long the robot holds, how it goes.
 
 Robot and desk are real processes on two machines as far as their network, clock and memory go, joined by a link that
 delays, loses, queues and is cut; needs root, /dev/net/tun, `ip` and `unshare`. A run of a minute a case.

@@ -23,7 +23,7 @@ _CLOCK = ("unshare", "--time", "--boottime", str(AHEAD_S), "--monotonic", str(AH
 _OTHER_MACHINE = (
     "sh",
     "-c",
-    'mount -t tmpfs tmpfs /dev/shm && cat /proc/sys/kernel/random/uuid >/dev/shm/boot'
+    "mount -t tmpfs tmpfs /dev/shm && cat /proc/sys/kernel/random/uuid >/dev/shm/boot"
     ' && mount --bind /dev/shm/boot /proc/sys/kernel/random/boot_id && exec "$@"',
     "sh",
 )

@@ -9,6 +9,7 @@ from protocol.codec import decode
 from protocol.messages import Mode, Phase
 from tests.network.link import AHEAD_S
 
+PICTURES = (topics.HEAD_IMAGE, topics.WRIST_IMAGE)
 MOVING = (Phase.RAMP, Phase.EXECUTE)
 SETTLED_S = 0.3
 """A robot that began to hold stands after so long."""
@@ -48,21 +49,20 @@ class Record:
     """A run as it was heard.
 
     Args:
-        near: what passed at the robot's site: when [ns], the topic's name, the message.
+        near: what came at the robot's site: when [ns], the topic's name, the message.
         far: the same at the desk, by the desk's clock.
-        pictures: that came to the desk: when [ns], the camera, when it was sent [ns], its size.
     """
 
-    def __init__(self, near, far, pictures):
+    def __init__(self, near, far):
         ahead = AHEAD_S * 1_000_000_000
-        self.states = [decode(topics.ROBOT_STATE, raw) for _, name, raw in near if name == topics.ROBOT_STATE.name]
-        heard = [(at, decode(topics.MASTER_STATE, raw)) for at, name, raw in near if name == topics.MASTER_STATE.name]
+        self.states = [state for _, state in _of(near, topics.ROBOT_STATE)]
+        heard = list(_of(near, topics.MASTER_STATE))
         self._sent = {sample.sequence: sample.stamp_ns - ahead for _, sample in heard}
         self._came = {sample.sequence: at for at, sample in reversed(heard)}
         self._up = np.array([at - sample.stamp_ns + ahead for at, sample in heard]) / 1e6
-        told = [(at, decode(topics.ROBOT_STATE, raw)) for at, name, raw in far if name == topics.ROBOT_STATE.name]
-        self._down = np.array([at - ahead - state.stamp_ns for at, state in told]) / 1e6
-        self._shown = np.array([(at - ahead, at - ahead - sent) for at, _, sent, _ in pictures]).reshape(-1, 2)
+        self._down = np.array([at - ahead - state.stamp_ns for at, state in _of(far, topics.ROBOT_STATE)]) / 1e6
+        shown = [(at - ahead, at - ahead - image.captured_ns) for topic in PICTURES for at, image in _of(far, topic)]
+        self._shown = np.array(shown).reshape(-1, 2)
 
     def figures(self):
         """See `Figures`."""
@@ -123,6 +123,11 @@ class Record:
             path = [state for state in refining if state.episode == episode]
             squares.extend(_squared_jerk(np.array([state.reference.position for state in path])))
         return float(np.sqrt(np.mean(squares))) if squares else np.nan
+
+
+def _of(heard, topic):
+    """One topic's messages, and when each came [ns]."""
+    return ((at, decode(topic, raw)) for at, name, raw in heard if name == topic.name)
 
 
 def _squared_jerk(path):

@@ -9,7 +9,7 @@ import msgpack
 import psutil
 
 from protocol import topics
-from tests.network.ear import Ear
+from tests.network.ear import NEAR, Ear
 from tests.network.link import Link
 from tests.ports import free_port
 from tests.system.harness import START_S, Command, eventually, reachable
@@ -17,8 +17,6 @@ from tests.system.harness import START_S, Command, eventually, reachable
 SCENE = "particle"
 AUTONOMOUS_S = 4.0
 REFINE_S = 14.0
-UP = (topics.MASTER_STATE.name, topics.AUTHORITY_RENEWAL.name)
-DOWN = (topics.ROBOT_STATE.name,)
 _HERE = Path(__file__).parent
 
 
@@ -43,18 +41,18 @@ class Sites:
 
     def __enter__(self):
         port = free_port()
-        endpoint = f"tcp/{self._link.near}:{port}"
+        here, endpoint = f"tcp/127.0.0.1:{port}", f"tcp/{self._link.near}:{port}"
         near, far = self._folder / "near", self._folder / "far"
         near.mkdir()
         far.mkdir()
         with contextlib.ExitStack() as stack:
-            arguments = ("--fresh", "--only", "robot,model", "--scene", SCENE, "--listen", endpoint)
+            arguments = ("--fresh", "--only", "robot,model", "--scene", SCENE, "--listen", f"tcp/0.0.0.0:{port}")
             robot = stack.enter_context(Command("up", *arguments, folder=near))
-            robot.until(lambda: reachable(endpoint), START_S, "the router listens")
-            self.ear = stack.enter_context(Ear(endpoint, (*UP, *DOWN)))
+            robot.until(lambda: reachable(here), START_S, "the router listens")
+            self.ear = stack.enter_context(Ear(here, NEAR))
             if self._pictures:
-                stack.enter_context(_running([sys.executable, _HERE / "pictures.py", endpoint]))
-            program = [*self._link.there, sys.executable, _HERE / "ear.py", endpoint, self._far_file, *DOWN]
+                stack.enter_context(_running([sys.executable, _HERE / "pictures.py", here]))
+            program = [*self._link.there, sys.executable, _HERE / "ear.py", endpoint, self._far_file]
             self._far_ear = stack.enter_context(_running(program))
             assert self._far_ear.stdout.readline() == "listening\n"
             self.desk = stack.enter_context(self._operator(endpoint, far))
@@ -86,7 +84,9 @@ class Sites:
         eventually(lambda: self._refines(progress), START_S, "a refinement is under way")
 
     def _refines(self, progress):
-        state = next((payload for _, name, payload in reversed(self.ear.heard) if name == DOWN[0]), None)
+        state = next(
+            (payload for _, name, payload in reversed(self.ear.heard) if name == topics.ROBOT_STATE.name), None
+        )
         if state is None:
             return False
         fields = msgpack.unpackb(state)
@@ -106,10 +106,10 @@ class Sites:
                     process.resume()
 
     def heard(self):
-        """What was heard at the robot's site, at the desk, and of the pictures there, each with its time."""
+        """What was heard at the robot's site, and what at the desk."""
         self._far_ear.stdin.close()
         self._far_ear.wait(START_S)
-        return self.ear.heard, *msgpack.unpackb(self._far_file.read_bytes())
+        return self.ear.heard, msgpack.unpackb(self._far_file.read_bytes())
 
 
 @contextlib.contextmanager

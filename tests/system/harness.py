@@ -18,7 +18,7 @@ import psutil
 from protocol import topics
 from protocol.queries import Refused
 from services.bus.bus import Failed
-from services.bus.zenoh import ZenohBus, open_session
+from services.bus.zenoh import Lanes, ZenohBus, open_session
 from services.process.clock import SystemClock
 from services.process.processes import PROCESS_NAMES
 from tests.ports import free_port
@@ -229,7 +229,7 @@ class Witness:
 
     def __init__(self, endpoint, robot="robot1"):
         session = open_session(endpoint, START_S)
-        self.bus = ZenohBus(session, robot, f"witness-{secrets.token_hex(4)}", SystemClock())
+        self.bus = ZenohBus(Lanes(session), robot, f"witness-{secrets.token_hex(4)}", SystemClock())
         self._states = {topic: self.bus.subscribe(topic) for topic in STATES}
         self._heartbeats = self.bus.subscribe(topics.HEARTBEAT)
         self._beats = {}

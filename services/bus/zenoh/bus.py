@@ -26,7 +26,8 @@ from services.bus.server import Server
 from services.bus.subscription import Subscription
 from services.bus.zenoh.dialling import Opened
 from services.bus.zenoh.encoding import announced, encoding
-from services.bus.zenoh.session import Session, open_session
+from services.bus.zenoh.lanes import Lanes
+from services.bus.zenoh.session import open_session
 from services.bus.zenoh.watch import watch
 from services.process.clock import Clock
 from services.process.exceptions import NameTaken, RouterUnreachable
@@ -72,14 +73,15 @@ class ZenohBus:
     in turn.
 
     Args:
-        session: the bus closes it.
+        lanes: to the router; the bus closes them.
         robot: whose topics these are.
         process: this process' name, the last chunk of the keys that it publishes on.
         clock: for stamps and receipt times.
     """
 
-    def __init__(self, session: Session, robot: str, process: str, clock: Clock) -> None:
-        self._session = session
+    def __init__(self, lanes: Lanes, robot: str, process: str, clock: Clock) -> None:
+        self._lanes = lanes
+        self._session = lanes.session
         self._robot = checked_name(robot)
         self._process = checked_name(process)
         self._clock = clock
@@ -113,8 +115,12 @@ class ZenohBus:
     def publish(self, topic: Topic[M], message: M) -> None:
         """Send to whoever subscribes."""
         payload = self._outbox.pack(topic, message, self._clock.now_ns())
-        if payload is not None:
-            self._session.use(lambda opened: self._publisher(opened, topic).put(payload))
+        if payload is None:
+            return
+        datagrams = self._lanes.datagrams(topic)
+        sent = datagrams is not None and datagrams.put(lambda session: self._put(session, topic, payload))
+        if not sent or topic.qos is QoS.SAFETY:  # a stop goes every way there is
+            self._lanes.stream(topic).use(lambda opened: self._publisher(opened, topic).put(payload))
 
     def subscribe(self, topic: Topic[M], call: threading.Event | None = None) -> Subscription[M]:
         """Receive what any process publishes on the topic."""
@@ -125,7 +131,11 @@ class ZenohBus:
             subscription.receive(sample.payload.to_bytes(), announced(sample.encoding), self._clock.now_ns(), key)
 
         key_expression = topic.key(self._robot, "*")
-        self._session.declare(lambda session: session.declare_subscriber(key_expression, store))
+        datagrams = self._lanes.datagrams(topic)
+        if datagrams is not None and topic.qos is not QoS.SAFETY:
+            datagrams.subscribe(lambda session, hear: session.declare_subscriber(key_expression, hear), store)
+        else:
+            self._lanes.stream(topic).declare(lambda session: session.declare_subscriber(key_expression, store))
         self._inlets.append(subscription)
         return subscription
 
@@ -189,8 +199,8 @@ class ZenohBus:
         return frozenset(self._robots.copy() - {self._robot})
 
     def neighbour(self, robot: str) -> ZenohBus:
-        """This process' way to another robot, over the same session."""
-        return ZenohBus(self._session, robot, self._process, self._clock)
+        """This process' way to another robot, over the same lanes."""
+        return ZenohBus(self._lanes, robot, self._process, self._clock)
 
     def figures(self) -> tuple[TopicFigures, ...]:
         """What was received on each topic, and asked on each query, since the last call."""
@@ -203,7 +213,19 @@ class ZenohBus:
 
     def close(self) -> None:
         """Leave the network."""
-        self._session.close()
+        self._lanes.close()
+
+    def _put(self, session: zenoh.Session, topic: Topic[Any], payload: bytes) -> None:
+        """Send a datagram; nothing is declared for it, since that could be lost."""
+        transport = _TRANSPORTS[topic.qos]
+        session.put(
+            topic.key(self._robot, self._process),
+            payload,
+            encoding=encoding(topic.schema),
+            priority=transport.priority,
+            congestion_control=transport.congestion_control,
+            express=transport.express,
+        )
 
     def _publisher(self, opened: Opened, topic: Topic[Any]) -> zenoh.Publisher:
         publisher = opened.publishers.get(topic.name)
@@ -249,7 +271,7 @@ def connect(endpoint: str, robot: str, process: str, clock: Clock, *, timeout_s:
         BusError: see `open_session`.
         NameTaken: the robot has such a process already.
     """
-    bus = ZenohBus(open_session(endpoint, timeout_s), robot, process, clock)
+    bus = ZenohBus(Lanes(open_session(endpoint, timeout_s)), robot, process, clock)
     try:
         bus.claim_name()
     except TimeoutError:

@@ -104,9 +104,9 @@ class Dialling(threading.Thread):
         # It dials a cut link at the pace at which it was opened: the router may only have begun late.
         sooner = self._attempt(least_ms) if pace_ms > least_ms else None
         if sooner is None:
-            return _linked(session, pace_ms)
+            return linked(session, pace_ms)
         leave(session)
-        return _linked(sooner, least_ms)
+        return linked(sooner, least_ms)
 
     def _attempt(self, pace_ms: int) -> zenoh.Session | None:
         try:
@@ -117,7 +117,8 @@ class Dialling(threading.Thread):
             return None
 
 
-def _linked(session: zenoh.Session, pace_ms: int) -> Opened:
+def linked(session: zenoh.Session, pace_ms: int) -> Opened:
+    """The session, which has just been opened, and whether its link is lost later."""
     lost = threading.Event()
 
     def note(event: zenoh.TransportEvent) -> None:

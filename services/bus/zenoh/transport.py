@@ -10,6 +10,8 @@ from typing import Any
 
 import zenoh
 
+from services.process.endpoint import parse
+
 log = logging.getLogger(__name__)
 
 LEASE_MS = 1000
@@ -42,7 +44,7 @@ def configuration(
     config: dict[str, Any] = {
         "mode": mode,
         "scouting": {"multicast": {"enabled": False}, "gossip": {"enabled": False}},
-        "listen": {"endpoints": [listen] if listen else []},
+        "listen": {"endpoints": [end for end in (listen, parse(listen).datagrams) if end] if listen else []},
         "connect": {
             "endpoints": [connect] if connect else [],
             "timeout_ms": within_ms,

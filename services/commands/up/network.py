@@ -10,7 +10,7 @@ import webbrowser
 from collections.abc import Callable
 
 from protocol import topics
-from protocol.messages import Attempt, Heartbeat, Phase, TeachingState
+from protocol.messages import Attempt, Heartbeat, TeachingState
 from services.bus.subscription import Subscription
 from services.bus.zenoh import ZenohBus
 from services.commands.up.report import attempt_line
@@ -31,7 +31,7 @@ class Watch:
     def __init__(self, bus: ZenohBus) -> None:
         self._bus = bus
         self.teaching = bus.subscribe(topics.TEACHING_STATE)
-        self.robot = bus.subscribe(topics.ROBOT_STATE)
+        self.execution = bus.subscribe(topics.EXECUTION)
         self.recording = bus.subscribe(topics.RECORDING)
         self._heartbeats: Subscription[Heartbeat] = bus.subscribe(topics.HEARTBEAT)
         self.beats: dict[str, Heartbeat] = {}
@@ -51,9 +51,8 @@ class Watch:
         return received.message if received is not None else None
 
     def moved(self) -> bool:
-        """Whether the robot is in motion."""
-        received = self.robot.latest()
-        return received is not None and received.message.phase in (Phase.RAMP, Phase.EXECUTE)
+        """Whether the robot has begun a motion."""
+        return self.execution.latest() is not None
 
     def close(self) -> None:
         """Leave the network."""

@@ -8,7 +8,7 @@ import time
 from pathlib import Path
 
 from protocol.messages import TeachingState
-from services.bus.zenoh import ZenohBus, open_session
+from services.bus.zenoh import Lanes, ZenohBus, open_session
 from services.commands.up.child import Child
 from services.commands.up.network import Narrator, Page, Watch
 from services.commands.up.report import Report, attempt_reports, write
@@ -121,7 +121,7 @@ class Supervisor:
                 stop.wait(POLL_S)
                 continue
             name = f"supervisor-{os.getpid()}"
-            self._watch = Watch(ZenohBus(session, self._configuration.name, name, SystemClock()))
+            self._watch = Watch(ZenohBus(Lanes(session), self._configuration.name, name, SystemClock()))
             return
 
     def _finished(self, teaching: TeachingState) -> End:
