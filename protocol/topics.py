@@ -162,6 +162,9 @@ EPISODE_RESULT = Topic(
 )
 HEAD_IMAGE = Topic("cam/head", messages.CameraImage, 15.0, QoS.PICTURE, "camera", 1_048_576, "the head camera")
 WRIST_IMAGE = Topic("cam/wrist", messages.CameraImage, 15.0, QoS.PICTURE, "camera", 1_048_576, "the wrist camera")
+POINT_CLOUD = Topic(
+    "cam/cloud", messages.PointCloud, 5.0, QoS.PICTURE, "camera", 73_728, "surfaces that the head camera sees"
+)
 OBJECT_POSE = Topic(
     "state/object_pose", messages.ObjectPose, 15.0, QoS.STATE, "perception", 1_536, "the object as the camera sees it"
 )
@@ -205,6 +208,7 @@ TOPICS: tuple[Topic[Any], ...] = (
     EPISODE_RESULT,
     HEAD_IMAGE,
     WRIST_IMAGE,
+    POINT_CLOUD,
     OBJECT_POSE,
     PREDICTION,
     MODEL_STATE,

@@ -14,7 +14,7 @@ from protocol.messages.authority import (
     AuthorityRequest,
     AuthorityState,
 )
-from protocol.messages.camera import CameraImage
+from protocol.messages.camera import MOST_POINTS, POINT_BYTES, CameraImage, PointCloud
 from protocol.messages.command import Controller, MasterState, OperatorInput, Trouble
 from protocol.messages.health import Figure, Heartbeat, TopicFigures
 from protocol.messages.model import MOST_WAYPOINTS, Method, ModelState, Origin, Prediction, Purpose, Way
@@ -57,7 +57,9 @@ from protocol.messages.values import (
 __all__ = [
     "ITEM_SIZES",
     "LONGEST_REASON",
+    "MOST_POINTS",
     "MOST_WAYPOINTS",
+    "POINT_BYTES",
     "SHORTEST_REASON",
     "SILENCE_GIVES_S",
     "Array",
@@ -96,6 +98,7 @@ __all__ = [
     "Part",
     "Person",
     "Phase",
+    "PointCloud",
     "Pose",
     "Prediction",
     "Purpose",

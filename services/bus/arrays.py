@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from protocol.messages import Array, Motion, Quaternion, Vector3
+from protocol.messages import POINT_BYTES, Array, Motion, Quaternion, Vector3
 from services.process.exceptions import ServiceError
 
 Floats = NDArray[np.float64]
-
+Colours = NDArray[np.uint8]
 
 GREATEST = 1e9
 """As of every other number of a message."""
@@ -63,6 +63,18 @@ def motion_to_wire(positions: ArrayLike, orientations: ArrayLike, duration: floa
 def motion_from_wire(motion: Motion) -> tuple[Floats, Floats, float]:
     """Positions (n, 3) [m], orientations (n, 4) and duration [s] of a message; raises as `from_wire`."""
     return from_wire(motion.positions), from_wire(motion.orientations), motion.duration
+
+
+def points_to_wire(positions: Floats, colours: Colours) -> bytes:
+    """Positions (n, 3) [m] within 32 m of the origin and colours (n, 3), RGB, as a `PointCloud` has them."""
+    return (1000.0 * positions).round().astype("<i2").tobytes() + colours.tobytes()
+
+
+def points_from_wire(data: bytes) -> tuple[Floats, Colours]:
+    """Positions (n, 3) [m] and colours (n, 3), RGB, of a `PointCloud`'s bytes."""
+    n = len(data) // POINT_BYTES
+    positions = np.frombuffer(data, dtype="<i2", count=3 * n).reshape(n, 3) / 1000.0
+    return positions, np.frombuffer(data, dtype=np.uint8, count=3 * n, offset=6 * n).reshape(n, 3)
 
 
 def vector3(values: ArrayLike) -> Vector3:

@@ -1,4 +1,4 @@
-"""Draws the head and wrist cameras' pictures from the published state of the simulated world.
+"""Draws the head and wrist cameras' pictures, and the head's point cloud, from the published state of the world.
 
 It keeps a model of its own, in a process of its own: drawing can never disturb control.
 """
@@ -12,13 +12,15 @@ from statistics import median
 import cv2
 import numpy as np
 
-from protocol.messages import CameraImage, Figure, Pose, SceneState, WorldState
-from protocol.topics import HEAD_IMAGE, SCENE_STATE, WORLD_STATE, WRIST_IMAGE, Topic
-from services.bus.arrays import Floats, NotFinite, from_wire, quaternion, vector3
+from protocol.messages import CameraImage, Figure, PointCloud, Pose, SceneState, WorldState
+from protocol.topics import HEAD_IMAGE, POINT_CLOUD, SCENE_STATE, WORLD_STATE, WRIST_IMAGE, Topic
+from services.bus.arrays import Floats, NotFinite, from_wire, points_to_wire, quaternion, vector3
 from services.bus.bus import Bus
+from services.camera.cloud import cloud
 from services.process.clock import Clock
 from services.process.config import CameraSection, Configuration
 from services.process.runner import Service
+from services.process.schedule import Schedule
 from sim.exceptions import UnknownScene, UnknownVariant
 from sim.robots.description import prepare
 from sim.tasks import scene
@@ -60,6 +62,7 @@ class CameraService:
         self._description = prepare()
         self._cameras = self._open(configuration.robot.scene)
         self._refused = ("", "")
+        self._schedule = Schedule()
         self._drawn_ns = 0
         self._durations_ns: deque[int] = deque(maxlen=256)
         self._ages_ns: deque[int] = deque(maxlen=256)
@@ -83,7 +86,7 @@ class CameraService:
         try:
             qpos = from_wire(world.qpos)
             for camera, topic in _TOPICS:
-                self._bus.publish(topic, self._picture(camera, qpos, world))
+                self._show(camera, topic, qpos, world, now_ns)
         except (NotFinite, ValueError):  # a state of another model, or none at all
             self._unusable += 1
             return
@@ -128,20 +131,30 @@ class CameraService:
             return False
         return True
 
-    def _picture(self, camera: str, qpos: Floats, world: WorldState) -> CameraImage:
+    def _show(
+        self, camera: str, topic: Topic[CameraImage], qpos: Floats, world: WorldState, now_ns: int
+    ) -> None:
         image = self._cameras.render(camera, qpos)
-        (fx, _, cx), (_, fy, cy), _ = self._cameras.intrinsics(camera).tolist()
-        pose = self._cameras.pose(camera, qpos)
-        return CameraImage(
-            camera=camera,
-            width=self._section.width,
-            height=self._section.height,
-            data=encode(image, self._section.quality),
-            intrinsics=(fx, fy, cx, cy),
-            pose=Pose(vector3(pose.position), quaternion(pose.orientation)),
-            captured_ns=world.stamp_ns,
-            object_pose=world.object_pose,
+        intrinsics = self._cameras.intrinsics(camera)
+        at = self._cameras.pose(camera, qpos)
+        pose = Pose(vector3(at.position), quaternion(at.orientation))
+        (fx, _, cx), (_, fy, cy), _ = intrinsics.tolist()
+        self._bus.publish(
+            topic,
+            CameraImage(
+                camera=camera,
+                width=self._section.width,
+                height=self._section.height,
+                data=encode(image, self._section.quality),
+                intrinsics=(fx, fy, cx, cy),
+                pose=pose,
+                captured_ns=world.stamp_ns,
+                object_pose=world.object_pose,
+            ),
         )
+        if camera == HEAD_CAMERA and self._schedule.due(POINT_CLOUD, now_ns):
+            points = points_to_wire(*cloud(image, self._cameras.depth(), intrinsics, pose))
+            self._bus.publish(POINT_CLOUD, PointCloud(camera=camera, data=points, captured_ns=world.stamp_ns))
 
 
 def encode(image: Image, quality: int) -> bytes:

@@ -11,7 +11,7 @@ from sim.pose import Pose
 from sim.robots.description import RobotDescription
 from sim.tasks import AnyScene
 from sim.world.assembly import assemble
-from sim.world.drawing import Canvas, Image
+from sim.world.drawing import Canvas, Depth, Image
 from sim.world.staging import HEAD_CAMERA, WRIST_CAMERA, select
 
 Array = NDArray[np.float64]
@@ -64,6 +64,10 @@ class Cameras:
         camera.type = mujoco.mjtCamera.mjCAMERA_FIXED
         camera.fixedcamid = self._model.camera(name).id
         return self._canvas.draw(self._data, camera)
+
+    def depth(self) -> Depth:
+        """Return how far along the view is what was rendered last, shape (height, width) [m]; see `Canvas.depth`."""
+        return self._canvas.depth()
 
     def intrinsics(self, name: str) -> Array:
         """Return a camera's matrix, shape (3, 3) [px], for pixel centres at whole numbers.

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from sim.exceptions import DrawingLibraryMissing
 
 Image = NDArray[np.uint8]
+Depth = NDArray[np.float64]
 
 _LIBRARIES = {"egl": ("libEGL.so.1", "libGL.so.1"), "osmesa": ("libOSMesa.so.8",)}
 _OF_DRIVERS = ("EGL_", "__EGL", "GALLIUM_", "LIBGL_", "MESA_", "MUJOCO_EGL_", "PYOPENGL_")
@@ -57,6 +58,7 @@ class Canvas:
         self._scene.flags[mujoco.mjtRndFlag.mjRND_REFLECTION] = False
         self._option = mujoco.MjvOption()
         self._frame = mujoco.MjrRect(0, 0, width, height)
+        self._near, self._far = (model.stat.extent * plane for plane in (model.vis.map.znear, model.vis.map.zfar))
 
     def draw(self, data: mujoco.MjData, camera: mujoco.MjvCamera) -> Image:
         """Draw a state.
@@ -74,6 +76,19 @@ class Canvas:
         picture = np.empty((self._frame.height, self._frame.width, 3), dtype=np.uint8)
         mujoco.mjr_readPixels(picture, None, self._frame, self._context)
         return np.flipud(picture)
+
+    def depth(self) -> Depth:
+        """Return how far along the view is what was drawn last.
+
+        Returns:
+            Distances along the optical axis, shape (height, width) [m], the first row at the top; where there is
+            nothing it is that of the far clipping plane, beyond everything that is drawn.
+        """
+        read = np.empty((self._frame.height, self._frame.width), dtype=np.float32)
+        self._graphics.make_current()
+        mujoco.mjr_readPixels(None, read, self._frame, self._context)
+        shares = np.flipud(read).astype(np.float64)  # of a perspective: 0 at the near plane, 1 at the far one
+        return self._near / (1.0 - shares * (1.0 - self._near / self._far))
 
     def close(self) -> None:
         """Give the drawing library's resources back; a second call does nothing."""

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from protocol.messages import Pose, SceneState, WorldState
-from protocol.topics import HEAD_IMAGE, OBJECT_POSE, SCENE_STATE, WORLD_STATE, WRIST_IMAGE
-from services.bus.arrays import quaternion, to_wire, vector3
+from protocol.topics import HEAD_IMAGE, OBJECT_POSE, POINT_CLOUD, SCENE_STATE, WORLD_STATE, WRIST_IMAGE
+from services.bus.arrays import points_from_wire, quaternion, to_wire, vector3
 from services.bus.memory import MemoryNetwork
 from services.perception.service import build as build_perception
 from services.process.clock import ManualClock
@@ -95,6 +95,24 @@ def test_a_state_is_drawn_once(system, world):
     for _ in range(3):
         camera.step(clock.now_ns())
     assert heads.latest().message.sequence == 1
+
+
+def test_the_cloud_comes_five_times_a_second_and_holds_the_object(system, world):
+    network, clock, camera = system
+    robot = network.bus()
+    clouds, heads = robot.subscribe(POINT_CLOUD), robot.subscribe(HEAD_IMAGE)
+    robot.publish(SCENE_STATE, scene_state())
+    for _ in range(31):
+        robot.publish(WORLD_STATE, world_state(world))
+        camera.step(clock.now_ns())
+        clock.advance(1 / 15)
+    newest = clouds.latest().message
+    assert (newest.sequence, heads.latest().message.sequence) == (11, 31)
+    assert newest.captured_ns == heads.latest().message.captured_ns
+    positions, _ = points_from_wire(newest.data)
+    near = np.linalg.norm(positions - np.array(world_state(world).object_pose.position), axis=1) < 0.08
+    assert 1_000 < len(positions)
+    assert np.count_nonzero(near) > 10
 
 
 def test_a_state_of_another_model_is_counted_and_not_drawn(system, world):
