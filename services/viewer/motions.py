@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import rerun as rr
 
+from protocol.messages import Pose
 from services.bus.arrays import Floats
 from services.viewer import entities, palette
 from services.viewer.run import Run
@@ -44,3 +45,17 @@ def log_refined(run: Run, positions: Floats) -> None:
     """Draw the part of the refined motion that lies behind, shape (k, 3) [m]."""
     strips = [positions] if len(positions) > 1 else []
     run.log(entities.REFINED, rr.LineStrips3D(strips, radii=[0.0045], colors=[palette.REFINED]))
+
+
+def log_waypoints(run: Run, waypoints: tuple[Pose, ...]) -> None:
+    """Draw the waypoints that the operator has stored, with the numbers that the page gives them."""
+    run.log(
+        entities.WAYPOINTS,
+        rr.Points3D(
+            np.array([waypoint.position for waypoint in waypoints]).reshape(-1, 3),
+            radii=[0.009],
+            colors=[palette.REFINED],
+            labels=[str(number) for number, _ in enumerate(waypoints, 1)],
+            show_labels=True,
+        ),
+    )

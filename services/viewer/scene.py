@@ -5,14 +5,15 @@ from __future__ import annotations
 import numpy as np
 import rerun as rr
 
-from protocol.messages import Pose, Quaternion, SceneState, Vector3
-from services.bus.arrays import vector3
+from protocol.messages import PointCloud, Pose, Quaternion, SceneState, Vector3
+from services.bus.arrays import points_from_wire, vector3
 from services.viewer import entities, palette
 from services.viewer.kinds import ARROWS
 from services.viewer.run import Run
 
 _FORCE_SCALE = 0.03  # [m/N]
 _THIN = -0.75  # [points on the screen]: Rerun's sign for not being metres
+_POINT = -1.5  # [points on the screen]
 _LEAST_FORCE = 0.05  # [N] below it there is no arrow
 
 
@@ -30,6 +31,12 @@ def log_environment(run: Run, scene: SceneState) -> None:
         ),
         scene.boxes,
     )
+
+
+def log_cloud(run: Run, cloud: PointCloud) -> None:
+    """Draw what a camera sees as points."""
+    positions, colours = points_from_wire(cloud.data)
+    run.log(entities.CLOUD, rr.Points3D(positions, radii=[_POINT], colors=colours))
 
 
 def log_object_seen(run: Run, pose: Pose, size: Vector3) -> None:

@@ -12,6 +12,7 @@ from protocol.topics import (
     EXECUTION,
     HEAD_IMAGE,
     OBJECT_POSE,
+    POINT_CLOUD,
     RECORDING,
     SCENE_STATE,
     VERDICT,
@@ -99,6 +100,7 @@ class ViewerService:
         self._predictions = Predictions(bus)
         self._execution = bus.subscribe(EXECUTION)
         self._trace = Trace()
+        self._cloud = News(bus.subscribe(POINT_CLOUD))
         self._images = (News(bus.subscribe(HEAD_IMAGE)), News(bus.subscribe(WRIST_IMAGE)))
         self._changes = Changes(_REPEAT_S)
         self._tracing = Changes(_TRACE_S)
@@ -131,6 +133,9 @@ class ViewerService:
             image = images.take(now_ns)
             if image is not None:
                 _log_image(self._run, image)
+        cloud = self._cloud.take(now_ns)
+        if cloud is not None and self._changes.due("cloud", cloud.data, now_ns):
+            scene.log_cloud(self._run, cloud)
         shown = self._predictions.shown(self._execution.fresh(now_ns))
         self._log_motions(shown, now_ns)
         self._teaching.draw(shown, now_ns)

@@ -7,7 +7,7 @@ import rerun as rr
 from protocol.messages import Attempt, Prediction, TeachingState
 from protocol.topics import MODEL_STATE, TEACHING_STATE
 from services.bus.bus import Bus
-from services.viewer import entities
+from services.viewer import entities, motions
 from services.viewer.journal import Journal, whose
 from services.viewer.news import Changes, News
 from services.viewer.run import Run
@@ -47,6 +47,8 @@ class Teaching:
         self._words.state(entities.TEACHING, teaching.phase, now_ns)
         self._words.state(entities.ATTEMPT, attempt(teaching), now_ns)
         self._words.write(*self._journal.teaching(teaching, now_ns))
+        if self._changes.due("waypoints", teaching.waypoints, now_ns):
+            motions.log_waypoints(self._run, teaching.waypoints)
         if self._changes.due("attempts", teaching.attempts, now_ns):
             document = rr.TextDocument(table(teaching.attempts), media_type=rr.MediaType.MARKDOWN)
             self._run.log(entities.ATTEMPTS, document)

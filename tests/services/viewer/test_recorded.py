@@ -22,6 +22,7 @@ from protocol.messages import (
     Outcome,
     Part,
     Phase,
+    PointCloud,
     Pose,
     RobotState,
     SafetyState,
@@ -36,6 +37,7 @@ from protocol.topics import (
     MODEL_STATE,
     OBJECT_POSE,
     OPERATOR_INPUT,
+    POINT_CLOUD,
     PREDICTION,
     RECORDING,
     ROBOT_STATE,
@@ -43,7 +45,7 @@ from protocol.topics import (
     TEACHING_STATE,
     VERDICT,
 )
-from services.bus.arrays import motion_to_wire
+from services.bus.arrays import motion_to_wire, points_to_wire
 from tests.services.predictions import prediction
 from tests.services.viewer.read import Read
 
@@ -106,6 +108,20 @@ def changed(message, **values):
 def test_the_keys_that_are_held_are_told_by_their_places(record):
     read = record([held()], [held("KeyE")], [held("KeyE", "ArrowUp")], [held()])
     assert read.states("/states/loop/keys") == ["", "E", "E + ArrowUp", ""]
+
+
+def test_each_cloud_that_differs_is_recorded_where_its_points_are(record):
+    colours = np.zeros((2, 3), dtype=np.uint8)
+    here = np.array([[0.5, -0.25, 0.001], [1.0, 0.0, 0.0]])
+    near, far = (PointCloud(camera="head", data=points_to_wire(at, colours)) for at in (here, 2.0 * here))
+    read = record([(POINT_CLOUD, near)], [(POINT_CLOUD, near)], [(POINT_CLOUD, far)])
+    np.testing.assert_allclose(read.values("/world/cloud", "Points3D:positions"), [here, 2.0 * here], atol=1e-6)
+
+
+def test_the_waypoints_that_are_stored_bear_their_numbers(record):
+    there = Pose((0.6, 0.1, 0.5), UPRIGHT)
+    read = record(*([(TEACHING_STATE, changed(TEACHING, waypoints=stored))] for stored in ((HERE,), (HERE, there), ())))
+    assert read.values("/world/motion/waypoints", "Points3D:labels") == [["1"], ["1", "2"], []]
 
 
 def test_who_is_at_the_page_and_whether_keys_count_there(record):

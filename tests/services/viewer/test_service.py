@@ -11,6 +11,7 @@ from protocol.messages import (
     MasterState,
     ObjectPose,
     Phase,
+    PointCloud,
     Pose,
     Prediction,
     RobotState,
@@ -22,6 +23,7 @@ from protocol.topics import (
     HEAD_IMAGE,
     MASTER_STATE,
     OBJECT_POSE,
+    POINT_CLOUD,
     PREDICTION,
     RECORDING,
     ROBOT_STATE,
@@ -81,6 +83,7 @@ def publish_everything(bus, tick, object_size=(0.05, 0.05, 0.1)):
         HEAD_IMAGE,
         CameraImage(camera="head", width=64, height=48, data=b"\xff\xd8", intrinsics=(50, 50, 32, 24), pose=HERE),
     )
+    bus.publish(POINT_CLOUD, PointCloud(camera="head", data=bytes(18)))
 
 
 def test_the_recording_is_sound_and_holds_what_was_published(system):
@@ -105,6 +108,7 @@ def test_the_recording_is_sound_and_holds_what_was_published(system):
     paths = {chunk.entity_path for chunk in RrdReader(recording.path).stream()}
     drawn = (
         entities.ENVIRONMENT,
+        entities.CLOUD,
         entities.OBJECT_SEEN,
         entities.OBJECT_TRUTH,
         entities.PREDICTION,
