@@ -124,7 +124,9 @@ images = st.builds(
     captured_ns=counts,
     object_pose=st.none() | poses,
 )
-clouds = st.builds(PointCloud, camera=names, data=st.binary(max_size=40) | st.just(b"\x80" * 72_000), captured_ns=counts)
+clouds = st.builds(
+    PointCloud, camera=names, data=st.binary(max_size=40) | st.just(b"\x80" * 72_000), captured_ns=counts
+)
 masters = st.builds(MasterState, force=vectors, displacement=vectors)
 object_poses = st.builds(ObjectPose, pose=poses, tag=counts, error=reals, rejected=counts, pictures=counts)
 verdicts = st.builds(

@@ -15,7 +15,7 @@ from protocol.messages.authority import (
     AuthorityState,
 )
 from protocol.messages.camera import MOST_POINTS, POINT_BYTES, CameraImage, PointCloud
-from protocol.messages.command import Controller, MasterState, OperatorInput, Trouble
+from protocol.messages.command import Controller, MasterState, OperatorInput, Trouble, Yaw
 from protocol.messages.health import Figure, Heartbeat, TopicFigures
 from protocol.messages.model import MOST_WAYPOINTS, Method, ModelState, Origin, Prediction, Purpose, Way
 from protocol.messages.safety import EmergencyStop, SafetyState
@@ -119,4 +119,5 @@ __all__ = [
     "Verdict",
     "Way",
     "WorldState",
+    "Yaw",
 ]

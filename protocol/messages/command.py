@@ -10,6 +10,7 @@ import msgspec
 from protocol.messages.values import Count, Fraction, Message, Name, Vector3
 
 Reading = Annotated[float, msgspec.Meta(ge=-1e3, le=1e3)]
+Yaw = Annotated[float, msgspec.Meta(ge=-3.1416, le=3.1416)]
 
 
 class Controller(msgspec.Struct, frozen=True):
@@ -59,6 +60,8 @@ class OperatorInput(Message, frozen=True, kw_only=True):
         keys: the physical keys held down, by their `KeyboardEvent.code`.
         focused: the page has the focus; without it no key counts.
         controllers: what else the page reads beside the keys.
+        yaw: of the person's axes in the base frame [rad]: what s/he sees as forward lies so far to the left of the
+            robot's. Devices of the page take it over once everything was let go.
     """
 
     operator: Name = ""
@@ -68,6 +71,7 @@ class OperatorInput(Message, frozen=True, kw_only=True):
     keys: Annotated[tuple[Name, ...], msgspec.Meta(max_length=32)] = ()
     focused: bool = False
     controllers: Annotated[tuple[Controller, ...], msgspec.Meta(max_length=4)] = ()
+    yaw: Yaw = 0.0
 
 
 class MasterState(Message, frozen=True, kw_only=True):
@@ -86,6 +90,8 @@ class MasterState(Message, frozen=True, kw_only=True):
         actions: of the teaching workflow, whose buttons on the device are held down.
         trouble: why the device counts for nothing, or what of it.
         trouble_with: the device that the trouble is with.
+        yaw: of the axes along which the hand pushes, see `OperatorInput` [rad]; displacement and rotation are in base
+            axes whatever it is.
     """
 
     displacement: Vector3 = (0.0, 0.0, 0.0)
@@ -100,3 +106,4 @@ class MasterState(Message, frozen=True, kw_only=True):
     actions: Annotated[tuple[Name, ...], msgspec.Meta(max_length=8)] = ()
     trouble: Trouble = Trouble.NONE
     trouble_with: Name = ""
+    yaw: Yaw = 0.0

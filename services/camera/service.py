@@ -131,9 +131,7 @@ class CameraService:
             return False
         return True
 
-    def _show(
-        self, camera: str, topic: Topic[CameraImage], qpos: Floats, world: WorldState, now_ns: int
-    ) -> None:
+    def _show(self, camera: str, topic: Topic[CameraImage], qpos: Floats, world: WorldState, now_ns: int) -> None:
         image = self._cameras.render(camera, qpos)
         intrinsics = self._cameras.intrinsics(camera)
         at = self._cameras.pose(camera, qpos)

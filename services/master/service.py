@@ -159,4 +159,5 @@ class MasterService:
             actions=sample.actions if operator is not None else (),
             trouble=sample.trouble,
             trouble_with=sample.trouble_with,
+            yaw=sample.yaw,
         )

@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import math
 from typing import TypeVar
 
+import numpy as np
+
+from lfd.motion.rotations import rotate
 from protocol import messages, topics
 from protocol.messages import Message
 from services.bus.bus import Bus
+from services.bus.identity import same_clock
 from services.bus.predictions import Predictions
 from services.bus.subscription import Received, Subscription
 from services.station.page.view import Picture
 
 M = TypeVar("M", bound=Message)
+Captured = TypeVar("Captured", messages.CameraImage, messages.PointCloud)
 
+_FORWARD, _UP = (0.0, 0.0, 1.0), (0.0, -1.0, 0.0)
+"""Of an optical frame."""
 
 HEARD_S = 0.3
 """Age at which the robot's state is not shown as its present one any more, on a busy machine too."""
@@ -36,6 +44,7 @@ class Ears:
         self.predictions = Predictions(bus)
         self.head = bus.subscribe(topics.HEAD_IMAGE)
         self.wrist = bus.subscribe(topics.WRIST_IMAGE)
+        self.cloud = bus.subscribe(topics.POINT_CLOUD)
 
 
 def young(received: Received[M] | None, now_ns: int) -> M | None:
@@ -53,7 +62,33 @@ def came_s(received: Received[M] | None) -> float:
     return received.received_ns / 1e9 if received is not None else 0.0
 
 
-def picture(camera: Subscription[messages.CameraImage], now_ns: int) -> Picture | None:
-    """A camera's newest picture."""
+def picture(camera: Subscription[Captured], now_ns: int, own: int) -> Picture | None:
+    """What a camera showed last, and how old that is since it was captured.
+
+    A camera stands beside its robot, by whose clock it says when: what passed there until it sent is known wherever it
+    stands. What the network took is known of this machine's own clock alone; from elsewhere it counts as nothing.
+
+    Args:
+        camera: its newest.
+        now_ns: the time.
+        own: this process' identity.
+    """
     received = camera.latest()
-    return Picture(received.message.data, received.age_s(now_ns)) if received is not None else None
+    if received is None:
+        return None
+    shown = received.message
+    there_ns = max(0, shown.stamp_ns - shown.captured_ns) if shown.captured_ns else 0
+    under_way_ns = max(0, received.received_ns - shown.stamp_ns) if same_clock(shown.publisher, own) else 0
+    age_s = (there_ns + under_way_ns) / 1e9 + received.age_s(now_ns)
+    return Picture(shown.data, age_s, heading(shown.pose) if isinstance(shown, messages.CameraImage) else 0.0)
+
+
+def heading(camera: messages.Pose) -> float:
+    """By how much a camera looks to the left of the base's x axis [rad]; straight down, the picture's up does so.
+
+    Args:
+        camera: its optical frame (x right, y down, z forward) in the base frame.
+    """
+    forward, up = (rotate(np.array(camera.orientation), np.array(axis)) for axis in (_FORWARD, _UP))
+    x, y, _ = forward - forward[2] * up
+    return math.atan2(y, x)

@@ -265,8 +265,9 @@ class StationService:
             force=self._stage.force(now_ns),
             master=ears.master.fresh(now_ns),
             recording=message(ears.recording.latest()),
-            head=picture(ears.head, now_ns),
-            wrist=picture(ears.wrist, now_ns),
+            head=picture(ears.head, now_ns, self._bus.identity),
+            wrist=picture(ears.wrist, now_ns, self._bus.identity),
+            cloud=picture(ears.cloud, now_ns, self._bus.identity),
         )
         if robot is None:
             return base

@@ -58,7 +58,9 @@ class Canvas:
         self._scene.flags[mujoco.mjtRndFlag.mjRND_REFLECTION] = False
         self._option = mujoco.MjvOption()
         self._frame = mujoco.MjrRect(0, 0, width, height)
-        self._near, self._far = (model.stat.extent * plane for plane in (model.vis.map.znear, model.vis.map.zfar))
+        self._near, self._far = (
+            float(model.stat.extent * plane) for plane in (model.vis.map.znear, model.vis.map.zfar)
+        )
 
     def draw(self, data: mujoco.MjData, camera: mujoco.MjvCamera) -> Image:
         """Draw a state.

@@ -16,13 +16,14 @@ import msgspec
 import numpy as np
 from lessons import history
 
+from lfd.motion.rotations import rotate
 from protocol import messages
 from protocol.messages import Box, Figure, Light, Mode, Phase, Pose
-from services.bus.arrays import motion_to_wire, to_wire
+from services.bus.arrays import motion_to_wire, points_to_wire, to_wire
 from services.process.clock import SystemClock
 from services.process.config import StationSection
 from services.station.live_view.description import describe
-from services.station.live_view.drawing import Criteria, Curve, Drawing, Going
+from services.station.live_view.drawing import Criteria, Curve, Drawing, Going, Kick
 from services.station.page.page import Page
 from services.station.page.view import PageView, Picture
 from sim.robots.description import CONTROLLED_JOINTS
@@ -32,6 +33,7 @@ from sim.tasks.scene import Group
 FEED_PERIOD_S = 0.02
 GRASP = Pose(tuple(DISHWASHER.start.position), tuple(DISHWASHER.start.orientation))
 OBJECT = Pose((0.86, 0.07, 0.553), (1.0, 0.0, 0.0, 0.0))
+POINTS_A_BOX = 60
 SWING = 0.3  # [rad] of the arm that moves
 
 
@@ -54,7 +56,19 @@ def drawing() -> Drawing:
         going=Going(fading=74.0, corrected=True),
         way=rows(corrected.positions)[: len(corrected.positions) // 2],
         criteria=Criteria(DISHWASHER.tolerances),
+        kick=Kick(OBJECT.position, DISHWASHER.kick_limits),
     )
+
+
+def cloud() -> bytes:
+    """Points on the boxes, in their colours."""
+    random, positions, colours = np.random.default_rng(1), [], []
+    for box in drawing().boxes:
+        within = random.uniform(-1.0, 1.0, (POINTS_A_BOX, 3))
+        within[np.arange(POINTS_A_BOX), random.integers(0, 3, POINTS_A_BOX)] = random.choice((-1.0, 1.0), POINTS_A_BOX)
+        positions.append(rotate(np.array(box.orientation), within * box.half_sizes) + box.centre)
+        colours.append(np.tile(np.round(255 * np.array(box.rgba[:3])), (POINTS_A_BOX, 1)))
+    return points_to_wire(np.concatenate(positions), np.concatenate(colours).astype(np.uint8))
 
 
 def rows(array):
@@ -120,7 +134,8 @@ def working_view() -> PageView:
         force=(0.0, 0.0, 2.5),
         master=messages.MasterState(device="keyboard"),
         head=Picture(picture("head"), 0.02),
-        wrist=Picture(picture("wrist"), 0.02),
+        wrist=Picture(picture("wrist"), 0.02, yaw=0.5),
+        cloud=Picture(cloud(), 0.05),
         latencies=(Figure("hand_to_robot", 0.024, "s"),),
     )
 
@@ -157,7 +172,7 @@ class Feed:
                 self.view = replace(
                     self.view,
                     head=Picture(picture(f"head {label}"), 0.0),
-                    wrist=Picture(picture(f"wrist {label}"), 0.0),
+                    wrist=Picture(picture(f"wrist {label}"), 0.0, yaw=0.5),
                 )
             if self.moving_robot:
                 self.view = replace(self.view, robot=swinging(self.view.robot, tick * FEED_PERIOD_S))

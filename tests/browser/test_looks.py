@@ -124,7 +124,7 @@ def test_every_state_is_pictured(tab, station, scenery, folder, name):
     show(tab, station[1], STATES[name])
     tab.page.wait_for_timeout(1500)  # the view is drawn as finely as it can once nothing changes
     for _ in range(AT_LEAST_SENT if STATES[name].head is not None else 0):
-        sent = {camera: replace(picture, jpeg=bytes(bytearray(picture.jpeg))) for camera, picture in scenery.items()}
+        sent = {camera: replace(picture, data=bytes(bytearray(picture.data))) for camera, picture in scenery.items()}
         station[1].view = replace(STATES[name], **sent)
         tab.page.wait_for_timeout(200)
     tab.page.screenshot(path=folder / f"{name}.jpg", type="jpeg", quality=60)

@@ -57,6 +57,7 @@ class Sample:
         actions: of the teaching workflow, whose buttons on the device are held.
         trouble: why the device counts for nothing, or what of it.
         trouble_with: the device that the trouble is with.
+        yaw: of the axes along which the hand pushes, in base axes [rad].
     """
 
     displacement: Vector3 = ZERO
@@ -67,6 +68,7 @@ class Sample:
     actions: tuple[str, ...] = ()
     trouble: Trouble = Trouble.NONE
     trouble_with: str = ""
+    yaw: float = 0.0
 
 
 class Device(Protocol):

@@ -12,7 +12,7 @@ from services.master.devices.device import ZERO
 
 @dataclass(frozen=True)
 class Hand:
-    """What a hand does at one moment, along and about base axes.
+    """What a hand does at one moment, along and about the axes of its operator: x forward, y left, z up.
 
     Attributes:
         push: how far it deflects what pushes, each from -1 to 1.

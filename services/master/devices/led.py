@@ -9,7 +9,7 @@ from typing import NamedTuple
 from protocol.messages import Figure, OperatorInput, Phase, RobotState, Trouble, Vector3
 from services.master.devices.device import ZERO, Moment, Sample
 from services.master.devices.hand import Hand, Source
-from services.master.devices.lever import Law, Lever, TurnLever
+from services.master.devices.lever import Law, Lever, TurnLever, turned
 from services.process.master_devices import Led
 
 NOBODY = OperatorInput()
@@ -37,6 +37,9 @@ class LedMaster:
     was away. While the robot does not execute yet, on its way to the start or held, the device follows the correction
     that it applies.
 
+    A hand pushes along its operator's axes, which may be turned about the base's z axis, see `OperatorInput.yaw`: they
+    turn once everything was let go, and what stands then stays where it is.
+
     Of several devices that is in use which a hand used last. A device counts once it was seen at rest: what is held
     on the way to the start, what was plugged in deflected, or a stick that drifts asks for nothing. Two devices that
     are used at once, and one that is pulled out while it is in use, disengage.
@@ -50,6 +53,7 @@ class LedMaster:
         self._push = Lever(Law(law.growth, law.decay, law.reach))
         self._turn = TurnLever(Law(law.turn_growth, law.turn_decay, law.turn_reach))
         self._sources = sources
+        self._yaw = 0.0
         self._engaged = False
         self._rested: set[str] = set()
         self._quarrel: set[str] = set()
@@ -61,6 +65,7 @@ class LedMaster:
         robot = moment.teaching or moment.refining
         hands = self._look(moment.operator)
         trouble = self._choose(hands, robot) if _is_at(moment.operator) else NO_TROUBLE
+        self._turn_axes(hands, moment.operator)
         hand = hands.get(self.name)
         if hand is not None and (not hand.coupled or trouble.kind is Trouble.TWO):
             hand = None
@@ -105,6 +110,13 @@ class LedMaster:
         restless = sorted(held - used) if _executes(robot) else ()
         return _Trouble(Trouble.NOT_AT_REST, restless[0]) if restless else NO_TROUBLE
 
+    def _turn_axes(self, hands: Mapping[str, Hand], operator: OperatorInput | None) -> None:
+        if operator is None or not operator.focused or any(hand.held for hand in hands.values()):
+            return
+        for lever in (self._push, self._turn):
+            lever.turn_axes(operator.yaw - self._yaw)
+        self._yaw = operator.yaw
+
     def _refine(self, robot: RobotState | None, hand: Hand | None, dt: float) -> Sample:
         """What the hand adds to a prediction: it returns to nothing where the hand does nothing."""
         if robot is None or hand is None:
@@ -140,10 +152,11 @@ class LedMaster:
     def _follow(self, robot: RobotState) -> Sample:
         """Stand where the correction is that the robot applies, whatever is held."""
         x, y, z = robot.offset
-        self._push.take_over((x / robot.master_gain, y / robot.master_gain, z / robot.master_gain))
-        self._turn.take_over(robot.turn)
+        applied = (x / robot.master_gain, y / robot.master_gain, z / robot.master_gain)
+        self._push.take_over(turned(applied, -self._yaw))
+        self._turn.take_over(turned(robot.turn, -self._yaw))
         self._engaged = True
-        return Sample(self._push.value, ZERO, self._turn.value, engaged=True)
+        return self._sample(self._push.value, 0.0)
 
     def _let_go(self, dt: float) -> Sample:
         self._engaged = False
@@ -153,8 +166,12 @@ class LedMaster:
         return self._sample(before, dt)
 
     def _sample(self, before: Vector3, dt: float) -> Sample:
+        """What is told, in base axes; `before` is where the hand's own axes had it before dt [m]."""
         velocity = _velocity(before, self._push.value, dt)
-        return Sample(self._push.value, velocity, self._turn.value, engaged=self._engaged)
+        displacement, velocity, rotation = (
+            turned(vector, self._yaw) for vector in (self._push.value, velocity, self._turn.value)
+        )
+        return Sample(displacement, velocity, rotation, engaged=self._engaged, yaw=self._yaw)
 
 
 def _is_at(operator: OperatorInput | None) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,7 +23,7 @@ class Law:
     Attributes:
         growth: of a number while it is pushed all the way [u/s].
         decay: towards zero while it is not [u/s].
-        reach: largest [u].
+        reach: farthest that it can be pushed or dragged [u].
     """
 
     growth: float
@@ -34,7 +35,19 @@ def pushed(value: float, deflection: float, dt: float, law: Law) -> float:
     """One number after dt [s]: grows as far as it is pushed, from -1 to 1, decays to zero where it is not [u]."""
     if deflection == 0.0:
         return _towards_zero(value, law.decay * dt)
-    return _within(value + deflection * law.growth * dt, law.reach)
+    return _moved(value, deflection * law.growth * dt, law.reach)
+
+
+def turned(vector: Vector3, yaw: float) -> Vector3:
+    """The vector, turned about the z axis, counter-clockwise from above [rad]."""
+    x, y, z = vector
+    cosine, sine = math.cos(yaw), math.sin(yaw)
+    return (cosine * x - sine * y, sine * x + cosine * y, z)
+
+
+def _moved(value: float, by: float, reach: float) -> float:
+    """As far as it reaches; what is beyond that already goes no further, and does not jump back."""
+    return _within(value + by, max(reach, abs(value)))
 
 
 def _towards_zero(value: float, distance: float) -> float:
@@ -46,7 +59,7 @@ def _within(value: float, reach: float) -> float:
 
 
 class Lever:
-    """Three numbers, zero at first, each by itself.
+    """Three numbers along three axes, zero at first, each by itself.
 
     Args:
         law: by which they answer.
@@ -57,9 +70,12 @@ class Lever:
         self.value = ZERO
 
     def take_over(self, value: Vector3) -> None:
-        """Go on from a value, as far as the reach allows."""
-        x, y, z = (_within(v, self._law.reach) for v in value)
-        self.value = (x, y, z)
+        """Go on from a value, which may lie beyond the reach: nothing jumps."""
+        self.value = value
+
+    def turn_axes(self, yaw: float) -> None:
+        """Tell the same value in other axes, turned about z by this much [rad]."""
+        self.value = turned(self.value, -yaw)
 
     def push(self, deflections: Vector3, dt: float) -> None:
         """Be pushed for dt [s], each number as far as its deflection says."""
@@ -68,9 +84,8 @@ class Lever:
 
     def drag(self, distances: Vector3) -> None:
         """Be dragged, each number by its distance in reaches."""
-        x, y, z = (
-            _within(v + way * self._law.reach, self._law.reach) for v, way in zip(self.value, distances, strict=True)
-        )
+        reach = self._law.reach
+        x, y, z = (_moved(v, way * reach, reach) for v, way in zip(self.value, distances, strict=True))
         self.value = (x, y, z)
 
     def lead(self, deflections: Vector3, distances: Vector3, dt: float) -> None:
@@ -83,8 +98,8 @@ class Lever:
 
     def let_go(self, dt: float) -> None:
         """Return to zero, within `LET_GO_S` from anywhere that it reaches."""
-        self.take_over(self.value)
-        x, y, z = (_towards_zero(v, self._law.reach / LET_GO_S * dt) for v in self.value)
+        reach = self._law.reach
+        x, y, z = (_towards_zero(_within(v, reach), reach / LET_GO_S * dt) for v in self.value)
         self.value = (x, y, z)
 
 

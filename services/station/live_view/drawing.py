@@ -9,7 +9,7 @@ from typing import Any
 
 import msgspec
 
-from protocol.messages import Box, ObjectPose, Pose, RobotState, Vector3
+from protocol.messages import Box, ObjectPose, Origin, Pose, RobotState, Vector3
 
 Point = tuple[float, ...]
 
@@ -23,17 +23,19 @@ _NOWHERE = Pose((math.nan,) * 3, (math.nan,) * 4)
 
 
 class Curve(msgspec.Struct, frozen=True):
-    """A predicted motion.
+    """A motion that is predicted, or that was shown and is to be followed.
 
     Attributes:
         points: base frame [m].
         spread: two standard deviations along each base axis at each point [m]; empty where they are not known.
         orientations: at each point, quaternions with the scalar first; empty where they are not known.
+        origin: where it comes from.
     """
 
     points: tuple[Point, ...]
     spread: tuple[Point, ...] = ()
     orientations: tuple[Point, ...] = ()
+    origin: Origin = Origin.MODEL
 
 
 class Going(msgspec.Struct, frozen=True):
@@ -69,6 +71,20 @@ class Criteria(msgspec.Struct, frozen=True):
     force: float = 0.0
 
 
+class Kick(msgspec.Struct, frozen=True):
+    """How far the object may be moved before it counts as kicked over.
+
+    Attributes:
+        stood: where its centre was at first, base frame [m]; None where that is not known.
+        limits: the largest displacement along each base axis [m].
+        kicked: it has been kicked over.
+    """
+
+    stood: Vector3 | None = None
+    limits: Vector3 = (0.0, 0.0, 0.0)
+    kicked: bool = False
+
+
 class Drawing(msgspec.Struct, frozen=True):
     """What changes now and then.
 
@@ -79,7 +95,9 @@ class Drawing(msgspec.Struct, frozen=True):
         going: the motion under way; None where there is none.
         way: where the episode's motion has led so far, the correction in it, base frame [m].
         criteria: by what it is judged.
+        kick: how far the object may be moved.
         waypoints: that are stored, base frame [m].
+        yaw: by which the axes of the operator's device are turned to the left of the base's [rad].
     """
 
     boxes: tuple[Box, ...] = ()
@@ -88,7 +106,9 @@ class Drawing(msgspec.Struct, frozen=True):
     going: Going | None = None
     way: tuple[Point, ...] = ()
     criteria: Criteria = Criteria()
+    kick: Kick = Kick()
     waypoints: tuple[Point, ...] = ()
+    yaw: float = 0.0
 
     def parts(self) -> Mapping[str, Any]:
         """By name."""

@@ -5,17 +5,29 @@ from __future__ import annotations
 import numpy as np
 
 from lfd import haptics
-from protocol.messages import ExecutionState, MasterState, Mode, Pose, Prediction, SceneState, Vector3, Verdict
+from protocol.messages import (
+    ExecutionState,
+    MasterState,
+    Mode,
+    ObjectPose,
+    Pose,
+    Prediction,
+    SceneState,
+    Vector3,
+    Verdict,
+)
 from services.bus.arrays import Floats, drawable, vector3
 from services.bus.trace import Trace
 from services.station.ears import Ears, message
-from services.station.live_view.drawing import Criteria, Curve, Drawing, Going, Point
+from services.station.live_view.drawing import Criteria, Curve, Drawing, Going, Kick, Point
 
 _POINTS = 80
 """Of a motion: a line through more looks the same."""
 
 _SIGMAS = 2.0
 _DIGITS = 4
+_MILLIMETRES = 3
+"""Digits: cameras see no more."""
 _NO_FORCE: Vector3 = (0.0, 0.0, 0.0)
 
 
@@ -42,16 +54,23 @@ class Stage:
         robot = message(self._ears.robot.latest())
         if robot is not None and self._trace.see(robot):
             self._way = told(self._trace.points)
-        scene = message(self._ears.scene.latest())
+        scene, verdict = message(self._ears.scene.latest()), message(self._ears.verdict.latest())
         return Drawing(
             boxes=() if scene is None else scene.boxes,
             size=_NO_FORCE if scene is None else scene.object_size,
             prediction=self._predicted(now_ns),
             going=_going(self._ears.execution.fresh(now_ns)),
             way=self._way,
-            criteria=_criteria(scene, message(self._ears.verdict.latest())),
+            criteria=_criteria(scene, verdict),
+            kick=_kick(scene, verdict, message(self._ears.seen.latest())),
             waypoints=tuple(waypoint.position for waypoint in waypoints),
+            yaw=self.yaw(now_ns),
         )
+
+    def yaw(self, now_ns: int) -> float:
+        """By which the axes of the operator's device are turned to the left of the base's [rad]."""
+        master = self._ears.master.fresh(now_ns)
+        return 0.0 if master is None else master.yaw
 
     def force(self, now_ns: int) -> Vector3:
         """That the operator feels now, or would at a device that renders it (eq. 14) [N]."""
@@ -99,6 +118,13 @@ def _criteria(scene: SceneState | None, verdict: Verdict | None) -> Criteria:
     return Criteria(radii, verdict.reached, verdict.collision_position, verdict.collision_force)
 
 
+def _kick(scene: SceneState | None, verdict: Verdict | None, seen: ObjectPose | None) -> Kick:
+    if scene is None or verdict is None or seen is None or not any(scene.object_size):
+        return Kick()
+    stood = np.subtract(seen.pose.position, verdict.object_displacement).round(_MILLIMETRES)
+    return Kick(vector3(stood), scene.kicked_over_thresholds, verdict.kicked_over)
+
+
 def _curve(prediction: Prediction) -> Curve | None:
     """None of numbers that cannot be drawn."""
     positions, deviations = drawable(prediction.motion.positions), drawable(prediction.deviations)
@@ -110,6 +136,7 @@ def _curve(prediction: Prediction) -> Curve | None:
         told(positions),
         told(_SIGMAS * deviations) if spread and deviations is not None else (),
         told(orientations) if orientations is not None else (),
+        prediction.origin,
     )
 
 

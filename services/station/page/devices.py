@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from protocol.messages import MasterState, Trouble
 from services.station.page.values import Values
 from services.station.page.view import Shown
@@ -18,7 +20,14 @@ def devices(shown: Shown) -> Values:
         "device@data-device": "" if master is None else master.device.partition(" ")[0],
         "device-name": say("device.none") if master is None else named(master.device),
         "device-trouble": "" if master is None else trouble(master),
+        "axes-turned": "" if master is None else _turned(master.yaw),
     }
+
+
+def _turned(yaw: float) -> str:
+    """How far the axes are turned with the view; empty where they are the robot's own."""
+    angle = round(math.degrees(yaw))
+    return say("pad.turned_left" if angle > 0 else "pad.turned_right", angle=abs(angle)) if angle else ""
 
 
 def named(device: str) -> str:

@@ -160,7 +160,8 @@ def _role(role: Role) -> str:
 
 def _camera(name: str) -> str:
     return (
-        f'<div class="stage camera" data-stage="{name}" data-camera="{name}" data-state="waiting">'
+        f'<div class="stage camera" data-stage="{name}" data-camera="{name}" data-state="waiting"'
+        f' data-value="camera-{name}" data-yaw="0">'
         f'<canvas class="picture" role="img" aria-label="{_say(f"scene.{name}")}"></canvas>'
         f'<div class="camera-empty">{_say("scene.empty")}</div>'
         f'<div class="caption"><span>{_say(f"scene.{name}")}</span><span class="camera-age"></span></div>'

@@ -102,7 +102,12 @@ class Desk:
             if held is None or self._let_go:
                 return OperatorInput(operator=who, present=present)
             return OperatorInput(
-                operator=who, present=present, keys=held.keys, focused=True, controllers=held.controllers
+                operator=who,
+                present=present,
+                keys=held.keys,
+                focused=True,
+                controllers=held.controllers,
+                yaw=held.yaw,
             )
 
     def attendance(self) -> Attendance:

@@ -24,13 +24,14 @@ SEND_PERIOD_S = 0.02
 TICKS_PER_NEWS = 5
 MOMENT_PERIOD_NS = round(1e9 / 30.0)
 FRAMES_IN_FLIGHT = 2
-"""As many pictures may be under way to a browser, and moments; a thin link, or a browser that draws slowly, then gets
-fewer of them, not older ones."""
+"""As many pictures may be under way to a browser, and moments, and clouds; a thin link, or a browser that draws slowly,
+then gets fewer of them, not older ones."""
 
 FRAME_HEADER = struct.Struct("<BxxxIf")
-"""Before a JPEG or a moment: what it is (0 head camera, 1 wrist camera, 2 moment), its number, its age [s]."""
+"""Before a JPEG, a moment or a cloud: what it is (0 head camera, 1 wrist camera, 2 moment, 3 point cloud), its number,
+its age [s]."""
 
-MOMENT = 2
+HEAD, WRIST, MOMENT, CLOUD = range(4)
 
 TABS_AT_MOST = 8
 TRY_AGAIN_LATER = 1013
@@ -71,28 +72,30 @@ class _Tab:
         socket: accepted.
 
     Attributes:
+        wants_cloud: it shows the point cloud.
         heard: the tab's clock when it sent its newest state [ms], and ours when that came [ns].
     """
 
     def __init__(self, number: int, socket: WebSocket) -> None:
         self.number = number
         self.socket = socket
-        self.drawn = (0, 0, 0)
+        self.drawn = (0, 0, 0, 0)
+        self.wants_cloud = False
         self.heard = (0.0, 0)
         self.values: Sent[str | bool] = Sent()
         self.drawing: Sent[Any] = Sent()
         self.history: Sent[Any] = Sent()
         self.moment_due_ns = 0
-        self._numbers = [0, 0, 0]
-        self._last: list[bytes | None] = [None, None]
+        self._numbers = [0, 0, 0, 0]
+        self._last: dict[int, bytes] = {}
         self._moment: Point = ()
 
-    async def send_picture(self, camera: int, picture: Picture | None, elapsed_s: float) -> None:
+    async def send_picture(self, kind: int, picture: Picture | None, elapsed_s: float) -> None:
         """Send a picture that the tab does not have; one that looks the same is a newer one all the same."""
-        if picture is None or picture.jpeg is self._last[camera]:
+        if picture is None or picture.data is self._last.get(kind):
             return
-        if await self._send(camera, picture.jpeg, picture.age_s + elapsed_s):
-            self._last[camera] = picture.jpeg
+        if await self._send(kind, picture.data, picture.age_s + elapsed_s):
+            self._last[kind] = picture.data
 
     async def send_moment(self, values: Point, age_s: float) -> None:
         """Send what moves, where it has moved."""
@@ -150,7 +153,7 @@ class Link:
             now_ns = self._clock.now_ns()
             message = self._desk.receive(tab.number, payload, now_ns)
             if isinstance(message, Held):
-                tab.drawn = message.drawn
+                tab.drawn, tab.wants_cloud = message.drawn, message.cloud
                 tab.heard = (message.stamp_ms, now_ns)
 
     async def _send(self, tab: _Tab) -> None:
@@ -160,9 +163,11 @@ class Link:
                 if tick % TICKS_PER_NEWS == 0:
                     await tab.socket.send_text(self._news(tab))
                 shown = self._board.newest()
-                for camera, picture in enumerate((shown.view.head, shown.view.wrist)):
+                for camera, picture in ((HEAD, shown.view.head), (WRIST, shown.view.wrist)):
                     await tab.send_picture(camera, picture, shown.elapsed_s)
                 await self._send_moment(tab, shown)
+                if tab.wants_cloud:
+                    await tab.send_picture(CLOUD, shown.view.cloud, shown.elapsed_s)
                 await asyncio.sleep(SEND_PERIOD_S)
 
     async def _send_moment(self, tab: _Tab, shown: Shown) -> None:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from protocol.messages import Light, Mode
+from protocol.messages import Light, Mode, Origin
 from services.station.page.readout import criteria, is_stale, outcome, span, tone
 from services.station.page.standing import Standing
 from services.station.page.values import Values
-from services.station.page.view import Shown
+from services.station.page.view import Picture, Shown
 from services.station.words.table import say
 
 COUNTERS = ("refinements", "updates")
@@ -15,19 +15,30 @@ CRITERIA = ("reached", "kicked", "collision")
 
 
 def scene(shown: Shown) -> Values:
-    """Where all there is can be inspected, who shaped the way that is seen, and whether the data is old."""
+    """Where all there is can be inspected, who shaped the ways that are seen, and whether the data is old."""
     recording, stale = shown.view.recording, is_stale(shown)
     never = shown.view.robot is None
+    cameras = {"head": shown.view.head, "wrist": shown.view.wrist}
     way = Mode.AUTONOMOUS if shown.view.robot is None else shown.view.robot.mode
     age = say("scene.never") if never else say("scene.stale", age=span(shown.robot_age_s))
+    curve = shown.view.drawing.prediction
+    origin = Origin.MODEL if curve is None else curve.origin
     return {
         "inspect@data-address": "" if recording is None else recording.viewer_url,
         "scene@data-stale": "yes" if stale else "no",
         "scene@data-way": way.value,
         "legend-way": say(f"scene.way_{way.value}"),
+        "scene@data-origin": origin.value,
+        "scene@data-kick": "no" if shown.view.drawing.kick.stood is None else "yes",
+        "legend-predicted": say(f"scene.from_{origin.value}"),
+        **{f"camera-{name}@data-yaw": _told(picture) for name, picture in cameras.items()},
         "recording-fault": "" if recording is None else recording.fault,
         "stale": age if stale else "",
     }
+
+
+def _told(picture: Picture | None) -> str:
+    return "0" if picture is None else f"{picture.yaw:.2f}"
 
 
 def traffic_light(shown: Shown, standing: Standing) -> Values:

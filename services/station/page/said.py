@@ -7,7 +7,7 @@ from typing import Annotated
 import msgspec
 
 from protocol.exceptions import MalformedMessage, OversizedMessage
-from protocol.messages import Controller, Count, Name, Reason
+from protocol.messages import Controller, Count, Name, Reason, Yaw
 
 MAX_BYTES = 4_096
 
@@ -49,7 +49,11 @@ class Held(_FromBrowser, frozen=True, tag="held"):
         visible: a person can see the tab.
         focused: it has the focus as well.
         controllers: what else is read in the browser.
-        drawn: number of the newest picture that was drawn, by camera, and of the newest moment in the live view.
+        drawn: number of the newest picture that was drawn, by camera, and in the live view of the newest moment and of
+            the newest point cloud.
+        cloud: the live view shows the point cloud.
+        yaw: by which the person's forward is turned to the left from the robot's, as far as the keys are to follow the
+            view [rad].
     """
 
     sequence: Count
@@ -58,7 +62,9 @@ class Held(_FromBrowser, frozen=True, tag="held"):
     visible: bool
     focused: bool
     controllers: Annotated[tuple[Controller, ...], msgspec.Meta(max_length=4)]
-    drawn: tuple[Count, Count, Count]
+    drawn: tuple[Count, Count, Count, Count]
+    cloud: bool = False
+    yaw: Yaw = 0.0
 
 
 class Pressed(_FromBrowser, frozen=True, tag="pressed"):

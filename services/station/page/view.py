@@ -41,15 +41,17 @@ LIMIT_SHOWN_NS = 1_000_000_000
 
 @dataclass(frozen=True)
 class Picture:
-    """A camera's newest picture.
+    """What a camera showed last.
 
     Attributes:
-        jpeg: the file; a new object means a new picture.
-        age_s: since it came [s].
+        data: a JPEG file, or the points of a `PointCloud`; a new object means a new picture.
+        age_s: since it was captured [s].
+        yaw: by which the camera looks to the left of the base's x axis [rad].
     """
 
-    jpeg: bytes
+    data: bytes
     age_s: float
+    yaw: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -93,6 +95,7 @@ class PageView:
     recording: Recording | None = None
     head: Picture | None = None
     wrist: Picture | None = None
+    cloud: Picture | None = None
     latencies: tuple[Figure, ...] = ()
     notice: str = ""
 

@@ -41,8 +41,9 @@ def pointer(*axes, down=True):
     return Controller("pointer", axes=tuple(axes) + (0.0,) * (6 - len(axes)), buttons=(float(down),))
 
 
-def moment(*keys, dt=0.01, focused=True, robot=REFINING, commands=True, pads=()):
-    return Moment(0, dt, OperatorInput(keys=keys, focused=focused, controllers=tuple(pads)), robot, commands)
+def moment(*keys, dt=0.01, focused=True, robot=REFINING, commands=True, pads=(), yaw=0.0):
+    held = OperatorInput(keys=keys, focused=focused, controllers=tuple(pads), yaw=yaw)
+    return Moment(0, dt, held, robot, commands)
 
 
 def hold(master, seconds, *keys, **others):
@@ -112,9 +113,9 @@ def test_a_page_that_went_silent_holds_no_key():
 def test_whoever_engages_takes_over_the_correction_that_the_robot_applies():
     robot = msgspec.structs.replace(REFINING, offset=(0.1, -0.4, 0.0), turn=(0.0, 0.3, -0.9))
     sample = master().step(moment(robot=robot))
-    assert sample.displacement == pytest.approx((0.1, -LAW.reach, 0.0))
+    assert sample.displacement == robot.offset
     assert sample.velocity == (0.0, 0.0, 0.0)
-    assert sample.rotation == pytest.approx((0.0, 0.3, -LAW.turn_reach))
+    assert sample.rotation == robot.turn
 
 
 def in_phase(phase, **changes):

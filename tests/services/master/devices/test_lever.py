@@ -63,6 +63,17 @@ def test_what_is_let_go_of_is_zero_in_a_fifth_of_a_second_and_never_passes_it(va
     assert lever.value == (0.0, 0.0, 0.0)
 
 
+@given(beyond=st.floats(LAW.reach, 2.0 * LAW.reach), direction=st.sampled_from([-1, 1]), dt=Step)
+def test_what_is_beyond_the_reach_goes_no_further_and_does_not_jump_back(beyond, direction, dt):
+    """It was taken over from there, or told in other axes."""
+    lever = Lever(LAW)
+    lever.take_over((beyond, -beyond, 0.0))
+    lever.push((direction, direction, 0.0), dt)
+    for before, after in zip((beyond, -beyond), lever.value[:2], strict=True):
+        expected = before if before * direction > 0.0 else before + direction * LAW.growth * dt
+        assert after == pytest.approx(expected)
+
+
 def test_a_law_does_not_change():
     for field in fields(LAW):
         with pytest.raises(FrozenInstanceError):

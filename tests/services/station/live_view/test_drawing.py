@@ -64,4 +64,5 @@ def test_a_robot_that_tells_fewer_positions_than_names_moves_what_it_tells():
 
 
 def test_a_drawing_is_told_part_by_part():
-    assert set(Drawing().parts()) == {"boxes", "size", "prediction", "going", "way", "criteria", "waypoints"}
+    assert set(Drawing().parts()) == set(Drawing.__struct_fields__)
+    assert Drawing(yaw=0.5).parts()["yaw"] == 0.5

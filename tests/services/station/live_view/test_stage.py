@@ -1,5 +1,6 @@
 """What the live view shows of what the station hears."""
 
+import msgspec
 import numpy as np
 import pytest
 
@@ -11,6 +12,8 @@ from protocol.messages import (
     ExecutionState,
     MasterState,
     Mode,
+    ObjectPose,
+    Origin,
     Part,
     Phase,
     Pose,
@@ -22,7 +25,7 @@ from services.bus.arrays import motion_to_wire, to_wire
 from services.bus.memory import MemoryNetwork
 from services.process.clock import ManualClock
 from services.station.ears import Ears
-from services.station.live_view.drawing import Going
+from services.station.live_view.drawing import Going, Kick
 from services.station.live_view.stage import Stage
 from tests.services.predictions import announce, prediction
 
@@ -82,6 +85,40 @@ def test_the_criteria_are_the_verdicts():
     network.other.publish(topics.VERDICT, Verdict(reached=True, kicked_over=False, **touched))
     criteria = network.seen().criteria
     assert (criteria.reached, criteria.collision, criteria.force) == (True, (0.5, 0.1, 0.2), 4.0)
+
+
+def test_the_object_may_be_moved_so_far_round_the_place_where_it_stood():
+    """However far it has been moved since."""
+    network = Network()
+    assert network.seen().kick == Kick()
+    network.other.publish(topics.SCENE_STATE, SCENE)
+    network.other.publish(topics.OBJECT_POSE, ObjectPose(pose=Pose((0.85, 0.1, 0.6), UPRIGHT), tag=7, error=0.0))
+    moved = Verdict(reached=False, kicked_over=True, collision=False, object_displacement=(0.15, 0.0, 0.0))
+    network.other.publish(topics.VERDICT, moved)
+    assert network.seen().kick == Kick((0.7, 0.1, 0.6), SCENE.kicked_over_thresholds, kicked=True)
+
+
+def test_where_there_is_no_object_nothing_can_be_kicked_over():
+    network = Network()
+    network.other.publish(topics.SCENE_STATE, msgspec.structs.replace(SCENE, object_size=(0.0, 0.0, 0.0)))
+    network.other.publish(topics.OBJECT_POSE, ObjectPose(pose=POSE, tag=7, error=0.0))
+    network.other.publish(topics.VERDICT, Verdict(reached=False, kicked_over=False, collision=False))
+    assert network.seen().kick == Kick()
+
+
+def test_it_is_told_whether_a_motion_was_predicted_or_shown():
+    network = Network()
+    for origin in Origin:
+        shown = msgspec.structs.replace(prediction(line(0.0)), origin=origin)
+        network.other.publish(topics.PREDICTION, shown)
+        assert network.seen().prediction.origin is origin
+
+
+def test_the_axes_are_turned_as_the_operator_s_device_says():
+    network = Network()
+    assert network.seen().yaw == 0.0
+    network.other.publish(topics.MASTER_STATE, MasterState(yaw=0.5))
+    assert network.seen().yaw == 0.5
 
 
 def test_the_newest_prediction_is_drawn_in_the_tube_of_two_standard_deviations():

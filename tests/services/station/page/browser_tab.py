@@ -32,7 +32,7 @@ class BrowserTab:
         self.now_ms += later_ms
         self.sequence += 1
         stamp = self.now_ms if stamp_ms is None else stamp_ms
-        self.send(Held(self.sequence, float(stamp), keys, visible, focused, controllers, (0, 0, 0)))
+        self.send(Held(self.sequence, float(stamp), keys, visible, focused, controllers, (0, 0, 0, 0)))
 
     def keep_on(self, seconds, *keys, **state):
         for _ in range(round(seconds * 1_000 / PERIOD_MS)):

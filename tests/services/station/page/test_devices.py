@@ -24,7 +24,15 @@ def test_a_second_device_of_a_kind_is_told_by_its_number():
         "device@data-device": "gamepad",
         "device-name": "gamepad 2",
         "device-trouble": "",
+        "axes-turned": "",
     }
+
+
+@pytest.mark.parametrize(("yaw", "words"), [(0.5, "29° to the left"), (-3.14, "180° to the right"), (0.004, "")])
+def test_how_far_the_axes_are_turned_is_told_in_degrees(yaw, words):
+    turned = told(yaw=yaw)["axes-turned"]
+    assert words in turned
+    assert bool(turned) is bool(words)
 
 
 def test_a_device_that_has_no_other_name_is_called_by_its_own():

@@ -219,9 +219,9 @@ def test_after_its_computer_has_slept_a_tab_counts_again_within_two_seconds(brow
         '{"kind":"hello","seat":"short","load":"abcdefgh"}',
         '{"kind":"pressed","sequence":9,"stamp_ms":9,"number":1,"action":"<script>"}',
         '{"kind":"pressed","sequence":9,"stamp_ms":9,"number":1,"action":"stop","extra":1}',
-        '{"kind":"held","sequence":9,"stamp_ms":9,"keys":[],"visible":true,"focused":true,"controllers":[2],"drawn":[0,0,0]}',
-        '{"kind":"held","sequence":9,"stamp_ms":NaN,"keys":[],"visible":true,"focused":true,"controllers":[],"drawn":[0,0,0]}',
-        '{"kind":"held","sequence":9,"stamp_ms":1,"keys":["+"],"visible":true,"focused":true,"controllers":[],"drawn":[0,0,0]}',
+        '{"kind":"held","sequence":9,"stamp_ms":9,"keys":[],"visible":true,"focused":true,"controllers":[2],"drawn":[0,0,0,0]}',
+        '{"kind":"held","sequence":9,"stamp_ms":NaN,"keys":[],"visible":true,"focused":true,"controllers":[],"drawn":[0,0,0,0]}',
+        '{"kind":"held","sequence":9,"stamp_ms":1,"keys":["+"],"visible":true,"focused":true,"controllers":[],"drawn":[0,0,0,0]}',
     ],
 )
 def test_garbage_is_dropped_and_counted_and_changes_nothing(browser, payload):

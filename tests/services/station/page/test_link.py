@@ -13,15 +13,16 @@ from protocol.messages import Phase, Pose, RobotState
 from services.process.clock import SystemClock
 from services.process.config import StationSection
 from services.station.live_view.description import described
+from services.station.live_view.drawing import Drawing
 from services.station.page.page import Page
 from services.station.page.said import Held, Hello
-from services.station.page.view import PageView
+from services.station.page.view import PageView, Picture
 from sim.tasks.scene import Eye
 from tests.ports import free_port
 
 pytestmark = pytest.mark.sim  # in real time
 
-MOMENT = 2
+MOMENT, CLOUD = 2, 3
 UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 
 
@@ -38,8 +39,8 @@ class Browser:
         self._said = 0
         self.drawing = {}
 
-    def hear(self, seconds, *, drawing=True):
-        """The numbers of the moments that come within this time."""
+    def hear(self, seconds, *, drawing=True, kind=MOMENT):
+        """The numbers of the moments that come within this time, or of what else is asked for."""
         numbers, until = [], time.monotonic() + seconds
         while (left := until - time.monotonic()) > 0.0:
             try:
@@ -49,16 +50,17 @@ class Browser:
             if isinstance(frame, str):
                 self.drawing.update(json.loads(frame)["drawing"])
                 continue
-            kind, number, _ = struct.unpack_from("<BxxxIf", frame)
-            if kind == MOMENT:
+            came, number, _ = struct.unpack_from("<BxxxIf", frame)
+            if came == kind:
                 numbers.append(number)
-                if drawing:
-                    self._say(number)
+            if drawing and came == MOMENT:
+                self.say(moment=number)
         return numbers
 
-    def _say(self, number):
+    def say(self, *, moment=0, cloud=False, clouds=0):
+        """What it has drawn, and whether it shows the point cloud."""
         self._said += 1
-        held = Held(self._said, time.monotonic() * 1e3, (), True, True, (), (0, 0, number))
+        held = Held(self._said, time.monotonic() * 1e3, (), True, True, (), (0, 0, moment, clouds), cloud)
         self._socket.send(msgspec.json.encode(held).decode())
 
 
@@ -110,8 +112,25 @@ def test_a_part_of_the_drawing_is_told_when_it_changes(page, browser):
     view = PageView()
     page.show(view)
     browser.hear(0.5)
-    assert set(browser.drawing) == {"boxes", "size", "prediction", "going", "way", "criteria", "waypoints"}
+    assert set(browser.drawing) == set(Drawing.__struct_fields__)
     browser.drawing.clear()
     page.show(replace(view, drawing=msgspec.structs.replace(view.drawing, way=((0.0, 0.0, 0.0),))))
     browser.hear(0.5)
     assert browser.drawing == {"way": [[0.0, 0.0, 0.0]]}
+
+
+def test_the_cloud_comes_to_a_tab_that_shows_it_and_no_faster_than_it_draws(page, browser):
+    def clouds(count):
+        came = []
+        for number in range(count):
+            page.show(PageView(cloud=Picture(bytes([number] * 9), 0.1)))
+            came += browser.hear(0.06, kind=CLOUD)
+        return came
+
+    assert clouds(3) == []
+    browser.say(cloud=True)
+    assert clouds(5) == [1, 2]
+    browser.say(cloud=True, clouds=2)
+    assert clouds(5) == [3, 4]
+    browser.say()
+    assert clouds(3) == []

@@ -3,6 +3,7 @@
 import json
 import re
 from html.parser import HTMLParser
+from string import Formatter
 
 import msgspec
 import pytest
@@ -13,6 +14,7 @@ from services.station.words.table import HERE, Speech, speech
 STATION = HERE.parent
 ENGLISH = msgspec.toml.decode((HERE / "en.toml").read_bytes())
 NAMES = {f"{section}.{name}" for section, named in ENGLISH.items() for name in named}
+LANGUAGES = sorted(file.stem for file in HERE.glob("*.toml"))
 SECTIONS = "|".join(ENGLISH)
 BY_NAME = re.compile(rf"""(?:["'`]|\${{)((?:{SECTIONS})\.[a-z0-9_]+)["'`}}]""")
 BY_BEGINNING = re.compile(rf"""["'`]((?:{SECTIONS})\.[a-z0-9_]*)\$?{{""")
@@ -100,6 +102,25 @@ def test_the_scripts_write_no_words_of_their_own():
     }
 
 
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_language_that_comes_with_it_has_every_word_and_fills_in_the_same_facts(language):
+    def facts(words):
+        return {fact for _, fact, _, _ in Formatter().parse(words) if fact is not None}
+
+    english, spoken = Speech(), msgspec.toml.decode((HERE / f"{language}.toml").read_bytes())
+    assert {f"{section}.{name}" for section, named in spoken.items() for name in named} == NAMES
+    for section, named in spoken.items():
+        for name, words in named.items():
+            assert words.strip(), f"{section}.{name} is empty"
+            assert facts(words) == facts(english.words[f"{section}.{name}"]), f"{section}.{name}"
+
+
+def test_german_is_one_of_the_languages():
+    german = Speech()
+    german.speak("de")
+    assert (german.language, german.say("light.red")) == ("de", "Zuschauen")
+
+
 def test_a_word_that_a_language_lacks_stays_english(tmp_path):
     (tmp_path / "nl.toml").write_text('[light]\nred = "Kijk"\n', encoding="utf-8")
     dutch = Speech()
@@ -108,7 +129,7 @@ def test_a_word_that_a_language_lacks_stays_english(tmp_path):
 
 
 def test_a_language_without_a_table_is_refused_by_name():
-    with pytest.raises(LookupError, match="no words in 'xx', only in en"):
+    with pytest.raises(LookupError, match="no words in 'xx', only in de, en"):
         Speech().speak("xx")
 
 

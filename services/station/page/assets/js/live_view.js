@@ -7,7 +7,8 @@ import { say } from "/assets/js/words.js";
 const HEADER_BYTES = 12;
 const TURNS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const ZOOMS = { "+": 0.9, "=": 0.9, "-": 1 / 0.9 };
-export const MOMENT = 2;
+const SHOWN = "retouch-cloud";
+export const [MOMENT, CLOUD] = [2, 3];
 
 export class LiveView {
   // onForeseen: told where the gripper would touch something on its way, null for nowhere.
@@ -20,8 +21,13 @@ export class LiveView {
     this.panel = document.querySelector(".scene");
     this.force = new Force(this.panel.querySelector(".force"));
     this.parts = {};
-    this.drawn = 0;
-    this.connection = {};
+    this.restart();
+    this.cloudButton = document.querySelector(".cloud");
+    this.cloudButton.addEventListener("click", ({ detail }) => {
+      this.showCloud(!this.wantsCloud);
+      remember(this.wantsCloud);
+      if (detail > 0) this.cloudButton.blur();
+    });
     document.querySelector(".scene-home").addEventListener("click", ({ currentTarget }) => {
       this.drawing?.look();
       currentTarget.blur();
@@ -29,9 +35,9 @@ export class LiveView {
     this.load();
   }
 
-  // A new connection counts its moments anew.
+  // A new connection counts its moments and clouds anew.
   restart() {
-    this.drawn = 0;
+    this.drawn = this.clouds = 0;
     this.connection = {};
   }
 
@@ -60,6 +66,25 @@ export class LiveView {
     this.drawing?.receive(this.moment);
   }
 
+  receiveCloud(buffer) {
+    const number = new DataView(buffer).getUint32(4, true);
+    if (this.wantsCloud) this.drawing?.receiveCloud(buffer, HEADER_BYTES, { number, connection: this.connection });
+  }
+
+  get wantsCloud() {
+    return this.cloudButton.getAttribute("aria-pressed") === "true";
+  }
+
+  showCloud(wanted) {
+    this.cloudButton.setAttribute("aria-pressed", String(wanted));
+    if (!wanted) this.drawing?.hideCloud();
+  }
+
+  // Which way one looks, to the left of the robot's forward [rad].
+  get yaw() {
+    return this.drawing?.yaw ?? 0;
+  }
+
   async load() {
     const canvas = document.querySelector(".view");
     const means = contextOf(canvas);
@@ -78,13 +103,14 @@ export class LiveView {
         fetched(new URL("shapes.bin", words)).then((answer) => answer.arrayBuffer()),
       ]);
       this.drawing = new Drawing(canvas, means, description, shapes, {
-        onDrawn: (shown) => this.onDrawn(shown),
+        onDrawn: (shown, cloud) => this.onDrawn(shown, cloud),
         onForeseen: (touch, took) => this.onForeseen(touch, took),
       });
       this.drawing.show(this.parts);
       this.drawing.mark(this.part ?? null);
       this.drawing.compare(this.compared ?? null);
       if (this.moment) this.drawing.receive(this.moment);
+      this.showCloud(remembered() ?? !means.isSlow);
     } catch (error) {
       console.warn("the live view is not there:", error);
       return this.fail("script.not_loaded");
@@ -99,8 +125,9 @@ export class LiveView {
     this.drawing?.turn(turn ?? [0, 0], zoom ?? 1);
   }
 
-  onDrawn(shown) {
+  onDrawn(shown, cloud) {
     if (shown?.connection === this.connection) this.drawn = Math.max(this.drawn, shown.number);
+    if (cloud?.connection === this.connection) this.clouds = Math.max(this.clouds, cloud.number);
   }
 
   succeed() {
@@ -118,4 +145,21 @@ async function fetched(address) {
   const answer = await fetch(address);
   if (!answer.ok) throw new Error(`${address}: ${answer.status}`);
   return answer;
+}
+
+// Whether the person wants to see the point cloud; null where s/he has not said so: then it depends on the computer.
+function remembered() {
+  try {
+    return JSON.parse(localStorage.getItem(SHOWN));
+  } catch {
+    return null;
+  }
+}
+
+function remember(wanted) {
+  try {
+    localStorage.setItem(SHOWN, JSON.stringify(wanted));
+  } catch {
+    // Then it is chosen anew next time.
+  }
 }

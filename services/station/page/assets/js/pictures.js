@@ -4,7 +4,7 @@ import { say } from "/assets/js/words.js";
 
 const CAMERAS = ["head", "wrist"];
 const HEADER_BYTES = 12;
-const STALE_S = 0.7;
+const STALE_S = 1;
 
 export class Pictures {
   constructor() {
@@ -17,12 +17,13 @@ export class Pictures {
     this.drawn = [0, 0];
   }
 
-  async receive(buffer) {
+  // way: how long it was under way to here [ms]; its age when it left the station stands in it.
+  async receive(buffer, way) {
     const drawn = this.drawn;
     const header = new DataView(buffer, 0, HEADER_BYTES);
     const camera = header.getUint8(0);
     const number = header.getUint32(4, true);
-    const captured = performance.now() - header.getFloat32(8, true) * 1000;
+    const captured = performance.now() - way - header.getFloat32(8, true) * 1000;
     try {
       const bitmap = await createImageBitmap(new Blob([new Uint8Array(buffer, HEADER_BYTES)], { type: "image/jpeg" }));
       if (drawn === this.drawn && number > drawn[camera]) this.draw(camera, bitmap, captured);

@@ -9,6 +9,11 @@ export class RoundTrip {
     this.times = [];
   }
 
+  // How long what the station sends is under way, at least [ms]: half of the fastest time there and back.
+  get way() {
+    return this.times.length === 0 ? 0 : Math.max(0, Math.min(...this.times)) / 2;
+  }
+
   hear([stamp, waited]) {
     if (stamp === 0) return;
     this.times = [...this.times, performance.now() - stamp - waited].slice(-KEPT);

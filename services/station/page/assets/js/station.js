@@ -2,6 +2,7 @@
 
 import { Actions } from "/assets/js/actions.js";
 import { Devices } from "/assets/js/devices.js";
+import { Following } from "/assets/js/following.js";
 import { Held } from "/assets/js/held.js";
 import { Identity } from "/assets/js/identity.js";
 import { History } from "/assets/js/history.js";
@@ -9,7 +10,7 @@ import { showInspection } from "/assets/js/inspection.js";
 import { KeySetting } from "/assets/js/key_setting.js";
 import { Keyboard, isSpace, isStop } from "/assets/js/keyboard.js";
 import { Link } from "/assets/js/link.js";
-import { LiveView, MOMENT } from "/assets/js/live_view.js";
+import { CLOUD, LiveView, MOMENT } from "/assets/js/live_view.js";
 import { Pictures } from "/assets/js/pictures.js";
 import { Presses } from "/assets/js/presses.js";
 import { Reasons } from "/assets/js/reasons.js";
@@ -49,6 +50,7 @@ const keySetting = new KeySetting(keyboard, () => held.clear());
 const devices = new Devices(() => changed());
 const held = new Held(changed, () => devices.controllers());
 const liveView = new LiveView((touch) => timeline.foresee(touch));
+const following = new Following(liveView);
 const timeline = new Timeline(
   (action, argument) => presses.press(action, argument),
   (part) => liveView.mark(part),
@@ -92,8 +94,10 @@ function onNews(news) {
 }
 
 function onFrame(buffer) {
-  const drawer = new DataView(buffer).getUint8(0) === MOMENT ? liveView : pictures;
-  drawer.receive(buffer);
+  const kind = new DataView(buffer).getUint8(0);
+  if (kind === MOMENT) liveView.receive(buffer);
+  else if (kind === CLOUD) liveView.receiveCloud(buffer);
+  else pictures.receive(buffer, roundTrip.way);
 }
 
 function onSilence() {
@@ -101,7 +105,9 @@ function onSilence() {
 }
 
 function say() {
-  link.sayHeld({ ...held.state(), drawn: [...pictures.drawn, liveView.drawn] });
+  const { drawn, clouds, wantsCloud } = liveView;
+  const seen = { drawn: [...pictures.drawn, drawn, clouds], cloud: wantsCloud };
+  link.sayHeld({ ...held.state(), ...seen, yaw: following.yaw });
 }
 
 function changed() {

@@ -10,9 +10,11 @@ import {
   WebGLRenderer,
 } from "/assets/js/drawing/three.js";
 import { Ahead } from "/assets/js/drawing/ahead.js";
+import { Cloud } from "/assets/js/drawing/cloud.js";
 import { Depth } from "/assets/js/drawing/depth.js";
 import { Labels } from "/assets/js/drawing/labels.js";
 import { Comparison } from "/assets/js/drawing/comparison.js";
+import { Limits } from "/assets/js/drawing/limits.js";
 import { Marks } from "/assets/js/drawing/marks.js";
 import { Motions } from "/assets/js/drawing/motions.js";
 import { Cadence } from "/assets/js/drawing/cadence.js";
@@ -43,6 +45,8 @@ export class Drawing {
     this.controls.addEventListener("change", () => this.wish());
     this.robot = new Robot(description, shapes);
     this.surroundings = new Surroundings();
+    this.cloud = new Cloud();
+    this.limits = new Limits();
     this.motions = new Motions();
     this.comparison = new Comparison();
     this.marks = new Marks();
@@ -52,7 +56,7 @@ export class Drawing {
     this.ahead = new Ahead(this.labels, description.gripper, { onForeseen, onDue });
     this.waypoints = new Waypoints();
     const signs = [this.motions, this.comparison, this.marks, this.depth, this.ahead, this.waypoints];
-    this.drawn = [this.surroundings, this.robot, ...signs];
+    this.drawn = [this.surroundings, this.robot, this.cloud, this.limits, ...signs];
     this.scene.background = colourOf("ground");
     this.scene.add(...lights(), ...this.drawn.map(({ root }) => root));
     this.moment = {};
@@ -80,7 +84,13 @@ export class Drawing {
     this.wish();
   }
 
-  show({ boxes, size, prediction, going, way, criteria, waypoints }) {
+  // Which way one looks, to the left of the base's x axis [rad]; straight down it is the screen's up.
+  get yaw() {
+    const [, , , , upX, upY, , , backX, backY, backZ] = this.camera.matrixWorld.elements;
+    return Math.atan2(backZ * upY - backY, backZ * upX - backX);
+  }
+
+  show({ boxes, size, prediction, going, way, criteria, kick, waypoints, yaw }) {
     if (boxes !== undefined) this.furnish(boxes);
     if (size !== undefined) this.surroundings.size((this.size = size));
     if (prediction !== undefined) this.motions.predict(prediction);
@@ -88,6 +98,8 @@ export class Drawing {
     if (going !== undefined) this.ahead.go(going);
     if (way !== undefined) this.motions.travel(way);
     if (criteria !== undefined) this.marks.judge(criteria);
+    if (kick !== undefined) this.limits.show(kick);
+    if (yaw !== undefined) this.marks.turn(yaw);
     if (waypoints !== undefined) this.waypoints.show(waypoints);
     if (this.last) this.move(this.last);
     if (this.newest) this.foresee(this.newest);
@@ -108,6 +120,17 @@ export class Drawing {
 
   compare(effect) {
     this.comparison.show(effect);
+    this.wish();
+  }
+
+  receiveCloud(buffer, offset, shown) {
+    this.cloud.show(buffer, offset);
+    this.clouded = shown;
+    this.wish();
+  }
+
+  hideCloud() {
+    this.cloud.hide();
     this.wish();
   }
 
@@ -136,7 +159,8 @@ export class Drawing {
     this.waits = this.wished = false;
     this.isDrawing = true;
     this.refine(fineness);
-    const { shown, values } = this.moment;
+    const { clouded, moment } = this;
+    const { shown, values } = moment;
     if (values) this.move(values);
     this.moment = { shown };
     this.cadence.begin(performance.now());
@@ -146,19 +170,19 @@ export class Drawing {
     const { context } = this;
     const fence = context.fenceSync(context.SYNC_GPU_COMMANDS_COMPLETE, 0);
     context.flush();
-    setTimeout(() => this.watch(fence, shown), POLL_MS);
+    setTimeout(() => this.watch(fence, shown, clouded), POLL_MS);
   }
 
   // Asked now and then instead of waited for: nothing holds up the keys.
-  watch(fence, shown) {
+  watch(fence, shown, clouded) {
     const { context } = this;
     if (fence && context.clientWaitSync(fence, 0, 0) === context.TIMEOUT_EXPIRED) {
-      setTimeout(() => this.watch(fence, shown), POLL_MS);
+      setTimeout(() => this.watch(fence, shown, clouded), POLL_MS);
       return;
     }
     context.deleteSync(fence);
     this.isDrawing = false;
-    this.onDrawn(shown);
+    this.onDrawn(shown, clouded);
     this.cadence.done(performance.now());
     if (this.wished) this.wish();
     else if (this.fineness < 1) this.still = setTimeout(() => this.draw(1), STILL_MS);

@@ -51,7 +51,12 @@ export class Marks {
     if (collision !== null) this.touch.root.position.fromArray(collision);
   }
 
-  // The axes are those along which the keys push: the base's, wherever the gripper is turned.
+  // To the left, as the axes of the device are that the hand is on [rad].
+  turn(yaw) {
+    this.axes.rotation.z = yaw;
+  }
+
+  // The axes are those along which the keys push, wherever the gripper is turned: the base's, or turned as the view is.
   move(pose, offset, force) {
     this.axes.visible = pose.isKnown;
     this.reach.visible = pose.isKnown && Boolean(this.isJudged);

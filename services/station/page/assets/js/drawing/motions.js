@@ -1,7 +1,8 @@
-// The motion that is predicted, in the tube in which it probably lies, and the way that it has led so far.
+// The motion that is predicted, in the tube in which it probably lies, or the one that an operator has shown already and
+// that is to be followed; and the way that it has led so far.
 
 import { BufferAttribute, BufferGeometry, DoubleSide, Group, Mesh } from "/assets/js/drawing/three.js";
-import { plain } from "/assets/js/drawing/paint.js";
+import { colourOf, plain } from "/assets/js/drawing/paint.js";
 import { Sign } from "/assets/js/drawing/signs.js";
 import { ball, ellipsoid, sweep } from "/assets/js/drawing/sweep.js";
 
@@ -9,6 +10,7 @@ const PREDICTED_M = 0.0035;
 const REFINED_M = 0.0045;
 const THINNEST_M = 0.001;
 const LINE_SIDES = 6;
+const MODEL = "model"; // where a prediction comes from; all else was shown
 const TUBE_SIDES = 12;
 
 export class Motions {
@@ -25,7 +27,8 @@ export class Motions {
   }
 
   predict(prediction) {
-    const { points = [], spread = [] } = prediction ?? {};
+    const { points = [], spread = [], origin = MODEL } = prediction ?? {};
+    this.predicted.material.color.copy(colourOf(origin === MODEL ? "predicted" : "refined"));
     this.points = points;
     this.mark(this.part);
     fill(this.predicted, sweep(points, (_, direction) => ball(PREDICTED_M, direction), LINE_SIDES));

@@ -1,0 +1,59 @@
+"""What the station hears of a camera: how old a picture is, and which way one looks in it."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lfd.motion.rotations import exp_map, multiply
+from protocol import topics
+from protocol.codec import encode
+from protocol.messages import CameraImage, Pose
+from services.bus.arrays import quaternion
+from services.bus.clocks import Clocks
+from services.bus.subscription import Subscription
+from services.station.ears import heading, picture
+
+MS = 1_000_000
+HERE, ELSEWHERE = 1 << 47, 2 << 47
+LEVEL = (0.5, -0.5, 0.5, -0.5)  # the optical frame of a camera that looks along x, its picture upright
+DOWN = (0.0, 0.70710678, -0.70710678, 0.0)  # straight down, what lies ahead at the top
+
+
+def heard(publisher, *, captured_ms, sent_ms, came_ms):
+    """A camera's subscription to which one picture has come."""
+    camera = Subscription(topics.HEAD_IMAGE, "robot1", HERE, Clocks(HERE))
+    shown = CameraImage(
+        camera="head", width=1, height=1, data=b"x", intrinsics=(1.0,) * 4, pose=Pose((0.0,) * 3, LEVEL),
+        captured_ns=captured_ms * MS, robot="robot1", topic="cam/head", process="camera", publisher=publisher,
+        sequence=1, stamp_ns=sent_ms * MS,
+    )  # fmt: skip
+    camera.receive(encode(topics.HEAD_IMAGE, shown), topics.HEAD_IMAGE.schema, came_ms * MS)
+    return camera
+
+
+def test_a_picture_is_as_old_as_what_it_shows():
+    camera = heard(HERE, captured_ms=1_000, sent_ms=1_040, came_ms=1_050)
+    assert picture(camera, 1_070 * MS, HERE).age_s == pytest.approx(0.070)
+    assert picture(camera, 3_000 * MS, HERE).age_s == pytest.approx(2.0)
+
+
+def test_of_another_machine_s_clock_only_what_passed_there_is_counted():
+    camera = heard(ELSEWHERE, captured_ms=9_001_000, sent_ms=9_001_040, came_ms=1_050)
+    assert picture(camera, 1_070 * MS, HERE).age_s == pytest.approx(0.060)
+
+
+def test_of_a_camera_that_does_not_say_when_the_age_since_it_was_sent_is_known():
+    camera = heard(HERE, captured_ms=0, sent_ms=1_040, came_ms=1_050)
+    assert picture(camera, 1_070 * MS, HERE).age_s == pytest.approx(0.030)
+
+
+def test_before_the_first_picture_there_is_none():
+    assert picture(Subscription(topics.HEAD_IMAGE, "robot1", HERE, Clocks(HERE)), MS, HERE) is None
+
+
+@pytest.mark.parametrize("camera", [LEVEL, DOWN], ids=["level", "straight down"])
+@given(yaw=st.floats(-3.1, 3.1))
+def test_a_camera_that_is_turned_looks_so_far_to_the_side(camera, yaw):
+    turned = multiply(exp_map(np.array((0.0, 0.0, yaw))), np.array(camera))
+    assert heading(Pose((1.0, 2.0, 3.0), quaternion(turned))) == pytest.approx(yaw, abs=1e-6)
