@@ -405,5 +405,5 @@ def test_the_page_is_told_what_the_device_says_of_itself():
 
 def test_a_language_without_words_is_one_line_that_names_the_setting():
     clock, configuration = ManualClock(), Configuration(station=StationSection(language="xx"))
-    with pytest.raises(UnusableSetting, match=r"^\[station\] language: there are no words in 'xx', only in en$"):
+    with pytest.raises(UnusableSetting, match=r"^\[station\] language: there are no words in 'xx', only in de, en$"):
         service.build(MemoryNetwork(clock).bus(), clock, configuration)
