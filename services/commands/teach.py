@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 import logging
-import threading
 from argparse import ArgumentParser, Namespace
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from typing import TypeVar
 
 import numpy as np
 
@@ -16,30 +12,22 @@ from lfd.motion.waypoints import through_waypoints
 from lfd.store.waypoint_file import Surroundings, read_waypoints
 from protocol import queries
 from protocol.messages import Method, ModelState, Purpose, Vector3
-from protocol.queries import AddDemonstration, Learnt, Query, Undo
+from protocol.queries import AddDemonstration, Undo
 from services.bus.arrays import motion_to_wire, vector3
-from services.bus.bus import Bus, Failed
 from services.bus.identity import new_number
-from services.bus.zenoh import connect
 from services.commands.arguments import add_network, add_scene, position, within
+from services.commands.model_process import ANSWER_S, ModelProcess, model_process
 from services.commands.settings import configuration as configured
 from services.model.skill import binding_of
 from services.offline.first_demonstrations import first_demonstrations
-from services.process.clock import Clock, SystemClock
 from services.process.config import Configuration
-from services.process.exceptions import CommandFailed, NoAnswer
-from services.process.runner import stop_on_signals
+from services.process.exceptions import CommandFailed
 from sim.tasks import REACHING, AnyScene
 from sim.tasks import scene as find_scene
 
 log = logging.getLogger(__name__)
 
-Req = TypeVar("Req", queries.Describe, AddDemonstration, Undo)
-
-ANSWER_S = 10.0
 MODEL_WITHIN_S = 60.0
-POLL_NS = 10_000_000
-AGAIN_NS = 200_000_000
 
 TAUGHT_S = 10.0
 """Duration of a motion through waypoints, unless told otherwise: the thesis' time of an autonomous execution."""
@@ -99,8 +87,8 @@ def teach(configuration: Configuration) -> None:
     scene = find_scene(configuration.robot.scene)
     # Taught before the bus is there: nothing waits for it, and Ctrl-C ends it at once.
     demonstrations = first_demonstrations(scene)
-    with _model(configuration) as model:
-        state = model.state(scene, MODEL_WITHIN_S)
+    with model_process(configuration, "teach") as model:
+        state = _held(model, scene, MODEL_WITHIN_S)
         if state.updates or state.demonstrations >= len(demonstrations):
             log.info("the model has %d demonstrations and %d updates", state.demonstrations, state.updates)
             return
@@ -110,7 +98,8 @@ def teach(configuration: Configuration) -> None:
             motion = motion_to_wire(taught.positions, taught.orientations, taught.duration)
             condition = tuple(demonstration.condition.tolist())
             origin = vector3(demonstration.origin)
-            model.add(AddDemonstration(Purpose.INITIAL, motion, origin, scene.name, condition, request=new_number()))
+            given = AddDemonstration(Purpose.INITIAL, motion, origin, scene.name, condition, request=new_number())
+            _learnt(model, given)
     log.info("taught %d demonstrations of %s", len(demonstrations), scene.name)
 
 
@@ -137,8 +126,8 @@ def teach_waypoints(configuration: Configuration, file: Path, object_position: V
     waypoints = read_waypoints(file, Surroundings(np.array(reach.lower), np.array(reach.upper), target))
     taught = through_waypoints(waypoints.positions, waypoints.orientations, duration)
     motion = motion_to_wire(taught.positions, taught.orientations, taught.duration)
-    with _model(configuration) as model:
-        before = model.state(scene)
+    with model_process(configuration, "teach") as model:
+        before = _held(model, scene)
         purpose = Purpose.UPDATE if before.demonstrations or before.updates else Purpose.INITIAL
         given = AddDemonstration(
             purpose,
@@ -149,7 +138,7 @@ def teach_waypoints(configuration: Configuration, file: Path, object_position: V
             method=Method.WAYPOINTS,
             request=new_number(),
         )
-        state = model.add(given)
+        state = _learnt(model, given)
     log.info("taught a motion through %d waypoints; %s", len(waypoints.positions), _holds(state))
 
 
@@ -161,10 +150,11 @@ def take_back(configuration: Configuration) -> None:
         SimError: there is no such scene.
     """
     scene = find_scene(configuration.robot.scene)
-    with _model(configuration) as model:
-        before = model.state(scene)
+    with model_process(configuration, "teach") as model:
+        before = _held(model, scene)
         purpose = Purpose.UPDATE if before.updates else Purpose.INITIAL
-        state = model.undo(Undo(purpose=purpose, operator=configuration.operator, request=new_number()))
+        given = Undo(purpose=purpose, operator=configuration.operator, request=new_number())
+        state = model.ask(queries.UNDO, given, "take it back").state
     taken = "update" if purpose is Purpose.UPDATE else "first demonstration"
     log.info("took back the newest %s; %s", taken, _holds(state))
 
@@ -173,79 +163,18 @@ def _holds(state: ModelState) -> str:
     return f"the model has {state.demonstrations} demonstrations and {state.updates} updates"
 
 
-class ModelProcess:
-    """The model process, asked until it answers.
-
-    Args:
-        bus: to it.
-        robot: whose it is.
-        clock: that patience ends by.
-        stop: ends the asking.
-    """
-
-    def __init__(self, bus: Bus, robot: str, clock: Clock, stop: threading.Event) -> None:
-        self._bus = bus
-        self._robot = robot
-        self._clock = clock
-        self._stop = stop
-
-    def state(self, scene: AnyScene, within_s: float = ANSWER_S) -> ModelState:
-        """What the model holds.
-
-        Raises:
-            CommandFailed: it is for another scene or robot than `scene`.
-            NoAnswer: it did not answer in time.
-            KeyboardInterrupt: somebody ended the command.
-        """
-        state = self._answered(queries.DESCRIBE, queries.Describe(), within_s)
-        wanted, kind = binding_of(scene)
-        if (state.scene, state.robot_kind) != (wanted, kind):
-            raise CommandFailed(
-                f"the running model is for scene {state.scene} with robot {state.robot_kind},"
-                f" not for scene {wanted} with robot {kind}:"
-                f" start it with --scene {wanted}, or teach with --scene {state.scene}"
-            )
-        return state
-
-    def add(self, request: AddDemonstration) -> ModelState:
-        """What the model holds once it has learnt; raises as `state`."""
-        return self._answered(queries.ADD_DEMONSTRATION, request)
-
-    def undo(self, request: Undo) -> ModelState:
-        """What the model holds once it has forgotten; raises as `state`."""
-        return self._answered(queries.UNDO, request)
-
-    def _answered(self, query: Query[Req, Learnt], request: Req, within_s: float = ANSWER_S) -> ModelState:
-        """The answer. Where there is none the same request is sent again: by its number it is known, and done once."""
-        deadline_ns = self._clock.now_ns() + round(within_s * 1e9)
-        reason = "nothing came back"
-        while self._clock.now_ns() < deadline_ns:
-            match self._asked(query, request):
-                case Learnt(state):
-                    return state
-                case queries.Refused(reason):
-                    raise CommandFailed(f"could not teach the model: {reason}")
-                case Failed(reason):
-                    self._wait(AGAIN_NS)
-        raise NoAnswer(query.server, self._robot, within_s, reason)
-
-    def _asked(self, query: Query[Req, Learnt], request: Req) -> Learnt | queries.Refused | Failed:
-        pending = self._bus.ask(query, request, ANSWER_S)
-        while (outcome := pending.poll()) is None:
-            self._wait(POLL_NS)
-        return outcome
-
-    def _wait(self, ns: int) -> None:
-        self._clock.sleep_until(self._clock.now_ns() + ns, self._stop)
-        if self._stop.is_set():
-            raise KeyboardInterrupt
+def _held(model: ModelProcess, scene: AnyScene, within_s: float = ANSWER_S) -> ModelState:
+    """What the model holds; raises CommandFailed where it is for another scene or robot, else as `ModelProcess`."""
+    state = model.state(within_s)
+    wanted, kind = binding_of(scene)
+    if (state.scene, state.robot_kind) != (wanted, kind):
+        raise CommandFailed(
+            f"the running model is for scene {state.scene} with robot {state.robot_kind},"
+            f" not for scene {wanted} with robot {kind}:"
+            f" start it with --scene {wanted}, or teach with --scene {state.scene}"
+        )
+    return state
 
 
-@contextmanager
-def _model(configuration: Configuration) -> Iterator[ModelProcess]:
-    clock = SystemClock()
-    bus = connect(configuration.connect, configuration.name, "teach", clock)
-    try:
-        yield ModelProcess(bus, configuration.name, clock, stop_on_signals())
-    finally:
-        bus.close()
+def _learnt(model: ModelProcess, request: AddDemonstration) -> ModelState:
+    return model.ask(queries.ADD_DEMONSTRATION, request, "learn it").state

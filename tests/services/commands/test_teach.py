@@ -7,10 +7,9 @@ import pytest
 from protocol import queries
 from services.bus.memory import MemoryNetwork
 from services.cli import main, parser
-from services.commands.teach import ModelProcess
+from services.commands.model_process import ModelProcess
 from services.process.clock import ManualClock
 from services.process.exceptions import EnvironmentFault, NoAnswer
-from sim.tasks import scene
 
 
 @pytest.mark.parametrize("text", ["0.8,-0.1,0.5", " 0.8, -0.1, 5e-1"])
@@ -73,7 +72,7 @@ def network():
 
 
 def asked(network, stop):
-    return ModelProcess(network.bus("teach"), network.robot, network.clock, stop).state(scene("dishwasher"))
+    return ModelProcess(network.bus("teach"), network.robot, network.clock, stop).state()
 
 
 def test_a_model_that_is_not_there_is_the_networks_fault_and_no_wrong_input(network):
