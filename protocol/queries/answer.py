@@ -8,9 +8,15 @@ from protocol.messages import Count, Text
 
 
 class Refused(msgspec.Struct, frozen=True, tag_field="reply", tag="refused"):
-    """The answer to a request that was understood and not carried out."""
+    """The answer to a request that was understood and not carried out.
+
+    Attributes:
+        reason: why not, for people.
+        lasting: asking again does not help; what was asked for has to be another.
+    """
 
     reason: Text
+    lasting: bool = False
 
 
 class Accepted(msgspec.Struct, frozen=True, tag_field="reply", tag="accepted"):

@@ -5,7 +5,7 @@ The service and the offline rollout both drive this class; here execution, kinem
 
 import logging
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,7 @@ from services.robot.correction import UNCORRECTED, Correction
 from services.robot.episode import Episode, EpisodeOutcome
 from services.robot.execution import Execution, angle_between
 from services.robot.mechanism import InverseFailed, Mechanism
+from services.robot.reach import check_reach
 from services.robot.starts import StartImpossible, Starts
 from services.robot.teleoperation import Teleoperation
 from services.robot.tick import Tick
@@ -114,6 +115,10 @@ class Arm:
     def followed(self, wanted: Correction) -> Correction:
         """What the arm follows of a correction, its reach included."""
         return safety.clamp_correction(self._kinematics.admitted(wanted))[0]
+
+    def check_reach(self, prediction: Trajectory, waypoints: Sequence[float]) -> None:
+        """Let a motion pass that the arm can follow from where it stands; see `check_reach`."""
+        check_reach(self._kinematics, self.observation.q, prediction, waypoints)
 
     def begin(self, prediction: Trajectory, look_ahead: float, part: Part = WHOLE) -> None:
         """Begin an episode, with a ramp from the measured pose to the prediction's start.

@@ -101,6 +101,8 @@ class Control:
         except ServiceError as error:
             raise Refusal(f"the prediction cannot be executed: {error}") from error
         prediction = admit_prediction(positions, orientations, request.duration, self.arm.measured, predicted.waypoints)
+        if predicted.waypoints:
+            self.arm.check_reach(prediction, predicted.waypoints)
         after = look_ahead(prediction) if request.adapt is Adapt.NEXT else 0.0
         self.arm.begin(prediction, after, (request.part.first, request.part.last))
         return self._ordered(request, request.mode, request.prediction)

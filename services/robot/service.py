@@ -236,18 +236,18 @@ class RobotService:
             try:
                 reply = answer(call.request)
             except Refusal as refusal:
-                reply = self._refuse(refusal.reason)
+                reply = self._refuse(refusal.reason, lasting=refusal.lasting)
             except Exception as error:
                 # Nothing that a client sends may end the robot's process.
                 log.debug("as raised", exc_info=error)
                 reply = self._refuse(f"the robot failed at this request ({type(error).__name__}: {error})")
             call.reply(reply)
 
-    def _refuse(self, reason: str) -> Refused:
+    def _refuse(self, reason: str, *, lasting: bool = False) -> Refused:
         self._refused += 1
         line = one_line(reason)
         log.warning("refused: %s", line)
-        return Refused(line)
+        return Refused(line, lasting)
 
     def _sample_that_counts(self) -> Received[MasterState] | None:
         """The newest master state under the present authority; those of any other holder or epoch do not count."""

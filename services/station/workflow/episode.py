@@ -165,7 +165,7 @@ def refused(
 ) -> Step:
     """Once more, as another request; where the reason does not pass, the operator is told and asked."""
     notice, refusals = not_done(query, reply.reason), state.refusals + 1
-    if refusals < REFUSALS_SUFFERED:
+    if refusals < REFUSALS_SUFFERED and not reply.lasting:
         retry_s = view.now_s + RETRY_S
         return Step(to(state, again or state.phase, view, refusals=refusals, retry_s=retry_s, notice=notice))
     if settings.scripted:
