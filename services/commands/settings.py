@@ -15,7 +15,7 @@ from services.process.processes import PROCESSES
 _FLAGS = {"robot": "name", "operator": "operator", "connect": "connect", "listen": "listen", "seed": "seed"}
 """Flag to the key that it stands for."""
 
-_STATION_FLAGS = {"headless": "scripted", "once": "once", "variant": "variant"}
+_STATION_FLAGS = {"headless": "scripted", "once": "once", "untaught": "untaught", "variant": "variant"}
 """The same, of the station's section."""
 
 

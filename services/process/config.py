@@ -104,6 +104,7 @@ class StationSection(Section, frozen=True):
         demonstration_tempo: it is learnt in the tempo in which it was led; else evenly along its way, so that where it
             lingered makes it jump nowhere.
         scripted: the workflow's buttons are pressed by a script; there is no page.
+        untaught: a script shows an empty skill its first motion; else it waits for whoever does.
         once: finish when the loop has closed, instead of going on with another object position.
     """
 
@@ -122,6 +123,7 @@ class StationSection(Section, frozen=True):
     demonstration_points: Annotated[int, msgspec.Meta(ge=75, le=500)] = 75
     demonstration_tempo: bool = False
     scripted: bool = False
+    untaught: bool = False
     once: bool = False
 
     @property

@@ -7,7 +7,7 @@ from collections import deque
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.person.hand import REACTION
+from sim.person.attention import REACTION
 
 Array = NDArray[np.float64]
 

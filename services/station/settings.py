@@ -23,6 +23,7 @@ def settings(section: StationSection, operator: str) -> Settings:
         variant=section.variant,
         scripted=section.scripted,
         once=section.once,
+        untaught=section.untaught,
         points=section.demonstration_points,
         keeps_tempo=section.demonstration_tempo,
     )

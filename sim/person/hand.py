@@ -12,7 +12,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sim.person.attention import GLANCE, REACTION
 from sim.person.intention import Intention
+from sim.person.itinerary import Itinerary
 from sim.person.limb import DELAY, Ability, Limb
 from sim.person.sight import Sight
 from sim.person.stylus import StylusState, Vector
@@ -22,8 +24,6 @@ from sim.tasks.scene import Eye
 
 Array = NDArray[np.float64]
 
-REACTION = 0.2  # [s] from seeing to acting on it: 0.19 to 0.26 s (Keele and Posner 1968)
-_GLANCE = 0.2  # [s] over which it is seen how fast something moves
 STIFFNESS = 500.0  # [N/m]
 DAMPING = 15.0  # [N s/m]
 ARM = Ability(speed=0.25, push=0.06, tremor=0.0015)  # [m]
@@ -33,6 +33,8 @@ _LEAD = DELAY + _ROBOT_DELAY  # [s] that a practised person acts ahead of a moti
 _STANDS = 1e-6  # [1/s] of progress, below which the robot is seen to stand
 _GRIP_TOLERANCE = 0.01  # [m] between stylus and robot at which the clutch is closed
 _GRIP_TURN_TOLERANCE = 0.05  # [rad] the same of their rotations
+_ROOM = 0.18  # [m] from the middle of the workspace, beyond which the hand lets go and comes back
+_BACK = 0.02  # [m] from there at which it takes the robot up again
 _LONGEST_STEP = 0.05  # [s] a hand that was not asked for longer did not move meanwhile
 
 
@@ -83,6 +85,7 @@ class Hand:
         self._target: Vector | None = None
         self._rotation: Vector | None = None
         self._clutched = False
+        self._itinerary: Itinerary | None = None
 
     @property
     def clutched(self) -> bool:
@@ -102,17 +105,23 @@ class Hand:
             stylus: Where it is.
             eye: From where they look; a bystander's by default.
         """
+        self._take(stylus, eye)
         self._correction = correction
-        self._sight = Sight(np.array((eye or Eye()).position), self._misjudgement, self._of_sight)
-        self._memory.clear()
-        self._arm.rest(np.array(stylus.position))
-        self._wrist.rest(np.array(stylus.rotation))
-        self._target, self._rotation = stylus.position, stylus.rotation
-        self._clutched = False
+
+    def take_up(self, itinerary: Itinerary, stylus: StylusState, eye: Eye | None = None) -> None:
+        """Take the stylus where it is, to lead a robot that nothing else leads.
+
+        Args:
+            itinerary: Where to.
+            stylus: Where it is.
+            eye: See `grip`.
+        """
+        self._take(stylus, eye)
+        self._itinerary, self._clutched = itinerary, True
 
     def release(self) -> None:
         """Let go."""
-        self._correction = None
+        self._correction = self._itinerary = None
         self._target = self._rotation = None
         self._clutched = False
 
@@ -125,17 +134,35 @@ class Hand:
         """
         if self._correction is None:
             return None
-        dt = min(time - self._memory[-1][0], _LONGEST_STEP) if self._memory else 0.0
-        self._memory.append((time, self._look(seen, dt)))
-        while len(self._memory) > 1 and self._memory[1][0] <= time - REACTION - _GLANCE:
-            self._memory.popleft()
-        noticed = max((i for i, (then, _) in enumerate(self._memory) if then <= time - REACTION), default=0)
+        dt, noticed = self._notice(time, seen)
         self._clutched = self._clutched or _together(seen)
         arm, wrist = self._follow(self._correction, noticed) if self._clutched else self._take_over(noticed)
         self._arm.move(*arm, dt)
         self._wrist.move(*wrist, dt)
         self._target, self._rotation = _vector(self._arm.position), _vector(self._wrist.position)
         return self._target
+
+    def lead(self, time: float, seen: Seen) -> bool:
+        """Look at the robot and lead it on; whether it stands where it was led to. See `observe`."""
+        itinerary = self._itinerary
+        if itinerary is None or itinerary.over:
+            return False
+        dt, noticed = self._notice(time, seen)
+        _, then = self._memory[noticed]
+        away = itinerary.aim.position - then.robot.position
+        turned = rotation_to(then.robot.orientation, itinerary.aim.orientation)
+        here, stood = np.array(seen.stylus.position), np.array(then.stylus.position)
+        self._clutched = bool(np.max(np.abs(here)) < (_ROOM if self._clutched else _BACK))
+        still = np.zeros(3)
+        if not self._clutched:  # back to the middle, where nothing that the hand does moves the robot
+            self._arm.move(still, still, dt)
+            self._target = _vector(self._arm.position)
+            return False
+        self._arm.move(stood + away, still, dt)
+        self._wrist.move(then.stylus.rotation + turned, still, dt)
+        self._target, self._rotation = _vector(self._arm.position), _vector(self._wrist.position)
+        led = np.subtract(seen.stylus.rotation, then.stylus.rotation)
+        return itinerary.arrived(time, np.concatenate([away - (here - stood), turned - led]))
 
     def force(self, stylus: StylusState) -> Vector:
         """The force on the stylus, F = K_h (target - x) - D_h v, none while the hand is off [N]."""
@@ -148,6 +175,22 @@ class Hand:
             STIFFNESS * (ty - y) - DAMPING * vy,
             STIFFNESS * (tz - z) - DAMPING * vz,
         )
+
+    def _take(self, stylus: StylusState, eye: Eye | None) -> None:
+        self.release()
+        self._sight = Sight(np.array((eye or Eye()).position), self._misjudgement, self._of_sight)
+        self._memory.clear()
+        self._arm.rest(np.array(stylus.position))
+        self._wrist.rest(np.array(stylus.rotation))
+        self._target, self._rotation = stylus.position, stylus.rotation
+
+    def _notice(self, time: float, seen: Seen) -> tuple[float, int]:
+        """The time since the look before, and which look has reached the person by now."""
+        dt = min(time - self._memory[-1][0], _LONGEST_STEP) if self._memory else 0.0
+        self._memory.append((time, self._look(seen, dt)))
+        while len(self._memory) > 1 and self._memory[1][0] <= time - REACTION - GLANCE:
+            self._memory.popleft()
+        return dt, max((i for i, (then, _) in enumerate(self._memory) if then <= time - REACTION), default=0)
 
     def _look(self, seen: Seen, dt: float) -> Seen:
         """What of the screen reaches the person."""

@@ -39,11 +39,16 @@ class Intention:
         """The rotation wanted at a progress from 0 to 1, shape (3,) [rad]."""
         return _at(self.rotations, progress)
 
+    def predicted(self, progress: float) -> Pose:
+        """Where the robot would be at a progress from 0 to 1."""
+        orientation = _at(self.orientations, progress)
+        return Pose(_at(self.positions, progress), orientation / np.linalg.norm(orientation))
+
     def pose(self, progress: float) -> Pose:
         """Where the operator wants the robot at a progress from 0 to 1."""
-        predicted = _at(self.orientations, progress)
-        orientation = rotated(predicted / np.linalg.norm(predicted), self.rotation(progress))
-        return Pose(_at(self.positions, progress) + self.displacement(progress), orientation)
+        predicted = self.predicted(progress)
+        orientation = rotated(predicted.orientation, self.rotation(progress))
+        return Pose(predicted.position + self.displacement(progress), orientation)
 
 
 def plan(

@@ -24,7 +24,11 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--headless", action="store_true", help="a scripted operator instead of the page")
     parser.add_argument("--once", action="store_true", help="end when the loop has closed, or the run is ended")
     parser.add_argument("--fresh", action="store_true", help="start from an empty model, kept in the run's folder")
-    parser.add_argument("--untaught", action="store_true", help="an empty model is shown its first motion at the page")
+    parser.add_argument(
+        "--untaught",
+        action="store_true",
+        help="an empty model is shown its first motion by its operator",
+    )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write what happened")
     parser.add_argument("--listen", metavar="ENDPOINT", help="where other machines may join (default: this one only)")
     parser.add_argument("--only", metavar="A,B", help=f"start only some of: {', '.join(PROCESS_NAMES)}")

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from lfd.exceptions import LfdError
 from lfd.motion.trajectory import Trajectory
-from protocol.messages import ExecutionState, Figure, RobotState
-from protocol.topics import EXECUTION, OBJECT_POSE, SCENE_STATE
+from protocol.messages import ExecutionState, Figure, Method, Mode, Phase, RobotState
+from protocol.topics import EXECUTION, OBJECT_POSE, SCENE_STATE, TEACHING_STATE
 from services.bus.arrays import motion_from_wire
 from services.bus.bus import Bus
 from services.bus.predictions import Predictions
@@ -24,23 +24,32 @@ from services.process.master_devices import Scripted
 from sim import tasks as scenes
 from sim.exceptions import SimError
 from sim.person.hand import Hand, Seen
-from sim.person.imagination import chosen, imagined
-from sim.person.intention import Intention, plan, plan_at_equal_progress
+from sim.person.itinerary import Itinerary
+from sim.person.plans import Outlook
+from sim.person.scatter import CAREFUL
 from sim.person.stylus import Stylus
 from sim.pose import Pose
-from sim.tasks.scene import Eye
 
 log = logging.getLogger(__name__)
 
 _LEFT = 0.002  # [m] a correction that is further from the prediction is not dropped
 _TURNED = 0.01  # [rad] nor one that is turned further
 
+_PRESSED_NS = 150_000_000
+"""For as long a button of the stylus is held."""
+
+_CONSIDERS_NS = 500_000_000
+"""Between the end of what was led and the button that says so."""
+
 Episode = tuple[int, int]
 """The robot process' identity and its number for the episode."""
 
 
 class ScriptedMaster:
-    """Takes the stylus when an episode is to be refined, and lets go at its end.
+    """Takes the stylus when an episode is to be refined or led, and lets go at its end.
+
+    Where nothing else leads the robot the hand does: from place to place, storing a waypoint at each by the stylus'
+    button, or along the way in one go, as the page asks; at the end the other button says that it is done.
 
     The force loop has its own thread where time goes by itself; on a clock that is moved by hand it
     advances with every step.
@@ -66,15 +75,21 @@ class ScriptedMaster:
         self._loop = HapticLoop(SimulatedStylus(Stylus(), self._hand), feedback, clock.now_ns())
         self._thread = HapticThread(self._loop, clock) if isinstance(clock, SystemClock) else None
         self._gripped: Episode | None = None
+        self._teaching = bus.subscribe(TEACHING_STATE)
+        self._itinerary: Itinerary | None = None
+        self._buttons: list[tuple[str, int]] = []
 
     def step(self, moment: Moment) -> Sample | None:
         """Look, decide, and read the stylus; None while it is brought to where a correction was left."""
-        robot = moment.refining
-        if moment.robot is not None:
+        robot, led = moment.refining, moment.teaching
+        if moment.robot is not None and led is None:  # who leads feels nothing: there is nothing to depart from
             self._loop.hear(moment.now_ns)
         if robot is not None:
             self._attend(robot)
-            self._look(robot, moment.now_ns)
+            self._hand.observe(moment.now_ns / 1e9, self._seen(robot))
+        elif led is not None:
+            self._attend(led)
+            self._lead(led, moment.now_ns)
         elif moment.robot is not None:  # a picture that stands still for a moment is no reason to let go
             self._let_go()
         rendered = self._loop.newest if self._thread else self._loop.advance_to(moment.now_ns)
@@ -87,6 +102,7 @@ class ScriptedMaster:
             rotation=stylus.rotation,
             force=rendered.feedback,
             engaged=self._hand.clutched,
+            actions=self._held(moment.now_ns),
         )
 
     def figures(self) -> tuple[Figure, ...]:
@@ -100,7 +116,8 @@ class ScriptedMaster:
 
     def _let_go(self) -> None:
         self._hand.release()
-        self._gripped = None
+        self._gripped = self._itinerary = None
+        self._buttons.clear()
 
     def _attend(self, robot: RobotState) -> None:
         """Take the stylus at an episode's beginning, or where this process came up in its middle."""
@@ -113,49 +130,77 @@ class ScriptedMaster:
             return
         self._gripped = episode
         try:
-            planned = self._plan(received.message)
+            taken = self._take(robot, received.message)
         except (SimError, ServiceError, LfdError) as error:
-            log.warning("episode %d is not corrected: %s", robot.episode, error)
+            log.warning("episode %d is not taught: %s", robot.episode, error)
             return
-        if planned is None:
+        if not taken:
             self._gripped = None
-            return
-        correction, eye = planned
-        self._hand.grip(correction, self._loop.newest.stylus, eye)
 
-    def _plan(self, execution: ExecutionState) -> tuple[Intention, Eye] | None:
-        """The correction of an episode, and from where it is watched; None while not all has been seen."""
-        scene_state, predicted = self._scene.latest(), self._predictions.motion(execution.prediction)
-        if scene_state is None or predicted is None:
-            return None
+    def _take(self, robot: RobotState, execution: ExecutionState) -> bool:
+        """Take the stylus with what is to be done in mind; False while not all has been seen."""
+        scene_state, stylus = self._scene.latest(), self._loop.newest.stylus
+        if scene_state is None:
+            return False
         arrangement = scene_state.message
-        prediction = Trajectory(*motion_from_wire(predicted))
         scene = scenes.scene(arrangement.name)
-        place = np.array(arrangement.condition or self._object_position(prediction.positions))
         start = Pose(np.array(arrangement.start.position), np.array(arrangement.start.orientation))
-        safe = chosen(scene.corridors(arrangement.variant, place, start), prediction.positions, self._rng)
-        meant = imagined(safe, prediction.positions, self._settings.scatter, self._rng, scene.freedom)
-        poses, exaggeration = (prediction.positions, prediction.orientations), self._settings.exaggeration
-        if not scene.freedom.tempo:
-            return plan_at_equal_progress(*poses, meant, exaggeration), scene.eye
-        known = [way for variant in scene.variants for way in scene.corridors(variant, place, start)]
-        return plan(*poses, meant, known, exaggeration), scene.eye
+        if robot.mode is Mode.TEACH:
+            newest = self._predictions.newest()
+            known = motion_from_wire(newest.motion)[0] if newest is not None else None
+            seen = self._object.latest()
+            if not arrangement.condition and seen is None:
+                return False
+            place = np.array(arrangement.condition or self._object_position(start.position))
+            outlook = Outlook(scene, arrangement.variant, place, start)
+            way = outlook.way(known, min(self._settings.scatter, CAREFUL), self._rng)
+            self._itinerary = Itinerary(way, stops=self._stores)
+            self._hand.take_up(self._itinerary, stylus, scene.eye)
+            return True
+        predicted = self._predictions.motion(execution.prediction)
+        if predicted is None:
+            return False
+        prediction = Trajectory(*motion_from_wire(predicted))
+        place = np.array(arrangement.condition or self._object_position(prediction.positions[-1]))
+        outlook = Outlook(scene, arrangement.variant, place, start)
+        given = (prediction.positions, prediction.orientations, self._settings.scatter, self._rng)
+        self._hand.grip(outlook.correction(*given, self._settings.exaggeration), stylus, scene.eye)
+        return True
 
-    def _object_position(self, prediction: NDArray[np.float64]) -> NDArray[np.float64]:
+    @property
+    def _stores(self) -> bool:
+        """The page says that waypoints are stored."""
+        told = self._teaching.latest()
+        return told is not None and told.message.method is Method.WAYPOINTS
+
+    def _lead(self, robot: RobotState, now_ns: int) -> None:
+        if robot.phase is not Phase.EXECUTE or self._itinerary is None:
+            return
+        if self._hand.lead(now_ns / 1e9, self._seen(robot)):
+            if self._stores:
+                self._buttons.append(("store", now_ns))
+            if self._itinerary.over:
+                self._buttons.append(("finish", now_ns + _CONSIDERS_NS))
+
+    def _held(self, now_ns: int) -> tuple[str, ...]:
+        """The buttons that are held now."""
+        self._buttons = [(button, since) for button, since in self._buttons if now_ns < since + _PRESSED_NS]
+        return tuple(button for button, since in self._buttons if since <= now_ns)
+
+    def _object_position(self, otherwise: NDArray[np.float64]) -> NDArray[np.float64]:
         """Where the object was seen last; where it never was, the robot's guess is as good as any."""
         seen = self._object.latest()
-        return np.array(seen.message.pose.position) if seen else prediction[-1]
+        return np.array(seen.message.pose.position) if seen else otherwise
 
-    def _look(self, robot: RobotState, now_ns: int) -> None:
+    def _seen(self, robot: RobotState) -> Seen:
         measured = robot.measured
-        seen = Seen(
+        return Seen(
             progress=robot.progress,
             robot=Pose(np.array(measured.position), np.array(measured.orientation)),
             offset=np.array(robot.offset) / robot.master_gain,
             turn=np.array(robot.turn),
             stylus=self._loop.newest.stylus,
         )
-        self._hand.observe(now_ns / 1e9, seen)
 
 
 def _corrected(robot: RobotState) -> bool:

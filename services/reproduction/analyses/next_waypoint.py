@@ -24,7 +24,7 @@ from services.robot.assembly import simulated_arm
 from services.robot.backends.backend import CONTROL_PERIOD
 from services.robot.correction import UNCORRECTED, Correction
 from services.robot.execution import look_ahead
-from sim.person.hand import REACTION
+from sim.person.attention import REACTION
 from sim.person.intention import Intention, plan
 from sim.robots.description import prepare
 from sim.tasks.dishwasher import DISHWASHER

@@ -28,13 +28,13 @@ _WITHOUT = frozenset({Phase.WAITING, Phase.ACQUIRING, Phase.WATCHING, Phase.STOP
 def missing(view: View, settings: Settings) -> str:
     """What there has to be before the authority is asked for; empty where all is there.
 
-    A person shows an empty model the first motion; a script waits for whoever does.
+    A person shows an empty model the first motion; a script waits for whoever does, unless that is its part.
     """
     robot = view.robot and view.scene and view.authority
     absent = [say(f"waiting.{name}") for name, there in (("robot", robot), ("model", view.model)) if not there]
     if absent:
         return say("waiting.for", what=say("waiting.also").join(absent))
-    if settings.scripted and view.empty:
+    if settings.scripted and view.empty and not settings.untaught:
         return say("waiting.demonstrations")
     return "" if view.present else say("waiting.operator")
 

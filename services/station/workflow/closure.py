@@ -1,4 +1,7 @@
-"""Whether the loop has closed: a prediction failed, was refined, learnt, and a later one succeeded by itself."""
+"""Whether the loop has closed: a prediction failed, was refined, learnt, and a later one succeeded by itself.
+
+Where a skill was empty there was nothing to predict from: the first motion that an operator shows answers that.
+"""
 
 from __future__ import annotations
 
@@ -42,11 +45,18 @@ class Closure:
     closed: bool = False
     failures: tuple[Failure, ...] = ()
 
-    def after(self, attempt: Attempt) -> Closure:
-        """With one more episode."""
+    def after(self, attempt: Attempt, *, empty: bool = False) -> Closure:
+        """With one more episode.
+
+        Args:
+            attempt: the episode.
+            empty: nothing had been learnt by then.
+        """
         if self.closed:
             return self
         success, alone = attempt.verdict.success, attempt.mode is Mode.AUTONOMOUS
+        if empty:
+            return self._failed(attempt)._refined(attempt.model_version) if success else self
         if alone and not success:
             return self._failed(attempt)
         if alone and not attempt.operator_input and any(failure.is_answered_by(attempt) for failure in self.failures):

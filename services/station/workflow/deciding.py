@@ -75,8 +75,10 @@ def _take(state: Workflow, view: View, settings: Settings, chosen: Action) -> St
             taken = press(state, view, Mode.AUTONOMOUS, origin)
         case Action.REFINE:
             taken = _refine(state, view, settings)
+        case Action.METHOD:  # of an empty skill, by a script: whoever is a person has chosen it above
+            taken = replace(state, approach=state.approach.chosen(Method.WAYPOINTS.value))
         case Action.LEAD:
-            taken = lead(state, view)
+            taken = _lead(state, view, settings)
         case Action.TEACH:
             taken = to(state, Phase.LEARNING, view)
         case Action.NEXT:
@@ -118,22 +120,33 @@ def recommended(state: Workflow, view: View, settings: Settings) -> Action:
     if state.taught is not None and state.taught.whole:
         return Action.TEACH
     if state.approach.method is not Method.REFINE:
-        return _recommended_offline(state)
+        return _recommended_offline(state, settings)
     if view.empty:
         return Action.METHOD
     if state.last is None:
         return Action.REFINE if state.warned else Action.EXECUTE
     if not state.last.success:
         return Action.REFINE
+    return _after(settings)
+
+
+def _after(settings: Settings) -> Action:
     return Action.END if settings.once else Action.NEXT
 
 
-def _recommended_offline(state: Workflow) -> Action:
+def _recommended_offline(state: Workflow, settings: Settings) -> Action:
     """Lead, execute what was stored, and see what was learnt."""
     if state.last is not None:
-        return Action.NEXT if state.last.success else Action.LEAD
+        return _after(settings) if state.last.success else Action.LEAD
     learnt = state.updates > 0 and not state.approach.waypoints
     return Action.EXECUTE if state.approach.leads_through or learnt else Action.LEAD
+
+
+def _lead(state: Workflow, view: View, settings: Settings) -> Workflow:
+    """A script leads anew what failed, as often as it may."""
+    if settings.scripted and len(state.attempts) >= settings.refinements_allowed:
+        return _end(state, view, say("event.no_refinement", count=len(state.attempts)))
+    return lead(replace(state, approach=state.approach.cleared()) if settings.scripted else state, view)
 
 
 def _refine(state: Workflow, view: View, settings: Settings) -> Workflow:

@@ -67,6 +67,7 @@ class Settings:
         keeps_tempo: a demonstration is learnt in the tempo in which it was led, else evenly along its way.
         variant: arrangement of the scene that the run is about; empty for the one that was changed.
         scripted: the recommended action is taken at once; a stop is never released.
+        untaught: a script shows an empty skill its first motion.
         once: the recommended action after the loop has closed is to end.
         arrangement: what every reset asks for, its epoch aside; drawn at random where there is none.
     """
@@ -84,6 +85,7 @@ class Settings:
     once: bool
     points: int = 75
     keeps_tempo: bool = False
+    untaught: bool = False
     arrangement: Reset | None = None
 
     def duration_s(self, mode: Mode) -> float:

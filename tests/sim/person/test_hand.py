@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
 
-from sim.person.hand import ARM, DAMPING, REACTION, STIFFNESS, WRIST, Hand, Seen
+from sim.person.attention import REACTION
+from sim.person.hand import ARM, DAMPING, STIFFNESS, WRIST, Hand, Seen
 from sim.person.intention import plan
 from sim.person.stylus import Stylus, StylusState
 from sim.pose import Pose

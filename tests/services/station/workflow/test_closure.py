@@ -146,3 +146,14 @@ def test_what_is_remembered_does_not_grow_with_the_run():
     assert closure.failures[-1].attempt.object_position[0] == 99.0
     again = closure.after(msgspec.structs.replace(closure.failures[-1].attempt, model_version=3))
     assert again == closure
+
+
+def test_the_first_motion_that_an_empty_skill_is_shown_answers_that_nothing_was_predicted():
+    shown = Closure().after(attempt(Mode.TEACH, REACHED, 0, hand=True), empty=True)
+    assert not shown.closed
+    assert shown.after(attempt(Mode.AUTONOMOUS, REACHED, 1)).closed
+
+
+def test_what_an_empty_skill_is_shown_and_fails_answers_nothing():
+    shown = Closure().after(attempt(Mode.TEACH, MISSED, 0, hand=True), empty=True)
+    assert not shown.after(attempt(Mode.AUTONOMOUS, REACHED, 1)).closed

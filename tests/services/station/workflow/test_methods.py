@@ -134,6 +134,29 @@ def test_the_motion_through_the_waypoints_is_shown_before_anything_moves():
     assert "3 waypoints" in site.told.text
 
 
+def test_a_waypoint_out_of_reach_is_named_at_once_and_the_waypoints_can_be_changed():
+    """Asking again would not bring it nearer."""
+    site = Teaching(Method.WAYPOINTS)
+    site.lead()
+    site.store(0.5, 0.6, 0.7)
+    site.finish()
+    why = "waypoint 3 is out of reach: the arm stays 80 mm away there; move it nearer to the robot"
+    site.fail(queries.EXECUTE, queries.Refused(why, lasting=True))
+    site.press(Action.EXECUTE, Phase.STARTING)
+    site.decide()
+    assert len(site.requests(queries.EXECUTE)) == 1
+    assert why in site.told.event
+    assert site.places == [0.5, 0.6, 0.7]
+    assert {"delete", "earlier", "later", "lead"} <= set(site.told.actions)
+
+
+def test_a_script_that_is_shown_nothing_yet_shows_the_first_motion_by_waypoints():
+    site = Site(replace(SCRIPTED, untaught=True))
+    site.sees(model=EMPTY)
+    site.run_to(Phase.EXECUTING)
+    assert (site.state.mode, site.state.approach.method) == (Mode.TEACH, Method.WAYPOINTS)
+
+
 def test_a_change_of_the_waypoints_is_shown_again():
     site = Teaching(Method.WAYPOINTS)
     site.lead()

@@ -1,0 +1,87 @@
+"""Where a person leads a robot that nothing else leads: from place to place, or along a way in one go."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.interpolation import numbers_at, through
+from sim.pose import Pose
+from sim.tasks.scene import Corridor
+
+Array = NDArray[np.float64]
+
+NEAR = 0.02  # [m] from a place a person says that they are there
+NEAR_TURN = 0.15  # [rad] the same of how it is turned
+STILL = 0.3  # [s] that it has to stand there
+PACE = 0.06  # [m/s] at which a way is led along
+APART = 0.05  # [m] from one place that somebody stops at to the next
+AHEAD = 0.05  # [m] beyond which nobody looks further along it
+
+
+class Itinerary:
+    """The aim of somebody who leads.
+
+    Args:
+        way: From where the robot stands to the object.
+        stops: They stop at each of its places; else they go through.
+    """
+
+    def __init__(self, way: Corridor, *, stops: bool) -> None:
+        self._way = _apart(way) if stops else way
+        self._stops = stops
+        self._length = float(np.sum(np.linalg.norm(np.diff(way.positions, axis=0), axis=1)))
+        self._share = 0.0
+        self._place = 1
+        self._near_since = math.inf
+        self._time: float | None = None
+
+    @property
+    def aim(self) -> Pose:
+        """Where to lead the robot now."""
+        if self._stops:
+            number = min(self._place, len(self._way.positions) - 1)
+            return Pose(self._way.positions[number], self._way.orientations[number])
+        numbers = numbers_at(self._way.positions, np.array([self._share]))
+        turned = through(self._way.orientations, numbers)[0]
+        return Pose(through(self._way.positions, numbers)[0], turned / np.linalg.norm(turned))
+
+    @property
+    def over(self) -> bool:
+        """All of it was led."""
+        return self._place >= len(self._way.positions)
+
+    def arrived(self, time: float, left: Array) -> bool:
+        """Whether the robot stands where it was led to; the next place is aimed at from then on.
+
+        Args:
+            time: Of any clock that does not go back [s].
+            left: From where the robot should be now to the aim, shape (6,) [m, rad].
+        """
+        dt = time - self._time if self._time is not None else 0.0
+        self._time = time
+        away = float(np.linalg.norm(left[:3]))
+        if not self._stops and self._share < 1.0:
+            if away < AHEAD:
+                self._share = min(1.0, self._share + dt * PACE / self._length)
+            return False
+        if away > NEAR or np.linalg.norm(left[3:]) > NEAR_TURN:
+            self._near_since = math.inf
+            return False
+        self._near_since = min(self._near_since, time)
+        if time - self._near_since < STILL:
+            return False
+        self._near_since = math.inf
+        self._place = self._place + 1 if self._stops else len(self._way.positions)
+        return True
+
+
+def _apart(way: Corridor) -> Corridor:
+    """Of places that lie close together the first one, and the last of all."""
+    kept = [0]
+    for number in range(1, len(way.positions) - 1):
+        nearest = min(float(np.linalg.norm(way.positions[number] - way.positions[other])) for other in (kept[-1], -1))
+        if nearest >= APART:
+            kept.append(number)
+    kept.append(len(way.positions) - 1)
+    return Corridor(way.positions[kept], way.orientations[kept])
