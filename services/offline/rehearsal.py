@@ -9,16 +9,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from lfd.motion.demonstration import Demonstration
-from protocol import queries
-from protocol.messages import EpisodeResult, Purpose, TeachingState
-from protocol.queries import AddDemonstration, Learnt
+from protocol.messages import EpisodeResult, TeachingState
 from protocol.topics import EPISODE_RESULT, TEACHING_STATE
-from services.bus.arrays import from_wire, motion_to_wire, vector3
+from services.bus.arrays import from_wire
 from services.bus.predictions import Predictions
 from services.model.learning import MODELS, Fit
 from services.offline.pool import Progress, each, overall
 from services.offline.result import Arrangement, Attempt, Course
-from services.offline.stage import Stage
+from services.offline.stage import Stage, give
 from services.process.config import Configuration, MasterSection, ModelSection, RobotSection, StationSection
 from services.process.exceptions import CommandFailed
 from services.process.master_devices import Scripted
@@ -145,14 +143,7 @@ class Rehearsal:
         Raises:
             CommandFailed: it does not take it.
         """
-        for demonstration in demonstrations:
-            shown = demonstration.trajectory
-            motion = motion_to_wire(shown.positions, shown.orientations, shown.duration)
-            condition = tuple(demonstration.condition.tolist())
-            request = AddDemonstration(
-                Purpose.INITIAL, motion, vector3(demonstration.origin), self._plan.scene, condition
-            )
-            self._add(request)
+        give(self._stage, self._plan.scene, demonstrations)
 
     def course(self, arrangement: Arrangement, refinements_allowed: int) -> Course:
         """Algorithm 1 under one condition.
@@ -186,13 +177,6 @@ class Rehearsal:
     def close(self) -> None:
         """Give back what the services hold."""
         self._stage.close()
-
-    def _add(self, request: AddDemonstration) -> None:
-        pending = self._bus.ask(queries.ADD_DEMONSTRATION, request)
-        self._stage.run(lambda: pending.poll() is not None)
-        outcome = pending.poll()
-        if not isinstance(outcome, Learnt):
-            raise CommandFailed(f"the model does not learn: {outcome}")
 
     def _newest(self) -> TeachingState | None:
         taken = self._teaching.take()

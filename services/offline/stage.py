@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
-from protocol.queries import Reset
+from lfd.motion.demonstration import Demonstration
+from protocol import queries
+from protocol.messages import Purpose
+from protocol.queries import AddDemonstration, Learnt, Reset
+from services.bus.arrays import motion_to_wire, vector3
+from services.bus.bus import Pending
 from services.bus.memory import MemoryBus, MemoryNetwork
 from services.master.service import build as build_master
 from services.model.learning import MODELS, Fit
@@ -16,12 +21,41 @@ from services.model.service import build as build_model
 from services.offline.eyes import Eyes
 from services.process.clock import ManualClock
 from services.process.config import Configuration
+from services.process.exceptions import CommandFailed
 from services.robot.memory import Volatile
 from services.robot.service import build as build_robot
+from services.station.frontend import Frontend
 from services.station.service import StationService
 from services.station.settings import settings
 
 HOLDER = "rehearsal"
+
+
+def give(stage: Stage, scene: str, demonstrations: Sequence[Demonstration]) -> None:
+    """Give the model of a stage what it starts from.
+
+    Args:
+        stage: whose model.
+        scene: that it is for.
+        demonstrations: in the base frame.
+
+    Raises:
+        CommandFailed: it does not take it.
+    """
+    bus = stage.bus()
+    for demonstration in demonstrations:
+        shown = demonstration.trajectory
+        motion = motion_to_wire(shown.positions, shown.orientations, shown.duration)
+        condition = tuple(demonstration.condition.tolist())
+        request = AddDemonstration(Purpose.INITIAL, motion, vector3(demonstration.origin), scene, condition)
+        _learn(stage, bus.ask(queries.ADD_DEMONSTRATION, request))
+
+
+def _learn(stage: Stage, pending: Pending[Learnt]) -> None:
+    stage.run(lambda: pending.poll() is not None)
+    outcome = pending.poll()
+    if not isinstance(outcome, Learnt):
+        raise CommandFailed(f"the model does not learn: {outcome}")
 
 
 class Stepped(Protocol):
@@ -56,12 +90,12 @@ class Stage:
     """
 
     def __init__(self, configuration: Configuration, models: Mapping[str, Fit] = MODELS) -> None:
-        self._clock = ManualClock()
-        self._network = MemoryNetwork(self._clock)
+        self.clock = ManualClock()
+        self._network = MemoryNetwork(self.clock)
         self._configuration = configuration
-        robot = build_robot(self.bus(), self._clock, configuration, Volatile())
-        self._model = build_model(self.bus(), self._clock, configuration, models)
-        self._master = build_master(self.bus(), self._clock, configuration)
+        robot = build_robot(self.bus(), self.clock, configuration, Volatile())
+        self._model = build_model(self.bus(), self.clock, configuration, models)
+        self._master = build_master(self.bus(), self.clock, configuration)
         eyes = Eyes(self.bus(), np.random.default_rng(configuration.seed))
         self._masters = self._turn(self._master)
         self._turns = [*(self._turn(service) for service in (robot, eyes, self._model)), self._masters]
@@ -74,7 +108,7 @@ class Stage:
         """Let time pass until something is the case."""
         while not until():
             now = min(turn.due_ns for turn in self._turns)
-            self._clock.advance((now - self._clock.now_ns()) / 1e9)
+            self.clock.advance((now - self.clock.now_ns()) / 1e9)
             for turn in self._turns:
                 if turn.due_ns <= now:
                     turn.due_ns += turn.period_ns
@@ -89,23 +123,31 @@ class Stage:
             refinements_allowed: attempts at one update; with 0 a failure is only seen.
             until: says that the station has finished.
         """
-        configured = settings(self._configuration.station, self._configuration.operator)
-        chosen = replace(configured, holder=HOLDER, arrangement=arrangement, refinements_allowed=refinements_allowed)
-        bus = self.bus()
-        station = self._turn(StationService(bus, chosen, None, self._configuration.seed))
-        self._turns.append(station)
         # Where nothing is taught nobody corrects, and the robot listens to no master.
         self._masters.rests = refinements_allowed == 0
-        try:
-            self.run(until)
-        finally:
-            self._turns.remove(station)
-            bus.close()
+        self._station(None, until, arrangement=arrangement, refinements_allowed=refinements_allowed)
+
+    def sit(self, frontend: Frontend, arrangement: Reset, until: Callable[[], bool]) -> None:
+        """Let somebody sit at a station; see `teach`."""
+        self._masters.rests = False
+        self._station(frontend, until, arrangement=arrangement)
 
     def close(self) -> None:
         """Let go of the device and of the database."""
         self._master.close()
         self._model.close()
 
+    def _station(self, frontend: Frontend | None, until: Callable[[], bool], **chosen: Any) -> None:
+        configured = settings(self._configuration.station, self._configuration.operator)
+        bus = self.bus()
+        chosen_settings = replace(configured, holder=HOLDER, **chosen)
+        station = self._turn(StationService(bus, chosen_settings, frontend, self._configuration.seed))
+        self._turns.append(station)
+        try:
+            self.run(until)
+        finally:
+            self._turns.remove(station)
+            bus.close()
+
     def _turn(self, service: Stepped) -> _Turn:
-        return _Turn(service, round(1e9 / service.rate_hz), self._clock.now_ns())
+        return _Turn(service, round(1e9 / service.rate_hz), self.clock.now_ns())

@@ -2,20 +2,33 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from protocol import queries
 from protocol.messages import ModelState
-from protocol.queries import Compare, Compared, HistoryListed, ListHistory
+from protocol.queries import Compare, Compared, Effect, HistoryListed, ListHistory
 from services.bus.bus import Bus, Pending
 from services.station.page.entries import Rows, rows_of
-
-if TYPE_CHECKING:  # a station without a page has none of its packages
-    from services.station.page.effects import Effects
 
 TIMEOUT_S = 2.0
 AGAIN_NS = 200_000_000
 """After an answer that says nothing yet, or none."""
+
+
+class Wanted(Protocol):
+    """What entries of the history change, as far as somebody wants to see it."""
+
+    def wanted(self) -> int | None:
+        """The entry that is wanted next; None for none."""
+        ...
+
+    def put(self, version: int, entry: int, effect: Effect | None) -> None:
+        """What an entry changes; None where it changes nothing that can be shown."""
+        ...
+
+    def renew(self, version: int) -> None:
+        """The model has become another one."""
+        ...
 
 
 class HistoryReader:
@@ -26,7 +39,7 @@ class HistoryReader:
         effects: that the page wants to see.
     """
 
-    def __init__(self, bus: Bus, effects: Effects) -> None:
+    def __init__(self, bus: Bus, effects: Wanted) -> None:
         self._bus = bus
         self._effects = effects
         self._asked: tuple[int, Pending[Any]] | None = None

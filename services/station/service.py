@@ -23,6 +23,7 @@ from services.process.schedule import Schedule
 from services.station.company import Company
 from services.station.device_buttons import DeviceButtons
 from services.station.ears import Ears, came_s, message, picture, young
+from services.station.frontend import Frontend
 from services.station.handover import GIVE, KEEP, HandOver
 from services.station.history import HistoryReader
 from services.station.live_view.stage import Stage
@@ -85,7 +86,7 @@ class StationService:
 
     rate_hz = topics.OPERATOR_INPUT.rate_hz
 
-    def __init__(self, bus: Bus, workflow_settings: Settings, page: Page | None, seed: int) -> None:
+    def __init__(self, bus: Bus, workflow_settings: Settings, page: Frontend | None, seed: int) -> None:
         self._bus = bus
         self._settings = workflow_settings
         self._page = page
