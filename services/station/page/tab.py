@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from protocol import topics
+from services.bus.clocks import Clocks
 from services.bus.freshness import Freshness, Judgement
 from services.station.page.identity import Identity
 from services.station.page.said import Held, Hello, Pressed
@@ -20,7 +21,8 @@ _OURS, _BROWSERS = 0, 1 << 47
 class Tab:
     """A tab that said who it is.
 
-    Each has clocks of its own, since no two browsers' compare: one by which states are late, one by which presses are.
+    Each has a clock of its own, since no two browsers' compare: what comes fifty times a second tells how it goes, and
+    presses are judged by it too.
 
     Args:
         hello: that it said.
@@ -30,12 +32,16 @@ class Tab:
     def __init__(self, hello: Hello, identity: Identity) -> None:
         self.hello = hello
         self.identity = identity
-        self._states = Freshness(DEAD_MAN_NS, _OURS, topics.OPERATOR_INPUT.rate_hz)
-        self._presses = Freshness(LATE_PRESS_NS, _OURS, topics.OPERATOR_INPUT.rate_hz)
+        clock, rate_hz = Clocks(_OURS), topics.OPERATOR_INPUT.rate_hz
+        self._states = Freshness(DEAD_MAN_NS, _OURS, rate_hz, clock)
+        self._presses = Freshness(LATE_PRESS_NS, _OURS, rate_hz, clock)
 
     def has_sent_in_time(self, message: Held | Pressed, now_ns: int) -> bool:
-        """Whether the message is new and no older than its kind may be."""
+        """Whether the message is new and no older than its kind may be.
+
+        A press that was faster on its way than any state before it is not late, whatever else it says of the clock.
+        """
         sample = (_BROWSERS, message.sequence, round(message.stamp_ms * 1e6), now_ns)
-        of_press = self._presses.judge(*sample)
-        judgement = of_press if isinstance(message, Pressed) else self._states.judge(*sample)
-        return judgement is Judgement.FRESH
+        if isinstance(message, Pressed):
+            return self._presses.judge(*sample) in (Judgement.FRESH, Judgement.FUTURE)
+        return self._states.judge(*sample) is Judgement.FRESH

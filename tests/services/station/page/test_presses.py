@@ -125,3 +125,12 @@ def test_of_the_pages_that_were_loaded_the_32_that_pressed_last_are_known():
     presses.settle("page 0", 2, accepted=True)
     presses.settle("page 32", 1, accepted=True)
     assert [page for page in range(33) if presses.is_new(f"page {page}", 1)] == [1]
+
+
+def test_a_press_that_is_faster_on_its_way_than_all_before_it_is_not_late():
+    """A page that has just opened says its first state late; what is pressed after it comes as soon as ever."""
+    browser = BrowserTab(Desk())
+    browser.hold(stamp_ms=browser.now_ms + 20 - 400)
+    browser.press("execute")
+    assert browser.desk.take_presses() == [Press("execute")]
+    assert browser.standing().refused == ()
