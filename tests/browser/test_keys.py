@@ -4,6 +4,7 @@ import pytest
 from hand import Hand
 
 from protocol.messages import OperatorInput
+from services.station.press import Press
 
 pytestmark = [pytest.mark.browser, pytest.mark.undrawn]
 
@@ -229,9 +230,8 @@ def test_space_is_for_finish_except_where_a_button_has_the_focus(tab, pressed):
     assert pressed() == ["finish"]
 
 
-def test_a_button_that_was_clicked_leaves_space_to_finish(tab, pressed):
-    tab.page.click("[data-action=teach]")
-    assert pressed() == ["teach"]
+def test_a_button_that_was_clicked_leaves_space_to_finish(tab, clicked, pressed):
+    assert clicked("[data-action=teach]") == [Press("teach")]
     tab.page.keyboard.press("Space")
     assert pressed() == ["finish"]
 

@@ -50,9 +50,9 @@ def seen(tab, selector):
 
 
 @pytest.mark.parametrize("name", STATES)
-def test_every_region_is_where_it_belongs_in_every_state(tab, station, name):
-    show(tab, station[1], STATES[name])
-    boxes = {region: tab.page.locator(region).first.bounding_box() for region in REGIONS}
+def test_every_region_is_where_it_belongs_in_every_state(viewed, station, name):
+    show(viewed, station[1], STATES[name])
+    boxes = {region: viewed.page.locator(region).first.bounding_box() for region in REGIONS}
     sides = {
         region: (box["x"] / 1600, box["y"] / 900, (box["x"] + box["width"]) / 1600, (box["y"] + box["height"]) / 900)
         for region, box in boxes.items()
@@ -66,20 +66,19 @@ def test_every_region_is_where_it_belongs_in_every_state(tab, station, name):
 
 
 @pytest.mark.parametrize("scheme", ["dark", "light"])
-def test_no_region_is_empty(tab, station, scheme):
-    tab.page.emulate_media(color_scheme=scheme)
-    show(tab, station[1], STATES["failed"])
-    flat = [region for region in REGIONS if seen(tab, region).std() < 5.0]
-    tab.page.emulate_media(color_scheme="dark")
+def test_no_region_is_empty(viewed, station, scheme):
+    viewed.page.emulate_media(color_scheme=scheme)
+    show(viewed, station[1], STATES["failed"])
+    flat = [region for region in REGIONS if seen(viewed, region).std() < 5.0]
     assert flat == []
 
 
 @pytest.mark.parametrize(
     ("name", "light"), [("alone", "red"), ("learning", "amber"), ("paused", "hold"), ("correcting", "green")]
 )
-def test_the_light_is_seen_in_its_colour_and_no_other_is(tab, station, name, light):
-    show(tab, station[1], STATES[name])
-    lamps = seen(tab, ".lamps")
+def test_the_light_is_seen_in_its_colour_and_no_other_is(viewed, station, name, light):
+    show(viewed, station[1], STATES[name])
+    lamps = seen(viewed, ".lamps")
     shares = {colour: np.mean(np.all(np.abs(lamps - np.array(rgb)) < 12, axis=2)) for colour, rgb in COLOURS.items()}
     assert shares[light] > 0.02
     assert all(share < 0.002 for colour, share in shares.items() if colour != light)

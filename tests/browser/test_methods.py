@@ -27,10 +27,9 @@ def storing(tab, station):
     return tab
 
 
-def test_a_method_is_chosen_by_its_button(storing, presses):
+def test_a_method_is_chosen_by_its_button(storing, clicked):
     assert storing.page.get_attribute("[data-argument=waypoints]", "aria-pressed") == "true"
-    storing.page.click("[data-argument=demonstrate]")
-    assert presses() == [Press("method", "demonstrate")]
+    assert clicked("[data-argument=demonstrate]") == [Press("method", "demonstrate")]
 
 
 def test_each_waypoint_is_told_with_its_number_and_place(storing):
@@ -40,9 +39,9 @@ def test_each_waypoint_is_told_with_its_number_and_place(storing):
 
 
 @pytest.mark.parametrize("edit", ["store", "delete", "earlier", "later"])
-def test_a_waypoint_is_changed_by_the_buttons_of_its_row(storing, presses, edit):
-    storing.page.click(f".waypoint:nth-child(2) [data-action={edit}]")
-    assert presses() == [Press(edit, "2")]
+@pytest.mark.usefixtures("storing")
+def test_a_waypoint_is_changed_by_the_buttons_of_its_row(clicked, edit):
+    assert clicked(f".waypoint:nth-child(2) [data-action={edit}]") == [Press(edit, "2")]
 
 
 def test_the_first_goes_no_earlier_and_the_last_no_later(storing):

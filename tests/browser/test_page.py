@@ -74,15 +74,17 @@ def overflowing(tab, size):
     )
 
 
+@pytest.mark.undrawn
 @pytest.mark.parametrize("size", SIZES)
-def test_everything_fits_without_scrolling(tab, size):
-    assert overflowing(tab, size) == []
+def test_everything_fits_without_scrolling(viewed, size):
+    assert overflowing(viewed, size) == []
 
 
+@pytest.mark.undrawn
 @pytest.mark.parametrize("size", ONE_COLUMN)
-def test_a_small_window_scrolls_down_and_never_sideways_and_keeps_the_stop_in_reach(tab, size):
-    resized(tab, size)
-    width, height, content = tab.page.evaluate(
+def test_a_small_window_scrolls_down_and_never_sideways_and_keeps_the_stop_in_reach(viewed, size):
+    resized(viewed, size)
+    width, height, content = viewed.page.evaluate(
         "[document.body.scrollWidth, document.body.scrollHeight, Math.max(...[...document.querySelectorAll('.main *')]"
         ".filter((e) => e.checkVisibility()).map((e) => e.getBoundingClientRect().right))]"
     )
@@ -90,21 +92,23 @@ def test_a_small_window_scrolls_down_and_never_sideways_and_keeps_the_stop_in_re
     assert content <= size[0]
     assert height > size[1]
     for place in (0, height):
-        tab.page.evaluate("(to) => document.body.scrollTo(0, to)", place)
-        box = tab.page.locator(".stop-button").bounding_box()
+        viewed.page.evaluate("(to) => document.body.scrollTo(0, to)", place)
+        box = viewed.page.locator(".stop-button").bounding_box()
         assert box["y"] >= 0
         assert box["y"] + box["height"] <= size[1]
 
 
+@pytest.mark.undrawn
 @pytest.mark.parametrize("size", [(1600, 900), *ONE_COLUMN])
-def test_the_view_comes_first_and_what_to_do_is_seen_with_it(tab, size):
-    resized(tab, size)
-    scene, guide = (tab.page.locator(region).bounding_box() for region in (".scene", ".guide"))
+def test_the_view_comes_first_and_what_to_do_is_seen_with_it(viewed, size):
+    resized(viewed, size)
+    scene, guide = (viewed.page.locator(region).bounding_box() for region in (".scene", ".guide"))
     assert scene["y"] <= guide["y"] + 1
     if size[0] >= 1000:
         assert 0.6 < scene["width"] / size[0] < 0.7
 
 
+@pytest.mark.undrawn
 @pytest.mark.parametrize(
     ("stop", "shown"),
     [
@@ -118,42 +122,38 @@ def test_the_view_comes_first_and_what_to_do_is_seen_with_it(tab, size):
     ids=["released", "stopped", "unconfirmed"],
 )
 @pytest.mark.parametrize("size", SIZES)
-def test_a_stop_and_what_was_touched_are_said_in_full(tab, station, size, stop, shown):
+def test_a_stop_and_what_was_touched_are_said_in_full(viewed, station, size, stop, shown):
     _, feed = station
     safety = messages.SafetyState(**{"emergency_stop": False, "at": "2026-11-25T22:00:05Z", **stop})
     touched = {"collision": True, "collision_position": (0.55, -0.12, 0.56), "collision_force": 112.4}
     verdict = msgspec.structs.replace(feed.view.verdict, object_displacement=(0.412, 0.0, 0.0), **touched)
     feed.view = replace(feed.view, safety=safety, verdict=verdict)
-    tab.wait(f"{shown}:visible")
-    tab.wait("[data-value=collision-evidence]:has-text('112.4 N')")
-    assert overflowing(tab, size) == []
+    viewed.wait(f"{shown}:visible")
+    viewed.wait("[data-value=collision-evidence]:has-text('112.4 N')")
+    assert overflowing(viewed, size) == []
 
 
 @pytest.mark.parametrize(
     ("light", "word"), [(Light.RED, "Watch"), (Light.AMBER, "Wait"), (Light.HOLD, "Paused"), (Light.GREEN, "Your turn")]
 )
-def test_the_traffic_light_follows_the_view(tab, station, light, word):
+def test_the_traffic_light_follows_the_view(viewed, station, light, word):
     _, feed = station
     feed.view = replace(feed.view, teaching=msgspec.structs.replace(feed.view.teaching, light=light, text="so it is"))
-    tab.page.wait_for_selector(".light-text:text-is('so it is')")
-    tab.page.wait_for_selector(f".light[data-light={light.value}] .light-word:text-is('{word}')")
+    viewed.page.wait_for_selector(".light-text:text-is('so it is')")
+    viewed.page.wait_for_selector(f".light[data-light={light.value}] .light-word:text-is('{word}')")
 
 
-def test_the_counters_follow_the_view(tab, station):
+def test_the_counters_follow_the_view(viewed, station):
     _, feed = station
     feed.view = replace(feed.view, teaching=msgspec.structs.replace(feed.view.teaching, refinements=4, updates=2))
-    tab.page.wait_for_selector("[data-counter=refinements] .counter-value:text-is('4 of 10')")
-    tab.page.wait_for_selector("[data-counter=updates] .counter-value:text-is('2 of 8')")
+    viewed.page.wait_for_selector("[data-counter=refinements] .counter-value:text-is('4 of 10')")
+    viewed.page.wait_for_selector("[data-counter=updates] .counter-value:text-is('2 of 8')")
 
 
-def test_an_allowed_button_arrives_and_another_cannot_be_pressed(tab, station, eventually):
-    page, _ = station
+def test_an_allowed_button_arrives_and_another_cannot_be_pressed(tab, clicked):
     assert tab.page.locator("[data-action=execute]").is_disabled()
     tab.page.evaluate("document.querySelector('[data-action=execute]').click()")
-    tab.page.click("[data-action=teach]")
-    taken = []
-    eventually(lambda: taken.extend(page.take_presses()) or taken)
-    assert taken == [Press("teach")]
+    assert clicked("[data-action=teach]") == [Press("teach")]
 
 
 def test_where_little_is_known_it_is_said_and_what_is_recommended_stands_out(tab, station):
@@ -175,14 +175,14 @@ def test_where_little_is_known_it_is_said_and_what_is_recommended_stands_out(tab
     tab.wait(".others .action[data-action=execute][data-first=no]:enabled")
 
 
-def test_stale_data_is_shown(tab, station):
+def test_stale_data_is_shown(viewed, station):
     _, feed = station
-    tab.page.wait_for_selector(".health[data-tone=good]")
+    viewed.page.wait_for_selector(".health[data-tone=good]")
     feed.view = replace(feed.view, robot_age_s=1.4, head=replace(feed.view.head, jpeg=b"", age_s=1.4))
-    tab.page.wait_for_selector(".health[data-tone=bad]")
-    tab.page.wait_for_selector(".scene-stale:visible")
+    viewed.page.wait_for_selector(".health[data-tone=bad]")
+    viewed.page.wait_for_selector(".scene-stale:visible")
     feed.view = replace(feed.view, robot=None, robot_age_s=math.inf)
-    tab.page.wait_for_selector(".scene-stale:text-is('Robot data has not come yet')")
+    viewed.page.wait_for_selector(".scene-stale:text-is('Robot data has not come yet')")
 
 
 def test_a_camera_that_falls_silent_is_shown_as_stale(tab, filmed):

@@ -5,6 +5,9 @@ from dataclasses import replace
 import msgspec
 import pytest
 
+from services.station.page import seat
+from services.station.press import Press
+
 pytestmark = [pytest.mark.browser, pytest.mark.undrawn]
 
 
@@ -55,7 +58,8 @@ def test_given_input_moves_and_counts_and_can_be_given_back(tab, second, station
     tab.wait("body[data-link=armed]")
 
 
-def test_silence_gives_the_input(tab, second):
+def test_silence_gives_the_input(tab, second, monkeypatch):
+    monkeypatch.setattr(seat, "ASKED_NS", 2_000_000_000)
     take(second)
     second.wait("body[data-link=armed]")
     tab.wait("body[data-link=view-only]")
@@ -64,14 +68,13 @@ def test_silence_gives_the_input(tab, second):
     tab.wait("body[data-link=armed]")
 
 
-def test_who_commands_gives_the_robot_to_another_station_or_keeps_it(tab, station, pressed):
+def test_who_commands_gives_the_robot_to_another_station_or_keeps_it(tab, station, clicked):
     _, feed = station
     asked = msgspec.structs.replace(feed.view.authority, asked=7, asked_by="bob", asked_left=9.0)
     for action in ("keep_authority", "give_authority"):
         feed.view = replace(feed.view, authority=asked)
         tab.wait(".banner-asked:has-text('bob asks for the robot')")
-        tab.page.click(f"[data-action={action}]")
-        assert pressed() == [action]
+        assert clicked(f"[data-action={action}]") == [Press(action)]
         feed.view = replace(feed.view, authority=msgspec.structs.replace(asked, asked=0))
         tab.wait(".banner-asked[data-value=robot-asked]", state="hidden")
 
@@ -106,7 +109,7 @@ def test_a_take_over_that_was_thought_better_of_is_none(tab, station, eventually
     assert page.take_presses() == []
 
 
-def test_a_tab_finds_its_seat_again_after_a_reload_and_resumes_nothing(tab, second, station, eventually, pressed):
+def test_a_tab_finds_its_seat_again_after_a_reload_and_resumes_nothing(tab, second, station, eventually, clicked):
     page, _ = station
     eventually(lambda: page.take_input().present)
     tab.page.reload(wait_until="commit")
@@ -114,8 +117,7 @@ def test_a_tab_finds_its_seat_again_after_a_reload_and_resumes_nothing(tab, seco
     second.page.reload()
     tab.wait("body[data-link=armed]")
     second.wait("body[data-link=view-only]")
-    tab.page.click("[data-action=teach]")
-    assert pressed() == ["teach"]
+    assert clicked("[data-action=teach]") == [Press("teach")]
 
 
 def test_a_stranger_s_page_cannot_open_the_link(browser, station):

@@ -10,7 +10,7 @@ from tests.network.operator import Operator
 from tests.system.harness import START_S, Command, eventually
 from tests.system.onlooker import Onlooker
 
-pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.sim]
+pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.sim, pytest.mark.alone]
 
 CUT_S = 5.0
 SETTLED_S = 1.0

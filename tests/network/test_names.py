@@ -18,7 +18,7 @@ from tests.network.naming import TOPICS, named
 from tests.ports import free_port
 from tests.system.harness import START_S, Command, eventually, reachable
 
-pytestmark = [pytest.mark.system, pytest.mark.zenoh]
+pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.alone]
 
 ROBOTS = ("r0", "r1", "r2", "r3")
 LINKS = 4

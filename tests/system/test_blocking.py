@@ -12,7 +12,7 @@ from services.process.clock import SystemClock
 from tests.system.harness import START_S, eventually
 from tests.system.test_ending import Router
 
-pytestmark = [pytest.mark.system, pytest.mark.zenoh]
+pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.alone]
 
 HANGS_S = 3.0
 AT_ONCE_S = 1.0

@@ -17,7 +17,7 @@ from tests.system.harness import START_S, Command, Witness, configured, eventual
 
 playwright = pytest.importorskip("playwright.sync_api")
 
-pytestmark = [pytest.mark.system, pytest.mark.browser, pytest.mark.zenoh, pytest.mark.sim]
+pytestmark = [pytest.mark.system, pytest.mark.browser, pytest.mark.zenoh, pytest.mark.sim, pytest.mark.alone]
 
 EPISODE_S = 120.0
 TRIES = 3

@@ -10,7 +10,7 @@ import pytest
 
 from tests.system.harness import START_S, Command, Witness, free_endpoint, reachable
 
-pytestmark = [pytest.mark.system, pytest.mark.zenoh]
+pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.alone]
 
 PROMISED_S = 2.0
 KERNEL_S = 1.0

@@ -23,7 +23,7 @@ from tests.system.harness import START_S, Command, Witness, configured, eventual
 from tests.system.somebody import Somebody
 from tests.system.stranger import Stranger
 
-pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.sim]
+pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.sim, pytest.mark.alone]
 
 ROUNDS = 12
 QUIET_BEATS = 4

@@ -22,7 +22,7 @@ from tests.system.harness import (
     free_endpoint,
 )
 
-pytestmark = [pytest.mark.system, pytest.mark.zenoh]
+pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.alone]
 
 BACK_S = 30.0
 EPISODE_S = 90.0

@@ -9,7 +9,7 @@ import pytest
 from services.viewer.web_files import sdk_program
 from tests.system.harness import EVERYBODY, Command, configured, free_endpoint
 
-pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.sim]
+pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.sim, pytest.mark.alone]
 
 WITHIN_S = 240.0
 SAME_PLACE_M = 0.02
@@ -20,10 +20,10 @@ def succeeded(attempt):
     return verdict["reached"] and not verdict["kicked_over"] and not verdict["collision"]
 
 
-LONG = ("table", "post")
+LONG = ("particle", "table", "post")
 
 
-@pytest.mark.parametrize("scene", ["dishwasher", "particle", *(pytest.param(s, marks=pytest.mark.long) for s in LONG)])
+@pytest.mark.parametrize("scene", ["dishwasher", *(pytest.param(scene, marks=pytest.mark.long) for scene in LONG)])
 def test_a_prediction_fails_is_refined_and_the_next_one_succeeds_by_itself(tmp_path, scene):
     configuration = configured(tmp_path, free_endpoint())
     arguments = ("--fresh", "--headless", "--once", "--scene", scene, "--json", "out.json", "--config", configuration)

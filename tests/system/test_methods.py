@@ -11,7 +11,7 @@ from tests.system.teacher import Teacher
 
 pytest.importorskip("playwright.sync_api")
 
-pytestmark = [pytest.mark.system, pytest.mark.browser, pytest.mark.zenoh, pytest.mark.sim]
+pytestmark = [pytest.mark.system, pytest.mark.browser, pytest.mark.zenoh, pytest.mark.sim, pytest.mark.alone]
 
 
 @pytest.fixture

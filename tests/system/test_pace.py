@@ -10,7 +10,7 @@ from services.station.workflow.going import STEP
 from tests.system.harness import START_S, Command, Witness, configured, eventually, free_endpoint
 from tests.system.somebody import Somebody
 
-pytestmark = [pytest.mark.system, pytest.mark.zenoh]
+pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.alone]
 
 WITHIN_S = 60.0
 AGAIN_S = 5.0

@@ -12,7 +12,7 @@ from tests.system.harness import START_S, Command, Witness, configured, eventual
 from tests.system.onlooker import Onlooker
 from tests.system.somebody import Somebody
 
-pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.sim]
+pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.sim, pytest.mark.alone]
 
 WITHIN_S = 20.0
 MOVES_WITHIN_S = 60.0

@@ -15,7 +15,7 @@ from services.process.processes import PROCESS_NAMES
 from services.viewer.web_files import sdk_program
 from tests.system.harness import START_S, Command, Witness, configured, eventually, free_endpoint, reachable
 
-pytestmark = [pytest.mark.system, pytest.mark.zenoh]
+pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.alone]
 
 STOP_S = 2.0
 """Within which a process obeys."""

@@ -11,7 +11,7 @@ from services.bus.zenoh import connect
 from services.process.clock import SystemClock
 from tests.system.harness import Command, Witness, eventually
 
-pytestmark = [pytest.mark.system, pytest.mark.zenoh]
+pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.alone]
 
 WITHIN_S = 10.0
 

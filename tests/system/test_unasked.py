@@ -9,10 +9,10 @@ import pytest
 from tests.system.harness import EVERYBODY, START_S, Command, Witness, configured, eventually, free_endpoint
 from tests.system.onlooker import STANDING, Onlooker
 
-pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.sim]
+pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.sim, pytest.mark.alone]
 
-WATCHED_S = 5.0
-CUT_S = 5.0
+WATCHED_S = 3.0
+CUT_S = 3.0
 BACK_S = 30.0
 KILLS = 3
 

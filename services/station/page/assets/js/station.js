@@ -1,6 +1,7 @@
 // The operator's page in the browser: the input state out at 50 Hz; pictures, and what to show, in.
 
 import { Actions } from "/assets/js/actions.js";
+import { Aim } from "/assets/js/aim.js";
 import { Devices } from "/assets/js/devices.js";
 import { Following } from "/assets/js/following.js";
 import { Held } from "/assets/js/held.js";
@@ -42,6 +43,7 @@ const actions = new Actions((button) => {
   if (button.dataset.question) reasons.ask(button);
   else presses.press(button.dataset.action, button.dataset.argument);
 });
+const aim = new Aim((button) => actions.ask(button), STOPS);
 const waypoints = new Waypoints();
 const roundTrip = new RoundTrip();
 const pictures = new Pictures();
@@ -91,6 +93,7 @@ function onNews(news) {
   document.body.dataset.link = news.armed ? "armed" : "view-only";
   document.body.toggleAttribute("data-let-go", news.armed && news.let_go);
   document.body.toggleAttribute("data-renewed", news.version !== document.body.dataset.version);
+  aim.look();
 }
 
 function onFrame(buffer) {
@@ -151,11 +154,10 @@ function clicked(event) {
   const button = event.target.closest?.("[data-action]");
   if (!button) return;
   const byHand = event.detail > 0;
-  if (!button.matches(STOPS) || !byHand) actions.ask(button);
+  if (!aim.hasCounted(event) && !(byHand && button.matches(STOPS))) actions.ask(button);
   // A button that was clicked does not keep the focus, so that Space is for Finish again.
   if (byHand) button.blur();
 }
-
 
 function showAges() {
   if (!link.alive) onSilence();
