@@ -165,6 +165,9 @@ WRIST_IMAGE = Topic("cam/wrist", messages.CameraImage, 15.0, QoS.PICTURE, "camer
 POINT_CLOUD = Topic(
     "cam/cloud", messages.PointCloud, 5.0, QoS.PICTURE, "camera", 73_728, "surfaces that the head camera sees"
 )
+PICTURE_QUEUE = Topic(
+    "cam/queue", messages.PictureQueue, 5.0, QoS.STATE, "any", 1_024, "how late pictures come to who looks", kept=64
+)
 OBJECT_POSE = Topic(
     "state/object_pose", messages.ObjectPose, 15.0, QoS.STATE, "perception", 1_536, "the object as the camera sees it"
 )
@@ -209,6 +212,7 @@ TOPICS: tuple[Topic[Any], ...] = (
     HEAD_IMAGE,
     WRIST_IMAGE,
     POINT_CLOUD,
+    PICTURE_QUEUE,
     OBJECT_POSE,
     PREDICTION,
     MODEL_STATE,

@@ -14,7 +14,7 @@ from protocol.messages.authority import (
     AuthorityRequest,
     AuthorityState,
 )
-from protocol.messages.camera import MOST_POINTS, POINT_BYTES, CameraImage, PointCloud
+from protocol.messages.camera import MOST_POINTS, POINT_BYTES, CameraImage, PictureQueue, PointCloud
 from protocol.messages.command import Controller, MasterState, OperatorInput, Trouble, Yaw
 from protocol.messages.health import Figure, Heartbeat, TopicFigures
 from protocol.messages.model import MOST_WAYPOINTS, Method, ModelState, Origin, Prediction, Purpose, Way
@@ -98,6 +98,7 @@ __all__ = [
     "Part",
     "Person",
     "Phase",
+    "PictureQueue",
     "PointCloud",
     "Pose",
     "Prediction",

@@ -9,6 +9,16 @@ import msgspec
 from protocol.messages.values import Count, Message, Name, Pose, Real
 
 
+class PictureQueue(Message, frozen=True, kw_only=True):
+    """How long pictures queue on their way to one who looks at them.
+
+    Attributes:
+        late: than the fastest samples of the same machine the newest pictures came, as a rule [s].
+    """
+
+    late: Annotated[float, msgspec.Meta(ge=0.0, le=1e6)] = 0.0
+
+
 class CameraImage(Message, frozen=True, kw_only=True):
     """One picture as JPEG.
 

@@ -17,6 +17,7 @@ from protocol.topics import HEAD_IMAGE, POINT_CLOUD, SCENE_STATE, WORLD_STATE, W
 from services.bus.arrays import Floats, NotFinite, from_wire, points_to_wire, quaternion, vector3
 from services.bus.bus import Bus
 from services.camera.cloud import cloud
+from services.camera.pacing import Pacing
 from services.process.clock import Clock
 from services.process.config import CameraSection, Configuration
 from services.process.runner import Service
@@ -66,6 +67,7 @@ class CameraService:
         self._drawn_ns = 0
         self._durations_ns: deque[int] = deque(maxlen=256)
         self._ages_ns: deque[int] = deque(maxlen=256)
+        self._pacing = Pacing(bus, self._section.rate_hz, self._section.quality)
         self._unusable = 0
         self._counted_from_ns = clock.now_ns()
 
@@ -75,7 +77,9 @@ class CameraService:
         return self._section.rate_hz
 
     def step(self, now_ns: int) -> None:
-        """Draw the newest state, unless it is drawn already or too old to show."""
+        """Draw the newest state, unless it is drawn already or too old to show, or pictures queue on their way."""
+        if not self._pacing.due(now_ns):
+            return
         arrangement = self._scene.latest()
         world = self._world.fresh(now_ns)
         if arrangement is None or world is None or world.stamp_ns == self._drawn_ns:
@@ -95,7 +99,7 @@ class CameraService:
         self._ages_ns.append(ended_ns - world.stamp_ns)
 
     def figures(self) -> tuple[Figure, ...]:
-        """Rate, duration of drawing and age of the pictures since the last call, and states that were no use."""
+        """Rate, duration of drawing and age of the pictures since the last call, states that were no use, the pace."""
         now_ns = self._clock.now_ns()
         elapsed_s = max(now_ns - self._counted_from_ns, 1) / 1e9
         result = (
@@ -103,6 +107,7 @@ class CameraService:
             Figure("draw_p50", median(self._durations_ns or (0,)) / 1e9, "s"),
             Figure("picture_age_p50", median(self._ages_ns or (0,)) / 1e9, "s"),
             Figure("unusable_states", float(self._unusable), "1"),
+            Figure("sent_share", self._pacing.share, "1"),
         )
         self._durations_ns.clear()
         self._ages_ns.clear()
@@ -143,14 +148,14 @@ class CameraService:
                 camera=camera,
                 width=self._section.width,
                 height=self._section.height,
-                data=encode(image, self._section.quality),
+                data=encode(image, self._pacing.quality),
                 intrinsics=(fx, fy, cx, cy),
                 pose=pose,
                 captured_ns=world.stamp_ns,
                 object_pose=world.object_pose,
             ),
         )
-        if camera == HEAD_CAMERA and self._schedule.due(POINT_CLOUD, now_ns):
+        if camera == HEAD_CAMERA and self._schedule.due(POINT_CLOUD, now_ns, self._pacing.share):
             points = points_to_wire(*cloud(image, self._cameras.depth(), intrinsics, pose))
             self._bus.publish(POINT_CLOUD, PointCloud(camera=camera, data=points, captured_ns=world.stamp_ns))
 

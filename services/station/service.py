@@ -16,6 +16,7 @@ from protocol.messages import Figure, OperatorInput
 from services.bus.arrays import vector3
 from services.bus.bus import Bus, Pending
 from services.bus.identity import new_number
+from services.bus.picture_queue import QueueReport
 from services.process.clock import Clock
 from services.process.config import Configuration
 from services.process.exceptions import UnusableSetting
@@ -97,6 +98,7 @@ class StationService:
         self._company = Company(bus)
         self._neighbours = Neighbours(bus, workflow_settings.holder) if page is not None else None
         self._stage = Stage(self._ears)
+        self._queue = QueueReport(bus, self._ears.head, self._ears.wrist)
         self._history = HistoryReader(bus, page.effects) if page is not None else None
         self._buttons = DeviceButtons(self._ears.master, workflow_settings.holder)
         self._workflow = Workflow()
@@ -116,6 +118,7 @@ class StationService:
 
     def step(self, now_ns: int) -> None:
         """A stop before all; then look, advance the workflow, ask, tell."""
+        self._queue.step(now_ns)
         self._tell(now_ns, self._act(now_ns))
 
     def _act(self, now_ns: int) -> View:

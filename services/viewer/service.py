@@ -21,6 +21,7 @@ from protocol.topics import (
 )
 from services.bus.arrays import drawable, vector3
 from services.bus.bus import Bus
+from services.bus.picture_queue import QueueReport
 from services.bus.predictions import Predictions
 from services.bus.trace import Trace
 from services.process.clock import Clock
@@ -101,7 +102,9 @@ class ViewerService:
         self._execution = bus.subscribe(EXECUTION)
         self._trace = Trace()
         self._cloud = News(bus.subscribe(POINT_CLOUD))
-        self._images = (News(bus.subscribe(HEAD_IMAGE)), News(bus.subscribe(WRIST_IMAGE)))
+        pictures = (bus.subscribe(HEAD_IMAGE), bus.subscribe(WRIST_IMAGE))
+        self._images = tuple(News(camera) for camera in pictures)
+        self._queue = QueueReport(bus, *pictures)
         self._changes = Changes(_REPEAT_S)
         self._tracing = Changes(_TRACE_S)
         self._announcing = Changes(_ANNOUNCE_S)
@@ -122,6 +125,7 @@ class ViewerService:
     def step(self, now_ns: int) -> None:
         """Draw what is new."""
         self._run.at(now_ns)
+        self._queue.step(now_ns)
         robot = self._robot.draw(now_ns)
         if robot is not None:
             self._trace.see(robot)

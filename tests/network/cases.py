@@ -26,13 +26,14 @@ class Case:
         shape: of the link, see `forwarder.Shape`; it is as good as none before.
         pictures: two cameras share it.
         cut_s: how long it is cut in the middle of a refinement [s]; 0 where it is not.
+        router: the desk has a router of its own, so that nothing crosses the link twice.
         asleep_s: how long the desk sleeps there [s]; 0 where it does not.
-        path_ms: the link's own delay, one way.
     """
 
     name: str
     shape: dict = field(default_factory=dict)
     pictures: bool = False
+    router: bool = False
     cut_s: float = 0.0
     asleep_s: float = 0.0
 
@@ -49,10 +50,11 @@ CASES = (
     Case("150 ms there and back, 3 % lost", {"delay_s": 0.075, "loss": 0.03}),
     Case("reordered and duplicated", {"delay_s": 0.03, "reordered": 0.05, "duplicated": 0.02}),
     Case("15 Mbit/s, two cameras", {"delay_s": 0.02, "jitter_s": 0.002, "rate": 15e6}, pictures=True),
-    Case("3 Mbit/s, two cameras", {"delay_s": 0.02, "jitter_s": 0.002, "rate": 3e6}, pictures=True),
+    Case("3 Mbit/s, two cameras", {"delay_s": 0.02, "jitter_s": 0.002, "rate": 3e6}, pictures=True, router=True),
     Case("cut for 0.7 s", NEAR, cut_s=0.7),
     Case("cut for 2 s", NEAR, cut_s=2.0),
     Case("cut for 15 s", NEAR, cut_s=15.0),
+    Case("1 % lost, cut for 2 s, two routers", {**NEAR, "loss": 0.01}, cut_s=2.0, router=True),
     Case("desk asleep for 20 s", NEAR, asleep_s=20.0),
 )
 
@@ -78,7 +80,7 @@ def run(case: Case) -> Outcome:
     """Let a scripted operator teach over the network until the loop closes."""
     with Link() as link, tempfile.TemporaryDirectory() as folder:
         link.shape(**case.shape)
-        with Sites(link, Path(folder), pictures=case.pictures) as sites:
+        with Sites(link, Path(folder), pictures=case.pictures, router=case.router) as sites:
             lost_ns = _trouble(case, link, sites)
             closed = sites.closes(RUN_S)
             record = Record(*sites.heard())

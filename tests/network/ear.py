@@ -4,6 +4,7 @@ Usage: ear.py ENDPOINT FILE. It says "listening"; the end of its input makes it 
 """
 
 import secrets
+import select
 import sys
 from pathlib import Path
 
@@ -12,13 +13,18 @@ import msgpack
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from protocol import topics
+from services.bus.picture_queue import QueueReport
 from services.bus.zenoh import Lanes, ZenohBus, open_session
 from services.process.clock import SystemClock
 
 ROBOT = "robot1"
 OPEN_S = 60.0
 NEAR = (topics.ROBOT_STATE, topics.MASTER_STATE)
-FAR = (topics.ROBOT_STATE, topics.HEAD_IMAGE, topics.WRIST_IMAGE)
+PICTURES = (topics.HEAD_IMAGE, topics.WRIST_IMAGE)
+FAR = (topics.WORLD_STATE, *PICTURES)
+"""Of the robot only what is small: an ear is not to fill the link that it listens on."""
+
+LOOK_S = 0.02
 
 
 class Ear:
@@ -33,9 +39,10 @@ class Ear:
 
     def __init__(self, endpoint, listens):
         self.heard = []
-        self._bus = ZenohBus(Lanes(open_session(endpoint, OPEN_S)), ROBOT, f"ear-{secrets.token_hex(4)}", SystemClock())
-        for topic in listens:
-            self._listen(topic)
+        self._clock = SystemClock()
+        self._bus = ZenohBus(Lanes(open_session(endpoint, OPEN_S)), ROBOT, f"ear-{secrets.token_hex(4)}", self._clock)
+        heard = {topic: self._listen(topic) for topic in listens}
+        self._queue = QueueReport(self._bus, *(heard[topic] for topic in PICTURES if topic in heard))
 
     def __enter__(self):
         return self
@@ -43,18 +50,28 @@ class Ear:
     def __exit__(self, *_):
         self._bus.close()
 
+    def report(self):
+        """Tell the cameras how late their pictures come, as who looks at them does."""
+        self._queue.step(self._clock.now_ns())
+
     def _listen(self, topic):
+        subscription = self._bus.subscribe(topic)
+        receive = subscription.receive
+
         def hear(payload, schema, now_ns, key):
             self.heard.append((now_ns, topic.name, payload))
+            receive(payload, schema, now_ns, key)
 
-        self._bus.subscribe(topic).receive = hear
+        subscription.receive = hear
+        return subscription
 
 
 def main(endpoint, file):
     """See the module."""
     with Ear(endpoint, FAR) as ear:
         print("listening", flush=True)
-        sys.stdin.read()
+        while not select.select([sys.stdin], [], [], LOOK_S)[0]:
+            ear.report()
         Path(file).write_bytes(msgpack.packb(ear.heard))
 
 

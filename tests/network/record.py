@@ -24,7 +24,7 @@ class Figures:
 
     Attributes:
         up_ms: median and 99th percentile of the master's samples on their way to the robot.
-        down_ms: the same, of the robot's state on its way to the desk.
+        down_ms: the same, of the robot's states on their way to the desk.
         held: share of the refinements' time in which the robot held.
         hold_after_ms: from the last sample that took effect to the hold, at most.
         oldest_ms: age of a sample when it shaped a command, at most.
@@ -60,7 +60,7 @@ class Record:
         self._sent = {sample.sequence: sample.stamp_ns - ahead for _, sample in heard}
         self._came = {sample.sequence: at for at, sample in reversed(heard)}
         self._up = np.array([at - sample.stamp_ns + ahead for at, sample in heard]) / 1e6
-        self._down = np.array([at - ahead - state.stamp_ns for at, state in _of(far, topics.ROBOT_STATE)]) / 1e6
+        self._down = np.array([at - ahead - state.stamp_ns for at, state in _of(far, topics.WORLD_STATE)]) / 1e6
         shown = [(at - ahead, at - ahead - image.captured_ns) for topic in PICTURES for at, image in _of(far, topic)]
         self._shown = np.array(shown).reshape(-1, 2)
 

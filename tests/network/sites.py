@@ -27,16 +27,18 @@ class Sites:
         link: between them.
         folder: where they run.
         pictures: two cameras send.
+        router: the desk has a router of its own, which joins the robot's.
 
     Attributes:
         ear: at the robot's site.
         desk: the operator's command, which teaches until the loop has closed.
     """
 
-    def __init__(self, link: Link, folder: Path, *, pictures: bool) -> None:
+    def __init__(self, link: Link, folder: Path, *, pictures: bool, router: bool = False) -> None:
         self._link = link
         self._folder = folder
         self._pictures = pictures
+        self._router = router
         self._stack = contextlib.ExitStack()
 
     def __enter__(self):
@@ -52,6 +54,8 @@ class Sites:
             self.ear = stack.enter_context(Ear(here, NEAR))
             if self._pictures:
                 stack.enter_context(_running([sys.executable, _HERE / "pictures.py", here]))
+            if self._router:
+                endpoint = stack.enter_context(self._joined(endpoint, far))
             program = [*self._link.there, sys.executable, _HERE / "ear.py", endpoint, self._far_file]
             self._far_ear = stack.enter_context(_running(program))
             assert self._far_ear.stdout.readline() == "listening\n"
@@ -65,6 +69,15 @@ class Sites:
     @property
     def _far_file(self):
         return self._folder / "far.ear"
+
+    @contextlib.contextmanager
+    def _joined(self, endpoint, folder):
+        """A router on the far machine; its endpoint there."""
+        there = f"tcp/127.0.0.1:{free_port()}"
+        arguments = ("router", "--listen", there, "--connect", endpoint)
+        with Command(*arguments, folder=folder, there=self._link.there) as router:
+            router.until(lambda: "listening" in router.err, START_S, "the desk's router listens")
+            yield there
 
     def _operator(self, endpoint, folder):
         settings = folder / "desk.toml"

@@ -26,7 +26,7 @@ from services.bus.server import Server
 from services.bus.subscription import Subscription
 from services.bus.zenoh.dialling import Opened
 from services.bus.zenoh.encoding import announced, encoding
-from services.bus.zenoh.lanes import Lanes
+from services.bus.zenoh.lanes import Lanes, comes_again
 from services.bus.zenoh.session import open_session
 from services.bus.zenoh.watch import watch
 from services.process.clock import Clock
@@ -237,8 +237,15 @@ class ZenohBus:
                 priority=transport.priority,
                 congestion_control=transport.congestion_control,
                 express=transport.express,
+                reliability=_reliability(topic),
             )
         return publisher
+
+
+def _reliability(topic: Topic[Any]) -> zenoh.Reliability:
+    """Between routers, what comes again within a moment travels as datagrams; a stop does not count on that."""
+    again = comes_again(topic) and topic.qos is not QoS.SAFETY
+    return zenoh.Reliability.BEST_EFFORT if again else zenoh.Reliability.RELIABLE
 
 
 def _note(robots: set[str], key: str) -> None:

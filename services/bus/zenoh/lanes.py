@@ -20,6 +20,11 @@ AGAIN_WITHIN_HZ = 50.0
 """A sample of a topic of at least this rate is not missed: the next one is there already."""
 
 
+def comes_again(topic: Topic[Any]) -> bool:
+    """Whether a sample of the topic is followed by another one within a moment."""
+    return topic.rate_hz >= AGAIN_WITHIN_HZ
+
+
 class Lanes:
     """One process' lanes. Safe to use from several threads.
 
@@ -52,7 +57,7 @@ class Lanes:
 
     def datagrams(self, topic: Topic[Any]) -> Datagrams | None:
         """How a topic travels as datagrams; None where it does not."""
-        return self._datagrams if topic.rate_hz >= AGAIN_WITHIN_HZ else None
+        return self._datagrams if comes_again(topic) else None
 
     def close(self) -> None:
         """Leave the network."""

@@ -17,6 +17,12 @@ from services.bus.zenoh.transport import LEASE_MS, REDIAL_MS, configuration, lea
 from services.process.endpoint import Endpoint, parse
 from services.process.exceptions import BusError, EndpointInUse
 
+UNSENT_BYTES = 16_384
+"""So much waits in the kernel at most, beyond what is on its way."""
+
+_NOTSENT_LOWAT = getattr(socket, "TCP_NOTSENT_LOWAT", 25)
+"""Linux' number; Python has a name for it from 3.12 on."""
+
 log = logging.getLogger(__name__)
 
 
@@ -140,15 +146,17 @@ def _opened(listen: str, connect: str | None, pace_ms: int) -> zenoh.Session:
         if "listener bound to" in str(error):
             raise EndpointInUse(listen) from None
         raise BusError(f"cannot open a router on {listen}: {reason(error)}") from None
-    _give_up_with_the_lease()
+    _let_little_wait()
     return session
 
 
-def _give_up_with_the_lease() -> None:
+def _let_little_wait() -> None:
     """Let the kernel give up what cannot be delivered over an accepted link as soon as the lease does.
 
     Zenoh closes a link with SO_LINGER, which holds up one of its few threads, and with it other links, until TCP has
-    sent the rest once more: up to seconds after a link that was cut is back. Accepted sockets inherit the time.
+    sent the rest once more: up to seconds after a link that was cut is back. And let it take no more than it can send
+    soon: what waits in the kernel is never dropped, and by priority only what waits in Zenoh goes first. Accepted
+    sockets inherit both.
     """
     # What is no socket must not be taken for one: Python makes a copy of it, and forgets that where it fails.
     for file in [file for file in Path("/proc/self/fd").iterdir() if file.is_socket()]:
@@ -158,3 +166,4 @@ def _give_up_with_the_lease() -> None:
         ):
             if listener.getsockopt(socket.SOL_SOCKET, socket.SO_ACCEPTCONN):
                 listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT, LEASE_MS)
+                listener.setsockopt(socket.IPPROTO_TCP, _NOTSENT_LOWAT, UNSENT_BYTES)

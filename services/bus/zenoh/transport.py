@@ -26,6 +26,9 @@ FULL_LINK_US = 200_000
 CLOSE_S = 0.5
 """How long a session may take to leave; where its router hangs with a full link it would take ten seconds."""
 
+MOST_LINKS = 3
+"""Between two routers."""
+
 POLL_S = 0.02
 
 
@@ -46,13 +49,13 @@ def configuration(
         "scouting": {"multicast": {"enabled": False}, "gossip": {"enabled": False}},
         "listen": {"endpoints": [end for end in (listen, parse(listen).datagrams) if end] if listen else []},
         "connect": {
-            "endpoints": [connect] if connect else [],
+            "endpoints": _lanes(mode, connect) if connect else [],
             "timeout_ms": within_ms,
             "exit_on_failure": within_ms >= 0,
             "retry": {"period_init_ms": REDIAL_MS, "period_max_ms": REDIAL_MS, "period_increase_factor": 1.0},
         },
         "transport": {
-            "unicast": {"open_timeout": pace_ms},
+            "unicast": {"open_timeout": pace_ms, "max_links": MOST_LINKS if mode == "router" else 1},
             "link": {
                 "tx": {
                     "lease": LEASE_MS,
@@ -62,6 +65,14 @@ def configuration(
         },
     }
     return zenoh.Config.from_json5(json.dumps(config))
+
+
+def _lanes(mode: str, connect: str) -> list[str]:
+    """What to dial: between routers a link for each lane."""
+    datagrams = parse(connect).datagrams
+    if mode != "router" or not datagrams:
+        return [connect]
+    return [f"{connect}?rel=1;prio=1-4", f"{connect}?rel=1;prio=5-7", f"{datagrams}?rel=0;prio=1-4"]
 
 
 def leave(session: zenoh.Session) -> None:

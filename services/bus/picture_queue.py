@@ -1,0 +1,95 @@
+"""How late pictures come: who looks at them tells the cameras, which send less where it is much.
+
+A queue on the way fills little by little and may stand for long, so that a picture is compared with the fastest of a
+whole minute. The clocks need not agree; where one jumps, that is learnt within the minute.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from statistics import median
+
+from protocol.messages import CameraImage, PictureQueue
+from protocol.topics import PICTURE_QUEUE
+from services.bus.bus import Bus
+from services.bus.subscription import Received, Subscription
+from services.process.schedule import Schedule
+
+REMEMBERED_NS = 60_000_000_000
+"""For so long the fastest picture is remembered: clocks drift apart by 30 ms at most meanwhile."""
+
+SPAN_NS = 1_000_000_000
+"""Of each of these the fastest one; and what came longer ago says nothing of the queue now."""
+
+
+class Lateness:
+    """Of one camera's pictures, as they come."""
+
+    def __init__(self) -> None:
+        self._publisher = 0
+        self._fastest: deque[tuple[int, int]] = deque()
+
+    def late_ns(self, newest: Received[CameraImage]) -> int:
+        """By how much a picture came later than the fastest one [ns]."""
+        message, came_ns = newest.message, newest.received_ns
+        if message.publisher != self._publisher:
+            self._publisher = message.publisher
+            self._fastest.clear()
+        transit_ns, span = came_ns - message.stamp_ns, came_ns // SPAN_NS
+        if self._fastest and self._fastest[-1][0] == span:
+            _, fastest = self._fastest.pop()
+            self._fastest.append((span, min(fastest, transit_ns)))
+        else:
+            self._fastest.append((span, transit_ns))
+        while self._fastest[0][0] < span - REMEMBERED_NS // SPAN_NS:
+            self._fastest.popleft()
+        return transit_ns - min(fastest for _, fastest in self._fastest)
+
+
+class QueueReport:
+    """One process', of all pictures that it looks at.
+
+    Args:
+        bus: to report on.
+        pictures: the cameras'.
+    """
+
+    def __init__(self, bus: Bus, *pictures: Subscription[CameraImage]) -> None:
+        self._bus = bus
+        self._pictures = {one: Lateness() for one in pictures}
+        self._schedule = Schedule()
+        self._seen: dict[Subscription[CameraImage], Received[CameraImage]] = {}
+        self._late: deque[tuple[int, int]] = deque()
+        self._captured_ns: int | None = None
+        self._stale = 0
+
+    def step(self, now_ns: int) -> None:
+        """Look at what has come, and tell where there is anything to tell."""
+        for pictures, lateness in self._pictures.items():
+            newest = pictures.latest()
+            if newest is None or newest is self._seen.get(pictures):
+                continue
+            self._seen[pictures] = newest
+            late_ns = lateness.late_ns(newest)
+            self._late.append((newest.received_ns, late_ns))
+            drawn_ns = newest.message.stamp_ns - newest.message.captured_ns if newest.message.captured_ns else 0
+            captured_ns = newest.received_ns - late_ns - max(0, drawn_ns)
+            self._captured_ns = max(self._captured_ns or captured_ns, captured_ns)
+        while self._late and now_ns - self._late[0][0] > SPAN_NS:
+            self._late.popleft()
+        if self._schedule.due(PICTURE_QUEUE, now_ns):
+            self._tell()
+
+    def age_s(self, now_ns: int) -> float | None:
+        """Of what the youngest picture shows, as far as it can be known [s]; None before the first picture."""
+        return (now_ns - self._captured_ns) / 1e9 if self._captured_ns is not None else None
+
+    def _tell(self) -> None:
+        """The usual lateness; a picture that was thrown away as stale was as late as that."""
+        stale = sum(pictures.drops.stale for pictures in self._pictures)
+        late_ns = [late for _, late in self._late]
+        if stale > self._stale:
+            late_ns = [limit for pictures in self._pictures if (limit := pictures.topic.stale_after_ns) is not None]
+        self._stale = stale
+        if late_ns:
+            self._bus.publish(PICTURE_QUEUE, PictureQueue(late=median(late_ns) / 1e9))
