@@ -7,6 +7,7 @@ from protocol.messages import AuthorityRequest, AuthorityState
 from services.bus.bus import Bus, Failed, Pending
 from services.bus.identity import new_number
 from services.process.schedule import Schedule
+from services.station.words.heard import heard
 from services.station.words.table import say
 
 GIVE, KEEP = "give_authority", "keep_authority"
@@ -56,6 +57,6 @@ class HandOver:
         """Why the newest revocation was not done; empty where it was, is not known yet, or has been told."""
         match self._revoked.poll() if self._revoked is not None and now_ns < self._told_until_ns else None:
             case queries.Refused(reason) | Failed(reason):
-                return say("event.not_revoked", why=reason)
+                return say("event.not_revoked", why=heard(reason))
             case _:
                 return ""

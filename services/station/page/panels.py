@@ -7,6 +7,7 @@ from services.station.page.readout import criteria, is_stale, outcome, span, ton
 from services.station.page.standing import Standing
 from services.station.page.values import Values
 from services.station.page.view import Picture, Shown
+from services.station.words.heard import heard
 from services.station.words.table import say
 
 COUNTERS = ("refinements", "updates")
@@ -32,7 +33,7 @@ def scene(shown: Shown) -> Values:
         "scene@data-kick": "no" if shown.view.drawing.kick.stood is None else "yes",
         "legend-predicted": say(f"scene.from_{origin.value}"),
         **{f"camera-{name}@data-yaw": _told(picture) for name, picture in cameras.items()},
-        "recording-fault": "" if recording is None else recording.fault,
+        "recording-fault": "" if recording is None else heard(recording.fault),
         "stale": age if stale else "",
     }
 

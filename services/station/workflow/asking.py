@@ -15,6 +15,7 @@ import msgspec
 
 from protocol.queries import Query, Refused
 from services.bus.bus import Failed
+from services.station.words.heard import heard
 from services.station.words.table import say, speech
 from services.station.workflow.state import Owed, Phase, Workflow
 from services.station.workflow.view import Ask, Step, View
@@ -70,7 +71,7 @@ def ask(
 
 def not_done(query: Query[Any, Any], reason: str) -> str:
     """A refusal or a failure in a line."""
-    return say("event.not_done", what=_about(query), reason=reason)
+    return say("event.not_done", what=_about(query), reason=heard(reason))
 
 
 def _about(query: Query[Any, Any]) -> str:

@@ -13,6 +13,7 @@ from lfd.motion.trajectory import Trajectory
 from protocol.messages import Attempt, Cut, EpisodeResult, Method, Mode, Motion, Origin, Outcome, Part
 from services.bus.arrays import motion_from_wire, motion_to_wire
 from services.process.exceptions import ServiceError
+from services.station.words.heard import heard
 from services.station.words.table import say
 from services.station.workflow.approach import Approach
 from services.station.workflow.asking import to
@@ -96,7 +97,7 @@ def _followed(state: Workflow, result: EpisodeResult) -> Approach:
 
 
 def _end(result: EpisodeResult) -> str:
-    return "" if result.completed else say("event.cut", why=result.reason)
+    return "" if result.completed else say("event.cut", why=heard(result.reason))
 
 
 def _kept(state: Workflow, taught: Taught | None) -> Taught | None:

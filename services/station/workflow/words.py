@@ -6,6 +6,7 @@ import math
 
 from protocol.messages import Light, Mode, Origin, Outcome, RobotState, SafetyState, TeachingState
 from protocol.messages import Phase as RobotPhase
+from services.station.words.heard import heard
 from services.station.words.predictions import certainty, way_taken
 from services.station.words.table import say
 from services.station.workflow import showing
@@ -181,7 +182,7 @@ def _holding(robot: RobotState) -> str:
     """Whether it goes on by itself, and what keeps it."""
     why = next((say(f"hold.{word}") for start, word in _HOLDS if robot.hold_reason.startswith(start)), None)
     kind = "waits" if robot.waiting else "holds"
-    reason = why or robot.hold_reason
+    reason = why or heard(robot.hold_reason)
     return say(f"workflow.{kind}_because", why=reason) if reason else say(f"workflow.{kind}")
 
 
