@@ -21,7 +21,8 @@ LIBRARY_VERSION = "0.180.0"
 
 LIBRARY_FILES = ("three.module.min.js", "three.core.min.js", "OrbitControls.js")
 
-# It holds three.js as published, beside what is of no use here, and needs no other package.
+# It holds three.js as published, beside what is of no use here, and needs no other package. None that is better kept
+# has its modules: k3d, meshcat, nicegui, pythreejs and viser bundle it into scripts of their own.
 _PACKAGE = "ifc-console-viewer"
 _FOLDER = "ifc_console_viewer/static/vendor"
 
