@@ -86,7 +86,7 @@ def main():
     devices = [one for one in Device if arguments.device in (None, one.value)]
     print(
         f"bench: {arguments.people} people by {len(methods)} methods and {len(devices)} devices, up to {TRIES} tries"
-        " each; about ten seconds of a core for each session",
+        " each; about fifteen seconds of a core for each session",
         file=sys.stderr,
     )
     demonstrations = tuple(first_demonstrations(DISHWASHER))

@@ -92,24 +92,24 @@ class Person(Stage):
     def phases(self, seconds):
         """What the robot does in so much time."""
         seen = set()
-        end_ns = self._clock.now_ns() + round(seconds * 1e9)
+        end_ns = self.clock.now_ns() + round(seconds * 1e9)
 
         def over():
             state = self.robot.latest()
             if state is not None:
                 seen.add(state.message.phase)
-            return self._clock.now_ns() >= end_ns
+            return self.clock.now_ns() >= end_ns
 
         self.run(over)
         return seen
 
     def until(self, phase, *, warned=False):
         """The phase that comes: the named one or, if allowed, the one in which little is said to be known."""
-        end_ns = self._clock.now_ns() + round(60e9)
+        end_ns = self.clock.now_ns() + round(60e9)
 
         def there():
             told = self.teaching.latest()
-            assert self._clock.now_ns() < end_ns, told
+            assert self.clock.now_ns() < end_ns, told
             if told is None:
                 return False
             return told.message.phase == phase or (warned and "I don't know this place" in told.message.text)
