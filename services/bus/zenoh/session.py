@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import logging
 import threading
 import time
@@ -95,10 +94,9 @@ class Session:
             leave(opened.session)
             return False
         log.debug("the router at %s is linked again, over a session that was opened anew", self.endpoint.text)
-        # A session is never freed whose publishers outlive it.
-        for publisher in list(old.publishers.values()):
-            with contextlib.suppress(zenoh.ZError):
-                publisher.undeclare()  # type: ignore[no-untyped-call]  # Zenoh's stub leaves it bare
+        # A session is never freed whose publishers outlive it. Each ends once nobody holds it: undeclaring one with
+        # which another thread publishes right now is an error.
+        old.publishers.clear()
         leave(old.session)
         return True
 

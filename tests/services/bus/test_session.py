@@ -1,5 +1,8 @@
 """What a session keeps when Zenoh's session under it is exchanged for another one."""
 
+import threading
+import weakref
+
 import pytest
 import zenoh
 
@@ -18,6 +21,23 @@ class One:
     def close(self):
         """Leave."""
         self.closed = True
+
+
+class Publisher:
+    """One of Zenoh's, as far as several threads use it: none may undeclare it while another one publishes."""
+
+    def __init__(self):
+        self.begun, self.end = threading.Event(), threading.Event()
+
+    def put(self):
+        """Publish; takes as long as the test wants."""
+        self.begun.set()
+        self.end.wait()
+
+    def undeclare(self):
+        """End it."""
+        if self.begun.is_set() and not self.end.is_set():
+            raise RuntimeError("Already borrowed")
 
 
 @pytest.fixture
@@ -92,3 +112,19 @@ def test_what_fails_without_an_exchange_fails(session):
 
     with pytest.raises(zenoh.ZError, match="no such thing"):
         session.use(act)
+
+
+def test_publishers_end_before_their_session_is_left_even_while_one_publishes(session, opened):
+    idle, busy = Publisher(), Publisher()
+    ends = weakref.ref(idle)
+    opened[0].publishers.update(idle=idle, busy=busy)
+    opened[0].session.close = lambda: left.append(ends())
+    left = []
+    publishing = threading.Thread(target=busy.put)
+    publishing.start()
+    busy.begun.wait()
+    del idle
+    assert session.take(opened[1])
+    busy.end.set()
+    publishing.join()
+    assert left == [None]
