@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import math
 import threading
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -105,6 +106,8 @@ class StationService:
         self._asked: tuple[int, Pending[Any]] | None = None
         self._drawn: Place | None = None
         self._schedule = Schedule()
+        self._worded: Phase | None = None
+        self._words = PageView()
         self._never = threading.Event()
 
     @property
@@ -144,16 +147,19 @@ class StationService:
         return view
 
     def _tell(self, now_ns: int, view: View) -> None:
+        """What moves is shown in every step; words are put together as often as they are told, or where it goes on."""
         told = self._schedule.due(topics.TEACHING_STATE, now_ns)
-        if not told and self._page is None:
-            return
-        teaching = teaching_state(self._workflow, view, self._settings)
+        if told or (self._page is not None and self._workflow.phase is not self._worded):
+            self._worded = self._workflow.phase
+            teaching = teaching_state(self._workflow, view, self._settings)
+            if told:
+                self._bus.publish(topics.TEACHING_STATE, teaching)
+            if self._page is not None:
+                self._words = self._page_words(now_ns, view, teaching)
         if self._history is not None:
             self._history.step(now_ns, view.model)
-        if told:
-            self._bus.publish(topics.TEACHING_STATE, teaching)
         if self._page is not None:
-            self._page.show(self._page_view(now_ns, view, teaching))
+            self._page.show(self._page_view(now_ns, view))
 
     def figures(self) -> tuple[Figure, ...]:
         """Of the page."""
@@ -246,14 +252,13 @@ class StationService:
             renewal = messages.AuthorityRenewal(operator=operator, holder=holder, epoch=epoch)
             self._bus.publish(topics.AUTHORITY_RENEWAL, renewal)
 
-    def _page_view(self, now_ns: int, view: View, teaching: messages.TeachingState) -> PageView:
+    def _page_words(self, now_ns: int, view: View, teaching: messages.TeachingState) -> PageView:
+        """What the page shows, what moves aside."""
         ears, workflow = self._ears, self._workflow
-        robot = ears.robot.latest()
         mine = view.authority is not None and view.authority.holder == self._settings.holder
-        base = PageView(
+        return PageView(
             teaching=teaching,
             verdict=message(ears.verdict.latest()),
-            safety=view.safety,
             authority=view.authority,
             authority_is_mine=mine,
             neighbours=self._neighbours.there(now_ns) if self._neighbours is not None else (),
@@ -262,22 +267,30 @@ class StationService:
             model=view.model,
             prediction=_of(workflow.prediction, view.model),
             history=self._history.rows if self._history is not None else None,
-            object_pose=message(ears.seen.latest()),
             execution=view.execution,
             spoilt=self._stage.spoilt(now_ns),
             drawing=self._stage.drawing(now_ns, workflow.approach.waypoints),
-            force=self._stage.force(now_ns),
             master=ears.master.fresh(now_ns),
             recording=message(ears.recording.latest()),
+        )
+
+    def _page_view(self, now_ns: int, view: View) -> PageView:
+        """What the page shows now."""
+        ears = self._ears
+        robot = ears.robot.latest()
+        latency = robot.message.applied_latency if robot is not None else -1.0
+        return replace(
+            self._words,
+            safety=view.safety,
+            robot=message(robot),
+            robot_age_s=robot.age_s(now_ns) if robot is not None else math.inf,
+            latencies=(Figure("applied", latency, "s"),) if latency >= 0.0 else (),
+            object_pose=message(ears.seen.latest()),
+            force=self._stage.force(now_ns),
             head=picture(ears.head, now_ns, self._bus.identity),
             wrist=picture(ears.wrist, now_ns, self._bus.identity),
             cloud=picture(ears.cloud, now_ns, self._bus.identity),
         )
-        if robot is None:
-            return base
-        latency = robot.message.applied_latency
-        figures = (Figure("applied", latency, "s"),) if latency >= 0.0 else ()
-        return replace(base, robot=robot.message, robot_age_s=robot.age_s(now_ns), latencies=figures)
 
 
 def _of(prediction: messages.Prediction | None, model: messages.ModelState | None) -> messages.Prediction | None:

@@ -38,8 +38,8 @@ def health(shown: Shown) -> Values:
     return {"health@data-tone": tone, "health-text": words}
 
 
-def figures(shown: Shown, standing: Standing) -> Values:
-    """The figures behind it."""
+def figures(shown: Shown) -> Values:
+    """The figures behind it, who commands aside."""
     view, robot, model, prediction = shown.view, shown.view.robot, shown.view.model, shown.view.prediction
     clamped = limited(shown.clamped)
     return {
@@ -54,17 +54,17 @@ def figures(shown: Shown, standing: Standing) -> Values:
         else say("figure.version", version=model.version, updates=model.updates),
         "figure-prediction": say("figure.none") if prediction is None else certainty(prediction),
         "figure-prediction@data-tone": _sureness(prediction),
-        "figure-authority": _authority(shown, standing),
         "limited": say("pad.limited", what=clamped) if clamped else "",
     }
 
 
-def _authority(shown: Shown, standing: Standing) -> str:
+def commander(shown: Shown, standing: Standing) -> Values:
+    """The last of the figures: who commands, as a tab says it."""
     if shown.view.authority_is_mine and standing.armed:
-        return say("figure.yours")
+        return {"figure-authority": say("figure.yours")}
     authority = shown.view.authority
     holder = (authority.operator or authority.holder) if authority is not None else ""
-    return holder or say("figure.nobody")
+    return {"figure-authority": holder or say("figure.nobody")}
 
 
 def _sureness(prediction: Prediction | None) -> str:

@@ -1,11 +1,11 @@
-"""Puts the values of the page's regions together, for one tab."""
+"""Puts the values of the page's regions together: what all tabs show alike, and what each shows of its own."""
 
 from __future__ import annotations
 
 from services.station.page.commanding import commanding
 from services.station.page.controls import actions, emergency_stop
 from services.station.page.devices import devices
-from services.station.page.health import figures, health
+from services.station.page.health import commander, figures, health
 from services.station.page.history import history
 from services.station.page.methods import methods
 from services.station.page.panels import counters, scene, traffic_light, verdict
@@ -18,8 +18,29 @@ from services.station.page.values import Values
 from services.station.page.view import Shown
 
 
-def values(shown: Shown, standing: Standing) -> Values:
-    """Everything that a tab shows now.
+def shared(shown: Shown) -> Values:
+    """What every tab shows now.
+
+    Args:
+        shown: the newest view.
+    """
+    return {
+        **robots(shown),
+        **health(shown),
+        **figures(shown),
+        **scene(shown),
+        **counters(shown),
+        **verdict(shown),
+        **actions(shown),
+        **methods(shown),
+        **timeline(shown),
+        **history(shown),
+        **devices(shown),
+    }
+
+
+def own(shown: Shown, standing: Standing) -> Values:
+    """What a tab shows besides.
 
     Args:
         shown: the newest view.
@@ -28,18 +49,8 @@ def values(shown: Shown, standing: Standing) -> Values:
     return {
         **commanding(shown, standing),
         **people(shown, standing),
-        **robots(shown),
-        **health(shown),
-        **figures(shown, standing),
-        **scene(shown),
+        **commander(shown, standing),
         **traffic_light(shown, standing),
-        **counters(shown),
-        **verdict(shown),
-        **actions(shown),
-        **methods(shown),
-        **timeline(shown),
-        **history(shown),
         **emergency_stop(shown, standing),
         **seating(standing),
-        **devices(shown),
     }

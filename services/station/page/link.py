@@ -13,15 +13,18 @@ import msgspec
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from services.process.clock import Clock
-from services.station.live_view.drawing import Point, has_moved, moment, packed
+from services.station.live_view.drawing import Point, has_moved, packed
+from services.station.page.glance import Glance, Glances
 from services.station.page.input import Desk
-from services.station.page.layout import values
+from services.station.page.layout import own
 from services.station.page.said import Held
 from services.station.page.values import Sent, Values
-from services.station.page.view import Board, Picture, Shown
+from services.station.page.view import Board, Picture
 
-SEND_PERIOD_S = 0.02
-TICKS_PER_NEWS = 5
+LOOK_PERIOD_NS = 20_000_000
+"""Between two looks at what is new: at the same times for all tabs, so that one look and one waking serve them all."""
+
+NEWS_PERIOD_NS = 100_000_000
 MOMENT_PERIOD_NS = round(1e9 / 30.0)
 FRAMES_IN_FLIGHT = 2
 """As many pictures may be under way to a browser, and moments, and clouds; a thin link, or a browser that draws slowly,
@@ -85,7 +88,6 @@ class _Tab:
         self.values: Sent[str | bool] = Sent()
         self.drawing: Sent[Any] = Sent()
         self.history: Sent[Any] = Sent()
-        self.moment_due_ns = 0
         self._numbers = [0, 0, 0, 0]
         self._last: dict[int, bytes] = {}
         self._moment: Point = ()
@@ -124,10 +126,9 @@ class Link:
 
     def __init__(self, desk: Desk, board: Board, clock: Clock, version: str, joints: tuple[str, ...]) -> None:
         self._desk = desk
-        self._board = board
+        self._glances = Glances(board, joints, LOOK_PERIOD_NS)
         self._clock = clock
         self._version = version
-        self._joints = joints
         self._numbers = itertools.count(1)
         self.tabs = 0
 
@@ -159,30 +160,25 @@ class Link:
     async def _send(self, tab: _Tab) -> None:
         # A tab that goes while something is sent is no fault: the receiving side notices and ends this task.
         with contextlib.suppress(WebSocketDisconnect, RuntimeError):
-            for tick in itertools.count():
-                if tick % TICKS_PER_NEWS == 0:
-                    await tab.socket.send_text(self._news(tab))
-                shown = self._board.newest()
+            before_ns = 0
+            while True:
+                now_ns = self._clock.now_ns()
+                glance = self._glances.at(now_ns)
+                shown = glance.shown
+                if _is_another(NEWS_PERIOD_NS, now_ns, before_ns):
+                    await tab.socket.send_text(self._news(tab, glance, now_ns))
                 for camera, picture in ((HEAD, shown.view.head), (WRIST, shown.view.wrist)):
                     await tab.send_picture(camera, picture, shown.elapsed_s)
-                await self._send_moment(tab, shown)
+                if _is_another(MOMENT_PERIOD_NS, now_ns, before_ns):
+                    await tab.send_moment(glance.moment, shown.robot_age_s)
                 if tab.wants_cloud:
                     await tab.send_picture(CLOUD, shown.view.cloud, shown.elapsed_s)
-                await asyncio.sleep(SEND_PERIOD_S)
+                before_ns = now_ns
+                await asyncio.sleep((LOOK_PERIOD_NS - self._clock.now_ns() % LOOK_PERIOD_NS) / 1e9)
 
-    async def _send_moment(self, tab: _Tab, shown: Shown) -> None:
-        now_ns = self._clock.now_ns()
-        if now_ns < tab.moment_due_ns:
-            return
-        tab.moment_due_ns = max(tab.moment_due_ns + MOMENT_PERIOD_NS, now_ns)
-        view = shown.view
-        values = moment(view.robot, view.object_pose, view.force, self._joints)
-        await tab.send_moment(values, shown.robot_age_s)
-
-    def _news(self, tab: _Tab) -> str:
-        now_ns = self._clock.now_ns()
+    def _news(self, tab: _Tab, glance: Glance, now_ns: int) -> str:
         standing = self._desk.standing(tab.number, now_ns)
-        shown = self._board.newest()
+        shown = glance.shown
         stamp_ms, heard_ns = tab.heard
         news = _News(
             self._version,
@@ -191,8 +187,13 @@ class Link:
             standing.accepted,
             standing.refused,
             (stamp_ms, (now_ns - heard_ns) / 1e6),
-            tab.values.news(values(shown, standing)),
+            tab.values.news({**glance.values, **own(shown, standing)}),
             tab.drawing.news(shown.view.drawing.parts()),
             tab.history.news({"listed": shown.view.history}),
         )
         return msgspec.json.encode(news).decode()
+
+
+def _is_another(period_ns: int, now_ns: int, before_ns: int) -> bool:
+    """Whether another period has begun since."""
+    return now_ns // period_ns != before_ns // period_ns

@@ -22,8 +22,11 @@ class Sent(Generic[V]):
 
     def news(self, values: Mapping[str, V]) -> Mapping[str, V]:
         """The values that the tab does not show yet; from now on it does."""
+        told = self._values
         news = {
-            name: value for name, value in values.items() if name not in self._values or self._values[name] != value
+            name: value
+            for name, value in values.items()
+            if name not in told or (told[name] is not value and told[name] != value)
         }
         self._values.update(news)
         return news

@@ -140,7 +140,8 @@ class Board:
         now_ns = self._clock.now_ns()
         if view.robot is not None and view.robot.clamped:
             self._clamped = (view.robot.clamped, now_ns)
-        self._newest = (replace(view, teaching=self._steady(view.teaching, now_ns)), now_ns)
+        steady = self._steady(view.teaching, now_ns)
+        self._newest = (view if steady is view.teaching else replace(view, teaching=steady), now_ns)
 
     def newest(self) -> Shown:
         """The newest view and its age."""

@@ -28,6 +28,7 @@ class Speech:
     def __init__(self) -> None:
         self.language = ENGLISH
         self.words = _read(HERE / f"{ENGLISH}.toml")
+        self._sections: dict[str, Mapping[str, str]] = {}
 
     def speak(self, language: str, folder: Path = HERE) -> None:
         """Say everything in this language from now on; what it has no word for stays English.
@@ -44,6 +45,7 @@ class Speech:
             raise LookupError(f"there are no words in {language!r}, only in {', '.join(sorted(tables))}")
         self.language = language
         self.words = {**_read(HERE / f"{ENGLISH}.toml"), **_read(tables[language])}
+        self._sections.clear()
 
     def say(self, key: str, **facts: object) -> str:
         """The words of this name.
@@ -56,8 +58,11 @@ class Speech:
 
     def section(self, name: str) -> Mapping[str, str]:
         """All words of a section, as they stand in the table: the page's scripts fill in the facts themselves."""
-        start = f"{name}."
-        return {key.removeprefix(start): words for key, words in self.words.items() if key.startswith(start)}
+        if name not in self._sections:
+            start = f"{name}."
+            words = {key.removeprefix(start): said for key, said in self.words.items() if key.startswith(start)}
+            self._sections[name] = words
+        return self._sections[name]
 
 
 def spaced(words: str) -> str:

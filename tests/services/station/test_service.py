@@ -170,7 +170,7 @@ def test_a_supervisor_s_revocation_goes_to_the_robot_and_what_it_refuses_is_told
     (call,) = revocations.take()
     assert (call.request.by, call.request.reason) == ("eve", "it is late")
     call.reply(queries.Refused("nobody holds the authority"))
-    site.run(0.02)
+    site.run(0.1)
     assert page.shown.notice == "Not revoked: nobody holds the authority."
 
 

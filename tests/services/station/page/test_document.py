@@ -6,7 +6,7 @@ from dataclasses import replace
 from views import SEATED, shown
 
 from services.station.page.document import document, version
-from services.station.page.layout import values
+from services.station.page.layout import own, shared
 from services.station.page.seating import seating
 from services.station.page.values import Sent
 
@@ -16,7 +16,7 @@ PAGE = document("robot1", "/view/abc/description.json")
 def test_every_value_has_one_element_that_shows_it():
     names = re.findall(r'data-value="([a-z0-9_-]+)"', PAGE)
     assert len(names) == len(set(names))
-    assert {name.partition("@")[0] for name in values(shown(), SEATED)} <= set(names)
+    assert {name.partition("@")[0] for name in {**shared(shown()), **own(shown(), SEATED)}} <= set(names)
 
 
 def test_a_name_stands_in_it_as_text():

@@ -8,7 +8,7 @@ from views import SEATED, robot, shown
 
 from protocol.messages import AuthorityState, Figure, ModelState, Phase, Recording, Way
 from services.bus.arrays import motion_to_wire
-from services.station.page.health import figures, health
+from services.station.page.health import commander, figures, health
 from tests.services.predictions import prediction
 
 MOTION = motion_to_wire([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], [[1.0, 0.0, 0.0, 0.0]] * 2, 1.0)
@@ -28,11 +28,11 @@ WELL = {
 def test_the_authority_is_the_reader_s_only_where_s_he_has_the_input(mine, standing, words):
     authority = AuthorityState(holder="station-1", operator="anna", epoch=1, expires_in=1.0)
     view = shown(authority=authority, authority_is_mine=mine)
-    assert figures(view, standing)["figure-authority"] == words
+    assert commander(view, standing)["figure-authority"] == words
 
 
 def test_an_authority_that_nobody_holds_is_nobody_s():
-    assert figures(shown(), SEATED)["figure-authority"] == "nobody"
+    assert commander(shown(), SEATED)["figure-authority"] == "nobody"
 
 
 @pytest.mark.parametrize(
@@ -55,17 +55,17 @@ def test_health_is_the_worst_that_there_is_to_say(changes, tone, words):
 
 
 def test_the_figures_say_what_was_measured():
-    told = figures(shown(**WELL), SEATED)
+    told = figures(shown(**WELL))
     assert (told["figure-phase"], told["figure-age"]) == ("stands", "10 ms")
     assert (told["figure-latency"], told["figure-model"]) == ("24 ms", "v7, 2 learnt")
 
 
 def test_what_is_limited_is_said_in_a_person_s_words_and_once():
-    told = figures(shown(("speed arm_3_joint", "speed arm_3_joint", "displacement", "reach: 12 mm short")), SEATED)
+    told = figures(shown(("speed arm_3_joint", "speed arm_3_joint", "displacement", "reach: 12 mm short")))
     assert told["figure-limited"] == "joint speed (arm_3_joint), correction too far, out of reach (12 mm short)"
     assert told["limited"].startswith("Limited: joint speed")
-    assert figures(shown(), SEATED)["limited"] == ""
-    assert figures(shown(("something new",)), SEATED)["figure-limited"] == "something new"
+    assert figures(shown())["limited"] == ""
+    assert figures(shown(("something new",)))["figure-limited"] == "something new"
 
 
 @pytest.mark.parametrize(
@@ -78,10 +78,10 @@ def test_what_is_limited_is_said_in_a_person_s_words_and_once():
     ],
 )
 def test_a_prediction_is_told_by_what_is_known_and_which_way_it_takes(certainty, words, tone):
-    told = figures(shown(prediction=msgspec.structs.replace(prediction(MOTION), **certainty)), SEATED)
+    told = figures(shown(prediction=msgspec.structs.replace(prediction(MOTION), **certainty)))
     assert (told["figure-prediction"], told["figure-prediction@data-tone"]) == (words, tone)
 
 
 def test_without_a_prediction_nothing_is_said_of_it():
-    told = figures(shown(), SEATED)
+    told = figures(shown())
     assert (told["figure-prediction"], told["figure-prediction@data-tone"]) == ("none", "none")

@@ -1,0 +1,57 @@
+"""What all tabs are told at one time: looked up and put into words once, however many look on."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from services.station.live_view.drawing import Point, moment
+from services.station.page.layout import shared
+from services.station.page.values import Values
+from services.station.page.view import Board, Shown
+
+
+class Glance:
+    """The newest view at one time.
+
+    Args:
+        shown: the view.
+        joints: names of what moves in the live view.
+    """
+
+    def __init__(self, shown: Shown, joints: tuple[str, ...]) -> None:
+        self.shown = shown
+        self._joints = joints
+
+    @cached_property
+    def values(self) -> Values:
+        """What every tab shows alike."""
+        return shared(self.shown)
+
+    @cached_property
+    def moment(self) -> Point:
+        """What moves."""
+        view = self.shown.view
+        return moment(view.robot, view.object_pose, view.force, self._joints)
+
+
+class Glances:
+    """Looks at the board once in each period.
+
+    Args:
+        board: that the view hangs on.
+        joints: names of what moves in the live view.
+        period_ns: within which all tabs are told the same.
+    """
+
+    def __init__(self, board: Board, joints: tuple[str, ...], period_ns: int) -> None:
+        self._board = board
+        self._joints = joints
+        self._period_ns = period_ns
+        self._newest: tuple[int, Glance] | None = None
+
+    def at(self, now_ns: int) -> Glance:
+        """The newest view at this time."""
+        period = now_ns // self._period_ns
+        if self._newest is None or self._newest[0] != period:
+            self._newest = period, Glance(self._board.newest(), self._joints)
+        return self._newest[1]
