@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import gzip
 import hashlib
 import logging
-from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
-from starlette.requests import Request
-from starlette.responses import PlainTextResponse, Response
-
 from services.station.live_view.description import Description
+from services.station.shelf import KEPT, File, Shelf, file
 
 log = logging.getLogger(__name__)
+
+ADDRESS = "/view"
 
 LIBRARY_VERSION = "0.180.0"
 """Of three.js; a part of the address, which assets/js/drawing/three.js names: browsers keep each version for good."""
@@ -26,45 +24,31 @@ LIBRARY_FILES = ("three.module.min.js", "three.core.min.js", "OrbitControls.js")
 _PACKAGE = "ifc-console-viewer"
 _FOLDER = "ifc_console_viewer/static/vendor"
 
-_KEEP = "public, max-age=31536000, immutable"
-_LEVEL = 6
 
-
-@dataclass(frozen=True)
-class _File:
-    kind: str
-    compressed: bytes
-
-
-class Files:
+class Files(Shelf):
     """The files by their addresses below /view/.
 
     Args:
         description: of what is seen.
+
+    Attributes:
+        description_address: where the browser finds the description.
+        shapes_address: where it finds the shapes, beside it.
+        library_addresses: where it finds the library.
     """
 
     def __init__(self, description: Description) -> None:
         digest = hashlib.sha256(description.words + description.shapes).hexdigest()[:12]
-        self.description_address = f"/view/{digest}/description.json"
-        """Where the browser finds the description; its shapes lie beside it."""
-        self._files = {
-            f"{digest}/description.json": _compressed("application/json", description.words),
-            f"{digest}/shapes.bin": _compressed("application/octet-stream", description.shapes),
-            **{f"three-{LIBRARY_VERSION}/{path.name}": _script(path) for path in library()},
+        words, shapes = f"{digest}/description.json", f"{digest}/shapes.bin"
+        scripts = {f"three-{LIBRARY_VERSION}/{path.name}": _script(path) for path in library()}
+        self.description_address = f"{ADDRESS}/{words}"
+        self.shapes_address = f"{ADDRESS}/{shapes}"
+        self.library_addresses = tuple(f"{ADDRESS}/{name}" for name in scripts)
+        described = {
+            words: file("application/json", description.words),
+            shapes: file("application/octet-stream", description.shapes),
         }
-
-    @property
-    def size(self) -> int:
-        """Of all files together, as they are sent [byte]."""
-        return sum(len(file.compressed) for file in self._files.values())
-
-    async def serve(self, request: Request) -> Response:
-        """Answer a browser."""
-        file = self._files.get(request.path_params["path"])
-        if file is None:
-            return PlainTextResponse("There is no such file.", status_code=404)
-        headers = {"Content-Encoding": "gzip", "Cache-Control": _KEEP}
-        return Response(file.compressed, media_type=file.kind, headers=headers)
+        super().__init__({**described, **scripts}, KEPT)
 
 
 def library() -> tuple[Path, ...]:
@@ -80,9 +64,5 @@ def library() -> tuple[Path, ...]:
     return ()
 
 
-def _script(path: Path) -> _File:
-    return _compressed("text/javascript", path.read_bytes())
-
-
-def _compressed(kind: str, content: bytes) -> _File:
-    return _File(kind, gzip.compress(content, _LEVEL, mtime=0))
+def _script(path: Path) -> File:
+    return file("text/javascript", path.read_bytes())

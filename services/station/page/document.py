@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from html import escape
 from pathlib import Path
 from string import Template
@@ -11,6 +11,8 @@ from string import Template
 import msgspec
 
 from protocol.messages import SHORTEST_REASON, Role
+from services.station.live_view.files import Files as LiveFiles
+from services.station.page.asset_files import ASSETS, SCRIPT_ADDRESSES, STYLE_ADDRESS
 from services.station.page.controls import BUTTONS, KEYBOARDS, Button, Key
 from services.station.page.devices import PADS
 from services.station.page.health import FIGURES
@@ -21,33 +23,8 @@ from services.station.page.robots import SLOTS
 from services.station.words.table import say, speech
 
 HERE = Path(__file__).parent
-ASSETS = HERE / "assets"
 PARTS = HERE / "parts"
 
-_SHEETS = (
-    "base",
-    "light",
-    "layout",
-    "header",
-    "scene",
-    "cameras",
-    "timeline",
-    "methods",
-    "guide",
-    "actions",
-    "verdict",
-    "history",
-    "pad",
-    "devices",
-    "stop",
-    "banners",
-    "roles",
-    "robots",
-    "tour",
-    "compact",
-    "narrow",
-    "contrast",
-)
 _SYMBOLS = {"retouch": "brand", "view": "", "red": "lamp", "amber": "lamp", "hold": "lamp", "green": "lamp", "stop": ""}
 """Those that stand in the parts, and the class by which the style sheet sizes them."""
 
@@ -63,20 +40,21 @@ class _Html(Template):
     braceidpattern = r"[a-z][a-z0-9_]*\.[a-z0-9_]+"
 
 
-def document(robot: str, description: str) -> str:
+def document(robot: str, view: LiveFiles) -> str:
     """The page's HTML, in the language that the process speaks.
 
     Args:
         robot: its name.
-        description: address of what the live view is told once.
+        view: what the live view loads.
     """
     made = {
         "language": escape(speech.language),
         "title": escape(say("document.title", robot=robot)),
         "robot": escape(robot),
-        "description": escape(description),
+        "description": escape(view.description_address),
         "version": version(),
-        "sheets": "\n".join(f'    <link rel="stylesheet" href="/assets/css/{name}.css" />' for name in _SHEETS),
+        "style": STYLE_ADDRESS,
+        "ahead": "\n".join(_ahead(view)),
         "words": _for_scripts(),
         "shortest": str(SHORTEST_REASON),
         "figures": "".join(_figure(name) for name in FIGURES),
@@ -106,6 +84,14 @@ def version() -> str:
     assets = sorted(path for path in ASSETS.rglob("*") if path.is_file())
     files = [HERE / "page.html", *sorted(PARTS.glob("*.html")), *assets]
     return hashlib.sha256(b"".join(path.read_bytes() for path in files)).hexdigest()[:12]
+
+
+def _ahead(view: LiveFiles) -> Iterable[str]:
+    """Says at once all that is going to be loaded: else each script names the next ones only when it has come."""
+    for address in (*SCRIPT_ADDRESSES, *view.library_addresses):
+        yield f'    <link rel="modulepreload" href="{escape(address)}" />'
+    for address in (view.description_address, view.shapes_address):
+        yield f'    <link rel="preload" as="fetch" crossorigin href="{escape(address)}" />'
 
 
 def _filled(file: Path, made: Mapping[str, str]) -> str:

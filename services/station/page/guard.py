@@ -51,8 +51,6 @@ class Guard:
                 headers["Content-Security-Policy"] = CONTENT_POLICY
                 headers["X-Content-Type-Options"] = "nosniff"
                 headers["Referrer-Policy"] = "no-referrer"
-                if scope["path"].startswith("/assets/"):
-                    headers["Cache-Control"] = "no-cache"
             await send(message)
 
         await self._app(scope, receive, send_with_headers)

@@ -12,8 +12,7 @@ import uvicorn
 from starlette.applications import Starlette
 from starlette.requests import Request
 from starlette.responses import HTMLResponse
-from starlette.routing import Mount, Route, WebSocketRoute
-from starlette.staticfiles import StaticFiles
+from starlette.routing import Route, WebSocketRoute
 
 from protocol.messages import Attendance, Figure, OperatorInput
 from services.process.addresses import EVERYWHERE, family, in_url
@@ -22,9 +21,10 @@ from services.process.config import StationSection
 from services.process.exceptions import PortInUse
 from services.station.live_view.description import Description
 from services.station.live_view.files import Files
+from services.station.page.asset_files import asset_files
 from services.station.page.certificate import check
 from services.station.page.controls import is_confirmed
-from services.station.page.document import ASSETS, document, version
+from services.station.page.document import document, version
 from services.station.page.effects import Effects
 from services.station.page.guard import Guard
 from services.station.page.input import Desk
@@ -59,7 +59,8 @@ class Page:
         self._station = station
         self._clock = clock
         self._files = Files(description)
-        self._document = document(robot, self._files.description_address)
+        self._assets = asset_files()
+        self._document = document(robot, self._files)
         self._board = Board(clock)
         self.effects = Effects()
         """What entries of the history change, as far as a tab wants to see it."""
@@ -153,7 +154,7 @@ class Page:
             WebSocketRoute("/link", self._link.serve),
             Route("/view/{path:path}", self._files.serve),
             Route("/history/{version:int}/{entry:int}", self.effects.serve),
-            Mount("/assets", StaticFiles(directory=ASSETS)),
+            Route("/assets/{path:path}", self._assets.serve),
         ]
         app = Starlette(routes=routes)
         return uvicorn.Config(

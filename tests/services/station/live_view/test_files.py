@@ -1,18 +1,18 @@
 """What the live view loads: three.js as it is published, all of it small, kept by browsers."""
 
-import asyncio
 import gzip
 import hashlib
 from importlib.metadata import PackageNotFoundError
 
 import pytest
-from starlette.requests import Request
 
 from services.station.live_view import files
 from services.station.live_view.description import describe, described
 from services.station.live_view.files import LIBRARY_VERSION, Files, library
-from services.station.page.document import ASSETS, document
+from services.station.page.asset_files import ASSETS, asset_files
+from services.station.page.document import document
 from sim.tasks.scene import Eye
+from tests.services.station.browser import ask
 
 NOTHING = described((), {}, Eye(), None)
 
@@ -22,11 +22,6 @@ PUBLISHED = {
     "three.core.min.js": "61ba0df005b05991361d040d8ff670e1aadfd0ce7aeebd1fdb0725957a8957de",
     "OrbitControls.js": "6c860c6b342200f8aef65493319c12bfb2d652107355b1d25eb2154371128391",
 }
-
-
-def ask(served, path):
-    request = Request({"type": "http", "method": "GET", "headers": [], "path_params": {"path": path}})
-    return asyncio.run(served.serve(request))
 
 
 def test_the_library_is_what_its_authors_published():
@@ -65,9 +60,8 @@ def test_no_other_file_is_served(path):
 @pytest.mark.sim
 def test_a_page_loads_less_than_three_megabytes():
     served = Files(describe("dishwasher"))
-    own = [path.read_bytes() for path in ASSETS.rglob("*") if path.is_file()]
-    page = document("robot1", served.description_address).encode()
-    assert served.size + sum(map(len, own)) + len(page) < 0.6e6
+    page = document("robot1", served).encode()
+    assert served.size + asset_files().size + len(page) < 0.6e6
 
 
 def test_without_the_library_the_page_is_served_and_the_log_says_what_to_do(monkeypatch, caplog):

@@ -1,16 +1,19 @@
 """The page that is loaded, and what is told to it."""
 
+import gzip
 import re
 from dataclasses import replace
 
 from views import SEATED, shown
 
+from services.station.page.asset_files import ASSETS, asset_files
 from services.station.page.document import document, version
 from services.station.page.layout import own, shared
 from services.station.page.seating import seating
 from services.station.page.values import Sent
+from tests.services.station.browser import VIEW, ask
 
-PAGE = document("robot1", "/view/abc/description.json")
+PAGE = document("robot1", VIEW)
 
 
 def test_every_value_has_one_element_that_shows_it():
@@ -20,7 +23,7 @@ def test_every_value_has_one_element_that_shows_it():
 
 
 def test_a_name_stands_in_it_as_text():
-    assert "<title>Retouch: &lt;b&gt;</title>" in document("<b>", "")
+    assert "<title>Retouch: &lt;b&gt;</title>" in document("<b>", VIEW)
 
 
 def test_nothing_in_it_is_run_or_styled_from_within():
@@ -29,6 +32,22 @@ def test_nothing_in_it_is_run_or_styled_from_within():
         'type="application/json" id="words"',
         'type="module" src="/assets/js/station.js"',
     ]
+
+
+def test_it_names_all_that_is_loaded_at_once_and_each_is_served():
+    loaded = re.findall(r'<link rel="(?:modulepreload|preload|stylesheet)"[^>]* href="([^"]+)"', PAGE)
+    scripts = {f"/assets/{path.relative_to(ASSETS).as_posix()}" for path in ASSETS.rglob("*.js")}
+    assert scripts <= set(loaded)
+    shelves = {"assets": asset_files(), "view": VIEW}
+    for address in loaded:
+        _, shelf, path = address.split("/", 2)
+        assert ask(shelves[shelf], path).status_code == 200
+
+
+def test_every_sheet_is_in_the_one_that_is_loaded():
+    style = gzip.decompress(ask(asset_files(), "station.css").body).decode()
+    for sheet in (ASSETS / "css").glob("*.css"):
+        assert sheet.read_text() in style
 
 
 def test_it_names_the_version_of_its_files():

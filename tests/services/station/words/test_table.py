@@ -10,6 +10,7 @@ import pytest
 
 from services.station.page.document import document
 from services.station.words.table import HERE, Speech, speech
+from tests.services.station.browser import VIEW
 
 STATION = HERE.parent
 ENGLISH = msgspec.toml.decode((HERE / "en.toml").read_bytes())
@@ -84,14 +85,14 @@ def test_every_word_of_the_table_is_said():
 @pytest.mark.usefixtures("marked")
 def test_nothing_on_the_page_stands_outside_the_table():
     parser = Texts()
-    parser.feed(document("robot1", "/v"))
+    parser.feed(document("robot1", VIEW))
     assert len(parser.texts) > 50
     assert [text for text in parser.texts if not NOT_WORDS.match(text) and MARK not in text] == []
 
 
 @pytest.mark.usefixtures("marked")
 def test_the_page_names_its_language():
-    assert '<html lang="xx">' in document("robot1", "/v")
+    assert '<html lang="xx">' in document("robot1", VIEW)
 
 
 def test_the_scripts_write_no_words_of_their_own():

@@ -111,6 +111,7 @@ export class LiveView {
       this.drawing.compare(this.compared ?? null);
       if (this.moment) this.drawing.receive(this.moment);
       this.showCloud(remembered() ?? !means.isSlow);
+      await this.drawing.prepare();
     } catch (error) {
       console.warn("the live view is not there:", error);
       return this.fail("script.not_loaded");

@@ -60,8 +60,16 @@ export class Drawing {
     this.scene.background = colourOf("ground");
     this.scene.add(...lights(), ...this.drawn.map(({ root }) => root));
     this.moment = {};
+    this.isReady = false;
     this.look();
     new ResizeObserver(() => this.fit()).observe(canvas);
+  }
+
+  // Makes ready what draws, beside all else; drawn before that, it would hold up the keys until it is done.
+  async prepare() {
+    await this.renderer.compileAsync(this.scene, this.camera);
+    this.isReady = true;
+    this.wish();
   }
 
   // From where the operator looks at first.
@@ -150,7 +158,7 @@ export class Drawing {
   wish() {
     this.wished = true;
     clearTimeout(this.still);
-    if (this.waits || this.isDrawing) return;
+    if (!this.isReady || this.waits || this.isDrawing) return;
     this.waits = true;
     setTimeout(() => requestAnimationFrame(() => this.draw()), this.cadence.wait(performance.now()));
   }
@@ -212,6 +220,7 @@ export class Drawing {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
+    if (!this.isReady) return;
     this.renderer.render(this.scene, this.camera); // another size has emptied the canvas: it is not left black
     this.wish();
   }
