@@ -40,6 +40,7 @@ class Trouble(Enum):
     GONE: the device that was used last is there no more.
     NOT_AT_REST: a device has not been at rest since it came.
     ABSENT: the device that is configured is not there.
+    BLIND: the cameras' pictures are too old to correct by.
     """
 
     NONE = "none"
@@ -47,6 +48,7 @@ class Trouble(Enum):
     GONE = "gone"
     NOT_AT_REST = "not_at_rest"
     ABSENT = "absent"
+    BLIND = "blind"
 
 
 class OperatorInput(Message, frozen=True, kw_only=True):
@@ -62,6 +64,7 @@ class OperatorInput(Message, frozen=True, kw_only=True):
         controllers: what else the page reads beside the keys.
         yaw: of the person's axes in the base frame [rad]: what s/he sees as forward lies so far to the left of the
             robot's. Devices of the page take it over once everything was let go.
+        blind: the newest pictures that the station has are too old to correct by.
     """
 
     operator: Name = ""
@@ -72,6 +75,7 @@ class OperatorInput(Message, frozen=True, kw_only=True):
     focused: bool = False
     controllers: Annotated[tuple[Controller, ...], msgspec.Meta(max_length=4)] = ()
     yaw: Yaw = 0.0
+    blind: bool = False
 
 
 class MasterState(Message, frozen=True, kw_only=True):
@@ -92,6 +96,9 @@ class MasterState(Message, frozen=True, kw_only=True):
         trouble_with: the device that the trouble is with.
         yaw: of the axes along which the hand pushes, see `OperatorInput` [rad]; displacement and rotation are in base
             axes whatever it is.
+        echoed_ns: the stamp on the newest robot state that the master had heard, so that the robot knows the round
+            trip [ns]; 0 before the first.
+        echo_held_ns: how long before this state it had come [ns].
     """
 
     displacement: Vector3 = (0.0, 0.0, 0.0)
@@ -107,3 +114,5 @@ class MasterState(Message, frozen=True, kw_only=True):
     trouble: Trouble = Trouble.NONE
     trouble_with: Name = ""
     yaw: Yaw = 0.0
+    echoed_ns: Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)] = 0
+    echo_held_ns: Count = 0

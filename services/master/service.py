@@ -12,7 +12,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Sequence
 
-from protocol.messages import Figure, MasterState
+from protocol.messages import Figure, MasterState, Trouble
 from protocol.topics import MASTER_STATE, ROBOT_STATE
 from services.bus.bus import Bus
 from services.master.devices.controllers import Controllers
@@ -134,7 +134,7 @@ class MasterService:
         sample = self._device.step(moment)
         if sample is None or moment.robot is None or now_ns - self._started_ns < _LISTEN_NS:
             return
-        self._bus.publish(MASTER_STATE, self._state(sample, sitting))
+        self._bus.publish(MASTER_STATE, self._state(sample, sitting, now_ns))
 
     def figures(self) -> tuple[Figure, ...]:
         """What the device measures."""
@@ -144,20 +144,24 @@ class MasterService:
         """Let go of the device."""
         self._device.close()
 
-    def _state(self, sample: Sample, sitting: Sitting) -> MasterState:
+    def _state(self, sample: Sample, sitting: Sitting, now_ns: int) -> MasterState:
         operator = sitting.operator if sitting.commands else None
+        blind = operator is not None and operator.blind
+        heard = self._robot.latest()
         return MasterState(
             displacement=sample.displacement,
             velocity=sample.velocity,
             rotation=sample.rotation,
             force=sample.force,
-            engaged=sample.engaged and sitting.commands,
+            engaged=sample.engaged and sitting.commands and not blind,
             operator=operator.operator if operator is not None else "",
             holder=operator.holder if operator is not None else "",
             epoch=operator.epoch if operator is not None else 0,
             device=self._device.name,
             actions=sample.actions if operator is not None else (),
-            trouble=sample.trouble,
+            trouble=Trouble.BLIND if blind else sample.trouble,
             trouble_with=sample.trouble_with,
+            echoed_ns=heard.message.stamp_ns if heard is not None else 0,
+            echo_held_ns=max(0, now_ns - heard.received_ns) if heard is not None else 0,
             yaw=sample.yaw,
         )

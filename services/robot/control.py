@@ -170,17 +170,20 @@ class Control:
         self.latch = self.latch.released(request.by, self._now())
         self.lease.end(request.by)
 
-    def tick(self, now_ns: int, sample: Received[MasterState] | None, given: Callable[[], None]) -> Tick:
+    def tick(
+        self, now_ns: int, sample: Received[MasterState] | None, given: Callable[[], None], way_s: float = 0.0
+    ) -> Tick:
         """One control period.
 
         Args:
             now_ns: the time.
             sample: the newest master state under the authority, None where there was none.
             given: called when the arm's command has been handed over.
+            way_s: how long the sample took to come, as far as that is known [s].
         """
         self.lease.expire(now_ns)
         self._end_another_s()
-        reason = self._hold_reason(now_ns, sample)
+        reason = self._hold_reason(now_ns, sample, way_s)
         tick = self.arm.tick(self._wanted(sample, reason), reason, given)
         self._end(tick.outcome)
         if tick.fault:
@@ -217,14 +220,15 @@ class Control:
         self.let_go()
         return number
 
-    def _hold_reason(self, now_ns: int, sample: Received[MasterState] | None) -> str:
+    def _hold_reason(self, now_ns: int, sample: Received[MasterState] | None, way_s: float) -> str:
         """Why a motion may not go on in this period; empty where it may."""
         cause = self._watchdog.presence(self.lease.holder, self.lease.silence_s(now_ns))
         if self.mode is not Mode.AUTONOMOUS and not cause:
             age_s = sample.age_s(now_ns) if sample is not None else None
             # Where the hand leads alone the robot stands without it, and nothing is left undone.
             free = self.mode is Mode.TEACH
-            cause = self._watchdog.hand(age_s, engaged=free or (sample is not None and sample.message.engaged))
+            engaged = free or (sample is not None and sample.message.engaged)
+            cause = self._watchdog.hand(age_s, engaged=engaged, way_s=way_s)
         return self._hold.reason(now_ns, cause, self.lease.epoch)
 
     def _wanted(self, sample: Received[MasterState] | None, hold_reason: str) -> Correction:

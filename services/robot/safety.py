@@ -53,18 +53,21 @@ class Watchdog:
             return f"no operator was present for more than {limit * 1e3:.0f} ms"
         return ""
 
-    def hand(self, silence_s: float | None, *, engaged: bool) -> str:
+    def hand(self, silence_s: float | None, *, engaged: bool, way_s: float = 0.0) -> str:
         """Why the master does not count now; empty where it does.
 
         Args:
             silence_s: age of its newest state under the authority, in the robot's clock [s]; None without any.
             engaged: that state says that a hand is on it.
+            way_s: how long it took to come, as far as that is known [s].
         """
         limit = min(LONGEST_SILENCE_S, self.hold_after_s)
         if silence_s is None:
             return "nothing was heard of the operator's keys or device under this authority"
         if not silence_s <= limit:
             return f"the operator's keys or device were not heard for more than {limit * 1e3:.0f} ms"
+        if not silence_s + way_s <= LONGEST_SILENCE_S:
+            return f"the operator's keys or device are heard more than {LONGEST_SILENCE_S * 1e3:.0f} ms late"
         return "" if engaged else "no hand is at the operator's keys or device"
 
 

@@ -14,7 +14,6 @@ from protocol import queries, topics
 from protocol.messages import Figure, MasterState, Mode, Phase
 from protocol.queries import Accepted, AuthorityGranted, EpisodeStarted, Execute, Refused
 from services.bus.bus import Bus, Rep, Req
-from services.bus.identity import same_clock
 from services.bus.predictions import Predictions
 from services.bus.server import Server
 from services.bus.subscription import Received
@@ -28,6 +27,7 @@ from services.robot.mechanism import Mechanism
 from services.robot.memory import Memory, safety_file
 from services.robot.refusal import Refusal
 from services.robot.safety import Watchdog
+from services.robot.samples import Samples
 from services.robot.states import States
 from services.robot.synchronisation import Synchronisation
 from services.robot.tick import Tick
@@ -124,7 +124,7 @@ class RobotService:
         self._states = States(bus, control)
         self._kinematics = kinematics
         self._synchronisation = Synchronisation(round(CONTROL_PERIOD * 1e9))
-        self._master = bus.subscribe(topics.MASTER_STATE)
+        self._samples = Samples(bus)
         self._renewal = bus.subscribe(topics.AUTHORITY_RENEWAL)
         self._request = bus.subscribe(topics.AUTHORITY_REQUEST)
         self._emergency_stop = bus.subscribe(topics.EMERGENCY_STOP)
@@ -140,7 +140,6 @@ class RobotService:
         self._resume = bus.serve(queries.RESUME)
         self._reset = bus.serve(queries.RESET)
         self._release_stop = bus.serve(queries.RELEASE_STOP)
-        self._sample: Received[MasterState] | None = None
         self._applied: Received[MasterState] | None = None
         self._applied_latency = -1.0
         self._given_ns = 0
@@ -154,10 +153,10 @@ class RobotService:
         self._first_ns = now_ns if self._first_ns is None else self._first_ns
         self._hear()
         self._answer_all(now_ns)
-        sample = self._sample_that_counts()
+        sample = self._samples.take(self._control.lease.covers, self._control.let_go)
         if sample is not None:
             self._synchronisation.heard(now_ns, sample.received_ns)
-        tick = self._control.tick(now_ns, sample, self._given)
+        tick = self._control.tick(now_ns, sample, self._given, self._samples.way_s(sample))
         self._measure(tick, sample)
         self._tell_who_commands()
         applied = self._applied.message.sequence if self._applied is not None else 0
@@ -171,7 +170,7 @@ class RobotService:
         """Since the last call.
 
         The first two count from the master's stamp on a sample to when the arm was handed the first command that the
-        sample shaped, both by one machine's clock.
+        sample shaped, as well as the clocks can be compared.
         """
         latency_p50, latency_p99 = _quantiles(self._latencies)
         _, inverse_p99 = _quantiles(self._kinematics.steps_ns)
@@ -184,6 +183,7 @@ class RobotService:
             Figure("touching", float(self._touching), "periods"),
             Figure("clamped", float(self._clamped), "periods"),
             Figure("refused", float(self._refused), "requests"),
+            Figure("late", float(self._samples.late), "samples"),
         )
         self._latencies.clear()
         self._kinematics.steps_ns.clear()
@@ -249,18 +249,6 @@ class RobotService:
         log.warning("refused: %s", line)
         return Refused(line, lasting)
 
-    def _sample_that_counts(self) -> Received[MasterState] | None:
-        """The newest master state under the present authority; those of any other holder or epoch do not count."""
-        covers = self._control.lease.covers
-        for received in self._master.take():
-            if covers(received.message.holder, received.message.epoch):
-                self._sample = received
-                if not received.message.engaged:
-                    self._control.let_go()
-        if self._sample is not None and not covers(self._sample.message.holder, self._sample.message.epoch):
-            self._sample = None
-        return self._sample
-
     def _given(self) -> None:
         """The arm has its command: what follows in the step, simulated physics included, delays no sample."""
         self._given_ns = self._clock.now_ns()
@@ -273,9 +261,9 @@ class RobotService:
         if tick.phase is not Phase.EXECUTE or self._control.mode is Mode.AUTONOMOUS or sample in (None, self._applied):
             return
         self._applied = sample
-        self._applied_latency = -1.0
-        if sample is not None and same_clock(sample.message.publisher, self._bus.identity):
-            self._applied_latency = (self._given_ns - sample.message.stamp_ns) / 1e9
+        latency = self._samples.age_s(sample, self._given_ns) if sample is not None else None
+        self._applied_latency = -1.0 if latency is None else max(0.0, latency)
+        if latency is not None:
             self._latencies.append(self._applied_latency)
 
 

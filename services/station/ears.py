@@ -12,6 +12,7 @@ from protocol import messages, topics
 from protocol.messages import Message
 from services.bus.bus import Bus
 from services.bus.identity import same_clock
+from services.bus.picture_queue import QueueReport
 from services.bus.predictions import Predictions
 from services.bus.subscription import Received, Subscription
 from services.station.page.view import Picture
@@ -21,6 +22,9 @@ Captured = TypeVar("Captured", messages.CameraImage, messages.PointCloud)
 
 _FORWARD, _UP = (0.0, 0.0, 1.0), (0.0, -1.0, 0.0)
 """Of an optical frame."""
+
+PICTURES_WITHIN_S = 2.0
+"""By pictures that show what was longer ago nobody corrects: slow ones, and those of a camera that fell silent."""
 
 HEARD_S = 0.3
 """Age at which the robot's state is not shown as its present one any more, on a busy machine too."""
@@ -44,7 +48,13 @@ class Ears:
         self.predictions = Predictions(bus)
         self.head = bus.subscribe(topics.HEAD_IMAGE)
         self.wrist = bus.subscribe(topics.WRIST_IMAGE)
+        self.queue = QueueReport(bus, self.head, self.wrist)
         self.cloud = bus.subscribe(topics.POINT_CLOUD)
+
+    def blind(self, now_ns: int) -> bool:
+        """Whether there were pictures, and they are too old to correct by."""
+        age_s = self.queue.age_s(now_ns)
+        return age_s is not None and age_s > PICTURES_WITHIN_S
 
 
 def young(received: Received[M] | None, now_ns: int) -> M | None:

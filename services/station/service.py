@@ -17,7 +17,6 @@ from protocol.messages import Figure, OperatorInput
 from services.bus.arrays import vector3
 from services.bus.bus import Bus, Pending
 from services.bus.identity import new_number
-from services.bus.picture_queue import QueueReport
 from services.process.clock import Clock
 from services.process.config import Configuration
 from services.process.exceptions import UnusableSetting
@@ -99,7 +98,6 @@ class StationService:
         self._company = Company(bus)
         self._neighbours = Neighbours(bus, workflow_settings.holder) if page is not None else None
         self._stage = Stage(self._ears)
-        self._queue = QueueReport(bus, self._ears.head, self._ears.wrist)
         self._history = HistoryReader(bus, page.effects) if page is not None else None
         self._buttons = DeviceButtons(self._ears.master, workflow_settings.holder)
         self._workflow = Workflow()
@@ -121,7 +119,7 @@ class StationService:
 
     def step(self, now_ns: int) -> None:
         """A stop before all; then look, advance the workflow, ask, tell."""
-        self._queue.step(now_ns)
+        self._ears.queue.step(now_ns)
         self._tell(now_ns, self._act(now_ns))
 
     def _act(self, now_ns: int) -> View:
@@ -141,7 +139,7 @@ class StationService:
             log.debug("%s -> %s", before.value, step.state.phase.value)
             if step.state.phase is Phase.RESETTING and step.state.placed is None:
                 self._drawn = None
-        self._publish(held)
+        self._publish(held, now_ns)
         self._pass_authority(now_ns, pressed, view)
         self._company.tell(self._attendance(), now_ns)
         return view
@@ -243,10 +241,11 @@ class StationService:
             self._drawn = Place(condition=drawn) if scene.condition else Place(object_position=vector3(drawn))
         return self._drawn
 
-    def _publish(self, held: OperatorInput) -> None:
+    def _publish(self, held: OperatorInput, now_ns: int) -> None:
         """Who is here and what is held; that s/he is present, where this station holds the authority."""
         operator, holder, epoch = self._settings.operator, self._settings.holder, self._workflow.held_epoch
-        said = msgspec.structs.replace(held, operator=operator, holder=holder, epoch=epoch)
+        blind = self._ears.blind(now_ns)
+        said = msgspec.structs.replace(held, operator=operator, holder=holder, epoch=epoch, blind=blind)
         self._bus.publish(topics.OPERATOR_INPUT, said)
         if epoch and held.present:
             renewal = messages.AuthorityRenewal(operator=operator, holder=holder, epoch=epoch)

@@ -29,7 +29,7 @@ SILENT_S = 0.3
 AGAIN_S, AGAIN_MOST_S = 0.3, 2.0
 """A declaration may be lost as well, and is repeated until something comes: at first after so long, then ever later."""
 
-DIAL_S, DIAL_MOST_S = 0.05, 1.0
+DIAL_S, DIAL_MOST_S = 0.05, 0.2
 """The same, of opening the way."""
 
 Declare = Callable[[zenoh.Session, Callable[[zenoh.Sample], None]], "zenoh.Subscriber[None]"]

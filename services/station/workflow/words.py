@@ -23,6 +23,7 @@ _HOLDS = (
     ("no operator", "absent"),
     ("nothing was heard", "unheard"),
     ("the operator's keys or device were not heard", "unheard"),
+    ("the operator's keys or device are heard", "late"),
     ("no hand", "hand"),
     ("it held for", "long"),
     ("it was asked for under another", "other"),

@@ -4,7 +4,7 @@ import sys
 import msgspec
 import pytest
 
-from protocol.messages import AuthorityState, Mode, OperatorInput, Phase, Pose, RobotState
+from protocol.messages import AuthorityState, Mode, OperatorInput, Phase, Pose, RobotState, Trouble
 from protocol.topics import AUTHORITY_STATE, MASTER_STATE, OPERATOR_INPUT, ROBOT_STATE
 from services.bus.memory import MemoryNetwork
 from services.master.service import build
@@ -210,3 +210,23 @@ def test_a_device_needs_no_room_but_its_own(module, unneeded):
     code = f"import sys, {module}; print(*sorted({{m.split('.')[0] for m in sys.modules}} & set({unneeded})))"
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=30)
     assert result.stdout.strip() == ""
+
+
+def test_by_pictures_that_are_too_old_no_hand_corrects_and_the_page_is_told_why():
+    desk = Desk()
+    desk.run(0.1, keys=())
+    assert desk.run(0.2).engaged
+    state = desk.run(0.1, blind=True)
+    assert not state.engaged
+    assert state.trouble is Trouble.BLIND
+    assert desk.run(0.2).engaged
+
+
+def test_every_state_says_which_of_the_robot_s_had_come_and_how_long_before():
+    desk = Desk()
+    robot = desk.network.bus().subscribe(ROBOT_STATE)
+    state = desk.run(0.1)
+    assert state.echoed_ns == robot.latest().message.stamp_ns
+    held_ns = state.echo_held_ns
+    state = desk.run(0.02, robot=None)
+    assert state.echo_held_ns - held_ns == pytest.approx(2e7)

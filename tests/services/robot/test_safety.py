@@ -52,6 +52,12 @@ def test_no_refinement_goes_on_without_a_hand(silence, engaged, expected):
     assert bool(reason) == bool(expected)
 
 
+@pytest.mark.parametrize(("silence", "way", "late"), [(0.05, 0.2, False), (0.05, 0.2001, True), (0.0, 9.0, True)])
+def test_no_refinement_goes_on_by_what_was_too_long_on_its_way(silence, way, late):
+    reason = Watchdog(hold_after_s=0.1, presence_after_s=0.2).hand(silence, engaged=True, way_s=way)
+    assert ("more than 250 ms late" in reason) is late
+
+
 @pytest.mark.parametrize("setting", [LONGEST_SILENCE_S + 0.001, 10.0, math.inf, math.nan])
 def test_no_setting_lets_a_robot_move_on_for_longer_than_the_bound(setting):
     watchdog = Watchdog(hold_after_s=setting, presence_after_s=setting)

@@ -243,6 +243,7 @@ def test_every_reason_of_the_robot_s_to_hold_has_words_for_whoever_stands_at_the
         watchdog.hand(None, engaged=True),
         watchdog.hand(9.0, engaged=True),
         watchdog.hand(0.0, engaged=False),
+        watchdog.hand(0.0, engaged=True, way_s=9.0),
         TOO_LONG,
         ANOTHER_AUTHORITY,
     ]

@@ -1,0 +1,76 @@
+"""The master's samples that count: of whoever holds the authority, and not too old by the clocks compared.
+
+When a sample came is judged by the robot's own clock (`Watchdog`); how long it was on its way is known as well as the
+round trips tell, and counts besides: what stood in a queue all the way comes regularly, and is old all the same.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from protocol.messages import MasterState
+from protocol.topics import MASTER_STATE
+from services.bus.bus import Bus
+from services.bus.identity import same_clock
+from services.bus.round_trips import RoundTrips
+from services.bus.subscription import Received
+from services.process.config import LONGEST_SILENCE_S
+
+
+class Samples:
+    """Follows the master under the present authority.
+
+    Args:
+        bus: to hear it.
+
+    Attributes:
+        late: how many samples were dropped because they had been on their way for too long.
+    """
+
+    def __init__(self, bus: Bus) -> None:
+        self.late = 0
+        self._own = bus.identity
+        self._master = bus.subscribe(MASTER_STATE)
+        self._newest: Received[MasterState] | None = None
+        self._sender = 0
+        self._trips = RoundTrips()
+
+    def take(self, covers: Callable[[str, int], bool], let_go: Callable[[], None]) -> Received[MasterState] | None:
+        """The newest that counts; those of any other holder or epoch do not.
+
+        Args:
+            covers: whether what a holder sends under an epoch counts now.
+            let_go: called where a hand was off the master, however late that is heard.
+        """
+        for received in self._master.take():
+            if not covers(received.message.holder, received.message.epoch):
+                continue
+            self._hear(received)
+            if not received.message.engaged:
+                let_go()
+            if self.way_s(received) > LONGEST_SILENCE_S:
+                self.late += 1
+            else:
+                self._newest = received
+        if self._newest is not None and not covers(self._newest.message.holder, self._newest.message.epoch):
+            self._newest = None
+        return self._newest
+
+    def way_s(self, received: Received[MasterState] | None) -> float:
+        """How long a sample took to come [s]; 0 where that is not known."""
+        return max(0.0, self.age_s(received, received.received_ns) or 0.0) if received is not None else 0.0
+
+    def age_s(self, received: Received[MasterState], now_ns: int) -> float | None:
+        """Since the master stamped a sample [s]; None where the clocks cannot be compared yet."""
+        message = received.message
+        if same_clock(message.publisher, self._own):
+            return (now_ns - message.stamp_ns) / 1e9
+        age_ns = self._trips.age_ns(message.stamp_ns, now_ns) if message.publisher == self._sender else None
+        return age_ns / 1e9 if age_ns is not None else None
+
+    def _hear(self, received: Received[MasterState]) -> None:
+        message = received.message
+        if message.publisher != self._sender:
+            self._sender, self._trips = message.publisher, RoundTrips()
+        if message.echoed_ns:
+            self._trips.hear(message.echoed_ns, message.echo_held_ns, message.stamp_ns, received.received_ns)
