@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from lfd.exceptions import LfdError
 from lfd.motion.trajectory import Trajectory
-from protocol.messages import ExecutionState, Figure, Method, Mode, Phase, RobotState
+from protocol.messages import ExecutionState, Figure, Method, Mode, Phase, RobotState, SceneState
 from protocol.topics import EXECUTION, OBJECT_POSE, SCENE_STATE, TEACHING_STATE
 from services.bus.arrays import motion_from_wire
 from services.bus.bus import Bus
@@ -139,33 +139,36 @@ class ScriptedMaster:
 
     def _take(self, robot: RobotState, execution: ExecutionState) -> bool:
         """Take the stylus with what is to be done in mind; False while not all has been seen."""
-        scene_state, stylus = self._scene.latest(), self._loop.newest.stylus
-        if scene_state is None:
+        received, motion, led = self._scene.latest(), self._known(execution), robot.mode is Mode.TEACH
+        place = None if received is None else self._place(received.message, motion)
+        if received is None or place is None:
             return False
-        arrangement = scene_state.message
+        arrangement, settings, stylus = received.message, self._settings, self._loop.newest.stylus
         scene = scenes.scene(arrangement.name)
         start = Pose(np.array(arrangement.start.position), np.array(arrangement.start.orientation))
-        if robot.mode is Mode.TEACH:
-            newest = self._predictions.newest()
-            known = motion_from_wire(newest.motion)[0] if newest is not None else None
-            seen = self._object.latest()
-            if not arrangement.condition and seen is None:
-                return False
-            place = np.array(arrangement.condition or self._object_position(start.position))
-            outlook = Outlook(scene, arrangement.variant, place, start)
-            way = outlook.way(known, min(self._settings.scatter, CAREFUL), self._rng)
+        outlook = Outlook(scene, arrangement.variant, place, start)
+        if led:
+            known = None if motion is None else motion.positions
+            way = outlook.way(known, min(settings.scatter, CAREFUL), self._rng)
             self._itinerary = Itinerary(way, stops=self._stores)
             self._hand.take_up(self._itinerary, stylus, scene.eye)
-            return True
-        predicted = self._predictions.motion(execution.prediction)
-        if predicted is None:
-            return False
-        prediction = Trajectory(*motion_from_wire(predicted))
-        place = np.array(arrangement.condition or self._object_position(prediction.positions[-1]))
-        outlook = Outlook(scene, arrangement.variant, place, start)
-        given = (prediction.positions, prediction.orientations, self._settings.scatter, self._rng)
-        self._hand.grip(outlook.correction(*given, self._settings.exaggeration), stylus, scene.eye)
-        return True
+        elif motion is not None:
+            given = (motion.positions, motion.orientations, settings.scatter, self._rng)
+            self._hand.grip(outlook.correction(*given, settings.exaggeration), stylus, scene.eye)
+        return led or motion is not None
+
+    def _known(self, execution: ExecutionState) -> Trajectory | None:
+        """What is corrected; where the hand leads alone, what the robot would do by itself as far as that is known."""
+        alone = execution.mode is Mode.TEACH
+        predicted = self._predictions.newest() if alone else self._predictions.find(execution.prediction)
+        return None if predicted is None else Trajectory(*motion_from_wire(predicted.motion))
+
+    def _place(self, arrangement: SceneState, motion: Trajectory | None) -> NDArray[np.float64] | None:
+        """Where the target was seen last; where it never was, the robot's guess is as good as any."""
+        seen = self._object.latest()
+        if arrangement.condition or seen is not None:
+            return np.array(arrangement.condition or (seen and seen.message.pose.position))
+        return None if motion is None else motion.positions[-1]
 
     @property
     def _stores(self) -> bool:
@@ -186,11 +189,6 @@ class ScriptedMaster:
         """The buttons that are held now."""
         self._buttons = [(button, since) for button, since in self._buttons if now_ns < since + _PRESSED_NS]
         return tuple(button for button, since in self._buttons if since <= now_ns)
-
-    def _object_position(self, otherwise: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Where the object was seen last; where it never was, the robot's guess is as good as any."""
-        seen = self._object.latest()
-        return np.array(seen.message.pose.position) if seen else otherwise
 
     def _seen(self, robot: RobotState) -> Seen:
         measured = robot.measured
