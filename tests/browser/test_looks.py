@@ -1,6 +1,8 @@
 """How the main states look: regions where they belong, none of them empty. They are pictured for the documentation by
 
 deploy/test tests/browser/test_looks.py --pictures deploy/pictures/states
+
+and looked at again in every test run: what became another picture has to be pictured anew, and seen to be right.
 """
 
 from dataclasses import replace
@@ -30,6 +32,12 @@ REGIONS = {
 """Left, top, right and bottom as shares of a window of 1600 x 900; None where it depends on what is said."""
 
 PICTURE = (1280, 720)
+PICTURES = Path(__file__).parents[2] / "deploy" / "pictures" / "states"
+QUALITY = 60
+SQUARE, NOTICED, AT_MOST = 16, 24, 0.03
+"""Pictures are compared by squares of so many pixels, which differ by so much of 255; and of how many may."""
+
+LOOKS = 6
 AT_LEAST_SENT = 3
 """So often the cameras' pictures are sent, as new ones each time: one that is old is grey."""
 
@@ -106,25 +114,54 @@ def scenery():
     return {name: Picture(jpeg, 0.02) for name, jpeg in zip(("head", "wrist"), encoded, strict=True)}
 
 
-@pytest.fixture
-def folder(request, tmp_path):
-    """Where the pictures go."""
-    chosen = Path(request.config.getoption("--pictures", default=None) or tmp_path)
-    chosen.mkdir(parents=True, exist_ok=True)
-    return chosen
-
-
 @pytest.mark.parametrize("name", STATES)
-def test_every_state_is_pictured(tab, station, scenery, folder, name):
-    """The pictures are the documentation's; how they look in detail is for people to judge."""
-    width, height = PICTURE
-    tab.page.set_viewport_size({"width": width, "height": height})
+def test_every_state_looks_as_it_is_pictured(request, viewed, station, tmp_path, name):
+    """Or is pictured for the documentation. How it looks in detail is for people to judge."""
+    folder = request.config.getoption("--pictures", default=None)
+    viewed.page.set_viewport_size({"width": PICTURE[0], "height": PICTURE[1]})
+    show(viewed, station[1], STATES[name])
+    if folder is not None:
+        draw(viewed, station[1], STATES[name], request.getfixturevalue("scenery"))
+        Path(folder).mkdir(parents=True, exist_ok=True)
+        viewed.page.screenshot(path=Path(folder) / f"{name}.jpg", type="jpeg", quality=QUALITY)
+        return
+    now, then = settled(viewed), cv2.imread(str(PICTURES / f"{name}.jpg"))
+    differs = difference(now, then, viewed.page.locator(".scene").bounding_box())
+    if differs.mean() > AT_MOST:
+        shown = tmp_path / f"{name}.png"
+        marks = cv2.resize(differs.astype(np.uint8) * 255, PICTURE, interpolation=cv2.INTER_NEAREST)
+        cv2.imwrite(str(shown), cv2.vconcat([then, now, cv2.cvtColor(marks, cv2.COLOR_GRAY2BGR)]))
+        pytest.fail(f"{differs.mean():.1%} of the page looks otherwise: as it was, as it is, and where in {shown}")
+
+
+def draw(tab, feed, view, scenery):
+    """Let everything be drawn as finely as it can be."""
     tab.wait(".scene[data-view=live]")
-    show(tab, station[1], STATES[name])
-    tab.page.wait_for_timeout(1500)  # the view is drawn as finely as it can once nothing changes
-    for _ in range(AT_LEAST_SENT if STATES[name].head is not None else 0):
+    tab.page.wait_for_timeout(1500)  # the view is drawn finer once nothing changes
+    for _ in range(AT_LEAST_SENT if view.head is not None else 0):
         sent = {camera: replace(picture, data=bytes(bytearray(picture.data))) for camera, picture in scenery.items()}
-        station[1].view = replace(STATES[name], **sent)
+        feed.view = replace(view, **sent)
         tab.page.wait_for_timeout(200)
-    tab.page.screenshot(path=folder / f"{name}.jpg", type="jpeg", quality=60)
-    assert (folder / f"{name}.jpg").stat().st_size > 10_000
+
+
+def settled(tab):
+    """The page once it moves no more, as OpenCV has pictures."""
+    before = None
+    for _ in range(LOOKS):
+        now = tab.page.screenshot(mask=[tab.page.locator(".scene")], animations="disabled")
+        if now == before:
+            break
+        before = now
+    return cv2.imdecode(np.frombuffer(now, np.uint8), cv2.IMREAD_COLOR)
+
+
+def difference(now, then, scene):
+    """Which squares of two pictures differ, but for the scene: what is drawn there, no two machines draw alike."""
+    boxes = [int(scene[side]) for side in ("x", "y", "width", "height")]
+    squares = []
+    for picture in (now, then):
+        known = picture.copy()
+        cv2.rectangle(known, boxes, (0, 0, 0), cv2.FILLED)
+        size = PICTURE[0] // SQUARE, PICTURE[1] // SQUARE
+        squares.append(cv2.resize(known, size, interpolation=cv2.INTER_AREA).astype(int))
+    return np.abs(squares[0] - squares[1]).max(axis=2) > NOTICED
