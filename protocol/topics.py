@@ -49,6 +49,7 @@ class Topic(Generic[M]):
         max_bytes: of an encoded message.
         about: one line for people.
         kept: messages that a receiver keeps until it takes them; 1 where only the newest counts.
+        readers: the robot's own processes that read it, by their roles; people's processes may read everything.
     """
 
     name: str
@@ -59,6 +60,7 @@ class Topic(Generic[M]):
     max_bytes: int
     about: str
     kept: int = 1
+    readers: tuple[str, ...] = ()
 
     @cached_property
     def schema(self) -> str:
@@ -93,6 +95,16 @@ def role(process: str) -> str:
     return process.partition("-")[0]
 
 
+def process_name(role: str, operator: str) -> str:
+    """The name of an operator's process: it says whose it is, so that two can be there at once."""
+    return f"{role}-{operator}"
+
+
+def person(process: str) -> str:
+    """Whose a process is by its name; empty where it is no operator's, or one of an operator who gave no name."""
+    return process.partition("-")[2]
+
+
 def checked_name(name: str) -> str:
     """The name itself.
 
@@ -115,13 +127,37 @@ OPERATOR_INPUT = Topic(  # kept: between two steps of the master another station
     kept=8,
 )
 MASTER_STATE = Topic(  # kept: between two steps of the robot a master without authority must not hide the holder's
-    "cmd/master_state", messages.MasterState, 100.0, QoS.REALTIME, "master", 4_608, "the operator's correction", kept=8
+    "cmd/master_state",
+    messages.MasterState,
+    100.0,
+    QoS.REALTIME,
+    "master",
+    4_608,
+    "the operator's correction",
+    kept=8,
+    readers=("robot",),
 )
 AUTHORITY_RENEWAL = Topic(
-    "authority/renewal", messages.AuthorityRenewal, 50.0, QoS.STATE, "station", 1_536, "an operator is present", kept=8
+    "authority/renewal",
+    messages.AuthorityRenewal,
+    50.0,
+    QoS.STATE,
+    "station",
+    1_536,
+    "an operator is present",
+    kept=8,
+    readers=("robot",),
 )
 AUTHORITY_REQUEST = Topic(
-    "authority/request", messages.AuthorityRequest, 10.0, QoS.STATE, "station", 1_536, "asks who commands", kept=8
+    "authority/request",
+    messages.AuthorityRequest,
+    10.0,
+    QoS.STATE,
+    "station",
+    1_536,
+    "asks who commands",
+    kept=8,
+    readers=("robot",),
 )
 AUTHORITY_STATE = Topic(
     "authority/state", messages.AuthorityState, 10.0, QoS.STATE, "robot", 3_584, "who may command, and who asks to"
@@ -135,6 +171,7 @@ EMERGENCY_STOP = Topic(
     20_480,
     "stop, repeated while pressed",
     kept=16,
+    readers=("robot",),
 )
 SAFETY_STATE = Topic(
     "safety/state", messages.SafetyState, 10.0, QoS.STATE, "robot", 20_480, "what keeps the robot from moving"
@@ -143,10 +180,24 @@ ROBOT_STATE = Topic(
     "state/robot", messages.RobotState, 100.0, QoS.STATE, "robot", 49_152, "joints and poses, measured and commanded"
 )
 WORLD_STATE = Topic(
-    "state/world", messages.WorldState, 50.0, QoS.STATE, "robot", 16_384, "the simulated world, to draw"
+    "state/world",
+    messages.WorldState,
+    50.0,
+    QoS.STATE,
+    "robot",
+    16_384,
+    "the simulated world, to draw",
+    readers=("camera",),
 )
 SCENE_STATE = Topic(
-    "state/scene", messages.SceneState, 1.0, QoS.STATE, "robot", 262_144, "the scene and its success criteria"
+    "state/scene",
+    messages.SceneState,
+    1.0,
+    QoS.STATE,
+    "robot",
+    262_144,
+    "the scene and its success criteria",
+    readers=("camera", "model"),
 )
 VERDICT = Topic("state/verdict", messages.Verdict, 30.0, QoS.STATE, "robot", 2_048, "reached, kicked over, collision")
 EXECUTION = Topic("state/execution", messages.ExecutionState, 10.0, QoS.STATE, "robot", 1_024, "the motion under way")
@@ -160,7 +211,16 @@ EPISODE_RESULT = Topic(
     "what became of an episode",
     kept=16,
 )
-HEAD_IMAGE = Topic("cam/head", messages.CameraImage, 15.0, QoS.PICTURE, "camera", 1_048_576, "the head camera")
+HEAD_IMAGE = Topic(
+    "cam/head",
+    messages.CameraImage,
+    15.0,
+    QoS.PICTURE,
+    "camera",
+    1_048_576,
+    "the head camera",
+    readers=("perception",),
+)
 WRIST_IMAGE = Topic("cam/wrist", messages.CameraImage, 15.0, QoS.PICTURE, "camera", 1_048_576, "the wrist camera")
 POINT_CLOUD = Topic(
     "cam/cloud", messages.PointCloud, 5.0, QoS.PICTURE, "camera", 73_728, "surfaces that the head camera sees"
@@ -169,7 +229,13 @@ PICTURE_QUEUE = Topic(
     "cam/queue", messages.PictureQueue, 5.0, QoS.STATE, "any", 1_024, "how late pictures come to who looks", kept=64
 )
 OBJECT_POSE = Topic(
-    "state/object_pose", messages.ObjectPose, 15.0, QoS.STATE, "perception", 1_536, "the object as the camera sees it"
+    "state/object_pose",
+    messages.ObjectPose,
+    15.0,
+    QoS.STATE,
+    "perception",
+    1_536,
+    "the object as the camera sees it",
 )
 PREDICTION = Topic(
     "model/prediction",
@@ -180,6 +246,7 @@ PREDICTION = Topic(
     1_048_576,
     "the newest prediction, how much of it is known, and which way it takes",
     kept=16,
+    readers=("robot",),
 )
 MODEL_STATE = Topic("model/state", messages.ModelState, 1.0, QoS.STATE, "model", 2_048, "the model as it lies on disk")
 TEACHING_STATE = Topic(

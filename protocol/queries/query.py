@@ -24,6 +24,8 @@ class Query(Generic[Req, Rep]):
         server: the process that answers.
         max_bytes: of a request or a reply.
         about: one line for people.
+        askers: the processes that ask it, by their roles.
+        looks: it changes nothing: whoever looks on may ask it too.
     """
 
     name: str
@@ -32,12 +34,15 @@ class Query(Generic[Req, Rep]):
     server: str
     max_bytes: int
     about: str
+    askers: tuple[str, ...] = ("station",)
+    looks: bool = False
 
     @property
     def schema(self) -> str:
         """Announced with every request."""
         return f"{self.request.__name__}/1"
 
-    def key(self, robot: str) -> str:
-        """The key expression at which the robot's server answers."""
-        return f"retouch/{VERSION}/{checked_name(robot)}/{self.name}/{self.server}"
+    def key(self, robot: str, asker: str = "*") -> str:
+        """The key expression at which the robot's server answers a process; by default every one."""
+        place = f"retouch/{VERSION}/{checked_name(robot)}/{self.name}/{self.server}"
+        return f"{place}/{asker if asker == '*' else checked_name(asker)}"

@@ -22,7 +22,15 @@ ACQUIRE = Query("authority/acquire", AcquireAuthority, AuthorityGranted, "robot"
 ANSWER = Query(
     "authority/answer", AnswerRequest, Accepted, "robot", 20_480, "give the authority to who asks, or keep it"
 )
-REVOKE = Query("authority/revoke", RevokeAuthority, Accepted, "robot", 20_480, "end the authority of whoever commands")
+REVOKE = Query(
+    "authority/revoke",
+    RevokeAuthority,
+    Accepted,
+    "robot",
+    20_480,
+    "end the authority of whoever commands",
+    askers=("station", "cli"),
+)
 RELEASE = Query("authority/release", ReleaseAuthority, Accepted, "robot", 20_480, "give the authority back")
 EXECUTE = Query("cmd/execute", Execute, EpisodeStarted, "robot", 20_480, "execute a prediction")
 TELEOPERATE = Query(
@@ -32,19 +40,64 @@ FINISH = Query("cmd/finish", Finish, Accepted, "robot", 20_480, "end the episode
 PACE = Query("cmd/pace", Pace, Accepted, "robot", 20_480, "faster, slower, pause or back")
 RESUME = Query("cmd/resume", Resume, Accepted, "robot", 20_480, "go on after a hold")
 RESET = Query("cmd/reset", Reset, Accepted, "robot", 20_480, "back to the start")
-RELEASE_STOP = Query("safety/release_stop", ReleaseStop, Accepted, "robot", 20_480, "release the emergency stop")
-PREDICT = Query("model/predict", Predict, Predicted, "model", 1_048_576, "predict a motion")
-PLAN = Query("model/plan", Plan, Predicted, "model", 1_048_576, "make a motion of what an operator showed")
-ADD_DEMONSTRATION = Query(
-    "model/add_demonstration", AddDemonstration, Learnt, "model", 4_194_304, "learn; answered when it is on disk"
+RELEASE_STOP = Query(
+    "safety/release_stop",
+    ReleaseStop,
+    Accepted,
+    "robot",
+    20_480,
+    "release the emergency stop",
+    askers=("station", "cli"),
 )
-UNDO = Query("model/undo", Undo, Learnt, "model", 20_480, "take the newest update back, or any demonstration")
+PREDICT = Query("model/predict", Predict, Predicted, "model", 1_048_576, "predict a motion")
+PLAN = Query(
+    "model/plan",
+    Plan,
+    Predicted,
+    "model",
+    1_048_576,
+    "make a motion of what an operator showed",
+    askers=("station", "teach"),
+)
+ADD_DEMONSTRATION = Query(
+    "model/add_demonstration",
+    AddDemonstration,
+    Learnt,
+    "model",
+    4_194_304,
+    "learn; answered when it is on disk",
+    askers=("station", "teach"),
+)
+UNDO = Query(
+    "model/undo",
+    Undo,
+    Learnt,
+    "model",
+    20_480,
+    "take the newest update back, or any demonstration",
+    askers=("station", "teach"),
+)
 REDO = Query("model/redo", Redo, Learnt, "model", 20_480, "use a demonstration again that was taken back")
 HISTORY = Query(
-    "model/history", ListHistory, HistoryListed, "model", 1_048_576, "what was learnt, by whom, and how far it led"
+    "model/history",
+    ListHistory,
+    HistoryListed,
+    "model",
+    1_048_576,
+    "what was learnt, by whom, and how far it led",
+    looks=True,
 )
-COMPARE = Query("model/compare", Compare, Compared, "model", 1_048_576, "what a demonstration changes")
-DESCRIBE = Query("model/describe", Describe, Learnt, "model", 20_480, "the model as it lies on disk")
+COMPARE = Query("model/compare", Compare, Compared, "model", 1_048_576, "what a demonstration changes", looks=True)
+DESCRIBE = Query(
+    "model/describe",
+    Describe,
+    Learnt,
+    "model",
+    20_480,
+    "the model as it lies on disk",
+    askers=("station", "teach"),
+    looks=True,
+)
 
 QUERIES: tuple[Query[Any, Any], ...] = (
     ACQUIRE,
