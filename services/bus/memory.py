@@ -110,7 +110,7 @@ class MemoryBus:
             pending.settle(Failed(str(error)))
             return pending
         announced = announcement(query, self._network.robot, query.request)
-        server.receive(payload, announced, lambda reply: pending.settle(decode_reply(query, reply)))
+        server.receive(payload, announced, lambda reply: pending.settle(decode_reply(query, reply)), self._process)
         return pending
 
     def neighbours(self) -> frozenset[str]:

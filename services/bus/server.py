@@ -27,11 +27,19 @@ CALLS_KEPT = 64
 
 @dataclass(frozen=True)
 class Call(Generic[Req, Rep]):
-    """A request that waits for its answer."""
+    """A request that waits for its answer.
+
+    Attributes:
+        query: that was asked.
+        request: what for.
+        respond: takes the encoded answer.
+        asker: the process that asks, as the network knows it; empty for a test that speaks for anybody.
+    """
 
     query: Query[Req, Rep]
     request: Req
     respond: Callable[[bytes], None]
+    asker: str = ""
 
     def reply(self, reply: Rep | Refused) -> None:
         """Answer, once; an answer that does not fit the query's bound becomes a refusal that says so."""
@@ -63,8 +71,15 @@ class Server(Generic[Req, Rep]):
         """What was no request so far, by cause."""
         return self._tally.drops
 
-    def receive(self, payload: bytes, announced: str, respond: Respond) -> None:
-        """Queue the request, or answer it as before; what is no request, or one too many, is refused at once."""
+    def receive(self, payload: bytes, announced: str, respond: Respond, asker: str = "") -> None:
+        """Queue the request, or answer it as before; what is no request, or one too many, is refused at once.
+
+        Args:
+            payload: as received.
+            announced: by the asker.
+            respond: takes the encoded answer.
+            asker: the process that asks, by the key that the transport names.
+        """
         try:
             schema = check_announced(self._query, self._robot, announced)
             request = decode_request(self._query, payload, schema)
@@ -80,7 +95,7 @@ class Server(Generic[Req, Rep]):
             if full and number:
                 self._answers.drop(number)
             elif first:
-                self._calls.append(Call(self._query, request, self._keeping(number) if number else respond))
+                self._calls.append(Call(self._query, request, self._keeping(number) if number else respond, asker))
         if full:
             respond(_encoded(self._query, Refused(f"too many requests wait for {self._query.name}")))
         elif not first:

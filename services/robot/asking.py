@@ -6,6 +6,7 @@ from collections import deque
 from dataclasses import dataclass, replace
 
 from protocol.messages import SILENCE_GIVES_S, AuthorityRequest
+from protocol.topics import person
 
 UNSAID_NS = 1_000_000_000
 """Whoever has not said for so long that it asks does not ask any more."""
@@ -21,7 +22,8 @@ class Question:
     Attributes:
         number: of the request.
         holder: the station that asks.
-        operator: the person who asks.
+        operator: the person who asks, as the station says.
+        person: the same, as the network knows it.
         since_ns: when it began.
         said_ns: when it was said last.
     """
@@ -29,6 +31,7 @@ class Question:
     number: int
     holder: str
     operator: str
+    person: str
     since_ns: int
     said_ns: int
 
@@ -60,7 +63,9 @@ class Asking:
         if not request.number or request.number in self._declined:
             return
         if question is None:
-            self.question = Question(request.number, request.holder, request.operator, received_ns, received_ns)
+            self.question = Question(
+                request.number, request.holder, request.operator, person(request.process), received_ns, received_ns
+            )
         elif question.number == request.number:
             self.question = replace(question, said_ns=max(question.said_ns, received_ns))
 

@@ -2,6 +2,7 @@
 
 from protocol.messages import SHORTEST_REASON, AuthorityEvent, AuthorityRequest
 from protocol.queries import AnswerRequest, ReleaseAuthority, RevokeAuthority
+from protocol.topics import person
 from services.process.config import LONGEST_LEASE_S
 from services.robot.asking import Asking
 from services.robot.refusal import Refusal
@@ -34,6 +35,7 @@ class Lease:
         self.event = AuthorityEvent.NONE
         self.by = self.before = self.reason = ""
         self.asking = Asking()
+        self._person = NOBODY
         self._expires_ns = 0
         self._renewed_ns: int | None = None
 
@@ -43,9 +45,24 @@ class Lease:
         return self.operator or self.holder
 
     def acquire(
-        self, holder: str, now_ns: int, *, operator: str = "", take_over: bool = False, reason: str = ""
+        self,
+        holder: str,
+        now_ns: int,
+        *,
+        operator: str = "",
+        take_over: bool = False,
+        reason: str = "",
+        process: str = "",
     ) -> int:
         """Give the authority to a holder; its new epoch.
+
+        Args:
+            holder: the station's name.
+            now_ns: the time.
+            operator: the person there, as the station says.
+            take_over: end another one's.
+            reason: why.
+            process: that asks, as the network knows it: its person's other processes may use the authority, too.
 
         Raises:
             Refusal: another one holds it and it is not taken over, or without a reason, or the name is empty.
@@ -60,6 +77,7 @@ class Lease:
             self._change(AuthorityEvent.TAKEN_OVER, operator or holder, holder, operator, reason=why)
         else:
             raise Refusal(f"{self.who} holds the authority: ask for it, or take over")
+        self._person = person(process)
         self._begin(now_ns)
         return self.epoch
 
@@ -84,13 +102,14 @@ class Lease:
         else:
             self.asking.decline()
 
-    def covers(self, holder: str, epoch: int) -> bool:
-        """Whether what a holder sends under an epoch counts now."""
-        return self.holder != NOBODY and self.holder == holder and self.epoch == epoch
+    def covers(self, holder: str, epoch: int, process: str) -> bool:
+        """Whether what a process sends for a holder under an epoch counts now: another person's does not."""
+        mine = (self.holder, self.epoch, self._person)
+        return self.holder != NOBODY and (holder, epoch, person(process)) == mine
 
-    def renew(self, holder: str, epoch: int, received_ns: int) -> None:
+    def renew(self, holder: str, epoch: int, process: str, received_ns: int) -> None:
         """Prolong the lease from when its holder was heard; a stranger's renewal does nothing."""
-        if self.covers(holder, epoch):
+        if self.covers(holder, epoch, process):
             self._renewed_ns = max(self._renewed_ns or 0, received_ns)
             self._expires_ns = max(self._expires_ns, received_ns + self._duration_ns)
 
@@ -144,6 +163,15 @@ class Lease:
         if epoch != self.epoch:
             raise Refusal(f"the command is of epoch {epoch}, the authority of epoch {self.epoch} is {self.who}'s")
 
+    def check_sender(self, epoch: int, process: str) -> None:
+        """Let a command pass that does not use another person's authority: everybody can read of which epoch it is.
+
+        Raises:
+            Refusal: the process is another person's.
+        """
+        if self.holder != NOBODY and epoch == self.epoch and person(process) != self._person:
+            raise Refusal(f"the authority is {self.who}'s: {process!r} cannot command under it")
+
     def expires_in_s(self, now_ns: int) -> float:
         """Until the lease runs out [s]; 0 where nobody holds it."""
         return max(0, self._expires_ns - now_ns) / 1e9 if self.holder != NOBODY else 0.0
@@ -156,6 +184,7 @@ class Lease:
         question = self.asking.question
         if question is not None:
             self._change(event, self.who, question.holder, question.operator)
+            self._person = question.person
             self._begin(now_ns)
 
     def _check_holder(self, holder: str) -> None:

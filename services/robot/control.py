@@ -80,11 +80,11 @@ class Control:
         self.master_gain = master_gain
         self._place: Array = scene.training_positions[0]
 
-    def acquire(self, request: AcquireAuthority, now_ns: int) -> int:
-        """Give the authority to a holder; the epoch."""
+    def acquire(self, request: AcquireAuthority, process: str, now_ns: int) -> int:
+        """Give the authority to a holder for whom a process asks; the epoch."""
         self._check_stop()
         holder, who, over, why = request.holder, request.operator, request.take_over, request.reason
-        return self.lease.acquire(holder, now_ns, operator=who, take_over=over, reason=why)
+        return self.lease.acquire(holder, now_ns, operator=who, take_over=over, reason=why, process=process)
 
     def execute(self, request: Execute, predicted: Prediction | None) -> int:
         """Begin an episode; its number.

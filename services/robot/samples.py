@@ -35,15 +35,15 @@ class Samples:
         self._sender = 0
         self._trips = RoundTrips()
 
-    def take(self, covers: Callable[[str, int], bool], let_go: Callable[[], None]) -> Received[MasterState] | None:
-        """The newest that counts; those of any other holder or epoch do not.
+    def take(self, covers: Callable[[str, int, str], bool], let_go: Callable[[], None]) -> Received[MasterState] | None:
+        """The newest that counts; those of any other holder, epoch or person do not.
 
         Args:
-            covers: whether what a holder sends under an epoch counts now.
+            covers: whether what a process sends for a holder under an epoch counts now.
             let_go: called where a hand was off the master, however late that is heard.
         """
         for received in self._master.take():
-            if not covers(received.message.holder, received.message.epoch):
+            if not covers(received.message.holder, received.message.epoch, received.message.process):
                 continue
             self._hear(received)
             if not received.message.engaged:
@@ -52,7 +52,7 @@ class Samples:
                 self.late += 1
             else:
                 self._newest = received
-        if self._newest is not None and not covers(self._newest.message.holder, self._newest.message.epoch):
+        if (old := self._newest) is not None and not covers(old.message.holder, old.message.epoch, old.message.process):
             self._newest = None
         return self._newest
 

@@ -4,33 +4,30 @@ from __future__ import annotations
 
 import logging
 from collections import deque
-from collections.abc import Callable
 from datetime import UTC, datetime
 
 import numpy as np
 from numpy.typing import NDArray
 
-from protocol import queries, topics
+from protocol import topics
 from protocol.messages import Figure, MasterState, Mode, Phase
-from protocol.queries import Accepted, AuthorityGranted, EpisodeStarted, Execute, Refused
-from services.bus.bus import Bus, Rep, Req
-from services.bus.predictions import Predictions
-from services.bus.server import Server
+from services.bus.bus import Bus
 from services.bus.subscription import Received
 from services.process.clock import Clock
 from services.process.config import Configuration
+from services.process.endpoint import parse
 from services.process.lines import one_line
 from services.robot.assembly import kinematics_of, simulated_arm
 from services.robot.backends.backend import CONTROL_PERIOD
 from services.robot.control import Control
-from services.robot.mechanism import Mechanism
 from services.robot.memory import Memory, safety_file
-from services.robot.refusal import Refusal
+from services.robot.requests import Requests
 from services.robot.safety import Watchdog
 from services.robot.samples import Samples
 from services.robot.states import States
 from services.robot.synchronisation import Synchronisation
 from services.robot.tick import Tick
+from services.robot.timed_kinematics import TimedKinematics
 from sim.robots.description import prepare
 from sim.tasks import scene as scene_named
 
@@ -77,32 +74,7 @@ def build(bus: Bus, clock: Clock, configuration: Configuration, memory: Memory |
         memory=memory,
         utc=lambda: datetime.now(UTC),
     )
-    return RobotService(bus, clock, control, kinematics)
-
-
-class TimedKinematics:
-    """Kinematics that remembers how long each step of the inverse took. See `Mechanism`.
-
-    Args:
-        clock: to measure with.
-        kinematics: that is timed.
-    """
-
-    def __init__(self, clock: Clock, kinematics: Mechanism) -> None:
-        self.lower, self.upper = kinematics.lower, kinematics.upper
-        self.velocity_limit, self.admitted = kinematics.velocity_limit, kinematics.admitted
-        self.forward, self.solve, self.self_distance = kinematics.forward, kinematics.solve, kinematics.self_distance
-        self._clock = clock
-        self._solve_step = kinematics.solve_step
-        self.steps_ns: deque[int] = deque(maxlen=FIGURES_KEPT)
-
-    def solve_step(self, q: Array, position: Array, orientation: Array, dt: float) -> tuple[Array, Array]:
-        """As of the kinematics that is timed."""
-        started = self._clock.now_ns()
-        try:
-            return self._solve_step(q, position, orientation, dt)
-        finally:
-            self.steps_ns.append(self._clock.now_ns() - started)
+    return RobotService(bus, clock, control, kinematics, proven=parse(configuration.connect).secure)
 
 
 class RobotService:
@@ -113,11 +85,14 @@ class RobotService:
         clock: when a command has been given.
         control: that decides.
         kinematics: whose durations are reported.
+        proven: the network shows who somebody is.
     """
 
     rate_hz = 1.0 / CONTROL_PERIOD
 
-    def __init__(self, bus: Bus, clock: Clock, control: Control, kinematics: TimedKinematics) -> None:
+    def __init__(
+        self, bus: Bus, clock: Clock, control: Control, kinematics: TimedKinematics, *, proven: bool = False
+    ) -> None:
         self._bus = bus
         self._clock = clock
         self._control = control
@@ -128,31 +103,20 @@ class RobotService:
         self._renewal = bus.subscribe(topics.AUTHORITY_RENEWAL)
         self._request = bus.subscribe(topics.AUTHORITY_REQUEST)
         self._emergency_stop = bus.subscribe(topics.EMERGENCY_STOP)
-        self._predictions = Predictions(bus)
-        self._acquire = bus.serve(queries.ACQUIRE)
-        self._authority_answer = bus.serve(queries.ANSWER)
-        self._revoke = bus.serve(queries.REVOKE)
-        self._release = bus.serve(queries.RELEASE)
-        self._execute = bus.serve(queries.EXECUTE)
-        self._teleoperate = bus.serve(queries.TELEOPERATE)
-        self._finish = bus.serve(queries.FINISH)
-        self._pace = bus.serve(queries.PACE)
-        self._resume = bus.serve(queries.RESUME)
-        self._reset = bus.serve(queries.RESET)
-        self._release_stop = bus.serve(queries.RELEASE_STOP)
+        self._requests = Requests(bus, control, proven=proven)
         self._applied: Received[MasterState] | None = None
         self._applied_latency = -1.0
         self._given_ns = 0
         self._latencies: deque[float] = deque(maxlen=FIGURES_KEPT)
         self._first_ns: int | None = None
         self._told_epoch = control.lease.epoch
-        self._ticks = self._touching = self._clamped = self._refused = 0
+        self._ticks = self._touching = self._clamped = 0
 
     def step(self, now_ns: int) -> None:
         """Hear, answer, command, report."""
         self._first_ns = now_ns if self._first_ns is None else self._first_ns
         self._hear()
-        self._answer_all(now_ns)
+        self._requests.answer(now_ns)
         sample = self._samples.take(self._control.lease.covers, self._control.let_go)
         if sample is not None:
             self._synchronisation.heard(now_ns, sample.received_ns)
@@ -182,7 +146,7 @@ class RobotService:
             Figure("simulation_lag", max(0.0, elapsed - self._ticks * CONTROL_PERIOD), "s"),
             Figure("touching", float(self._touching), "periods"),
             Figure("clamped", float(self._clamped), "periods"),
-            Figure("refused", float(self._refused), "requests"),
+            Figure("refused", float(self._requests.refused), "requests"),
             Figure("late", float(self._samples.late), "samples"),
         )
         self._latencies.clear()
@@ -199,25 +163,10 @@ class RobotService:
             if press.message.pressed:
                 self._control.press(press.message.by, press.message.reason)
         for renewal in self._renewal.take():
-            self._control.lease.renew(renewal.message.holder, renewal.message.epoch, renewal.received_ns)
+            said = renewal.message
+            self._control.lease.renew(said.holder, said.epoch, said.process, renewal.received_ns)
         for request in self._request.take():
             self._control.lease.ask(request.message, request.received_ns)
-
-    def _answer_all(self, now_ns: int) -> None:
-        control = self._control
-        lease = control.lease
-        lease_s = lease.duration_s
-        self._answer(self._acquire, lambda request: AuthorityGranted(control.acquire(request, now_ns), lease_s))
-        self._answer(self._authority_answer, _accepting(lambda request: lease.answer(request, now_ns)))
-        self._answer(self._revoke, _accepting(lease.revoke))
-        self._answer(self._release, _accepting(lease.release))
-        self._answer(self._execute, self._executed)
-        self._answer(self._teleoperate, lambda request: EpisodeStarted(control.teleoperate(request)))
-        self._answer(self._finish, _accepting(control.finish))
-        self._answer(self._pace, _accepting(control.pace))
-        self._answer(self._resume, _accepting(control.resume))
-        self._answer(self._reset, _accepting(control.reset))
-        self._answer(self._release_stop, _accepting(control.release_stop))
 
     def _tell_who_commands(self) -> None:
         """Log who took the authority from whom, and why."""
@@ -226,28 +175,6 @@ class RobotService:
             event = lease.event.value.replace("_", " ")
             log.warning("%s", one_line(f"{lease.before}'s authority was {event} by {lease.by}: {lease.reason}"))
         self._told_epoch = lease.epoch
-
-    def _executed(self, request: Execute) -> EpisodeStarted:
-        return EpisodeStarted(self._control.execute(request, self._predictions.find(request.prediction)))
-
-    def _answer(self, server: Server[Req, Rep], answer: Callable[[Req], Rep]) -> None:
-        for call in server.take():
-            reply: Rep | Refused
-            try:
-                reply = answer(call.request)
-            except Refusal as refusal:
-                reply = self._refuse(refusal.reason, lasting=refusal.lasting)
-            except Exception as error:
-                # Nothing that a client sends may end the robot's process.
-                log.debug("as raised", exc_info=error)
-                reply = self._refuse(f"the robot failed at this request ({type(error).__name__}: {error})")
-            call.reply(reply)
-
-    def _refuse(self, reason: str, *, lasting: bool = False) -> Refused:
-        self._refused += 1
-        line = one_line(reason)
-        log.warning("refused: %s", line)
-        return Refused(line, lasting)
 
     def _given(self) -> None:
         """The arm has its command: what follows in the step, simulated physics included, delays no sample."""
@@ -265,14 +192,6 @@ class RobotService:
         self._applied_latency = -1.0 if latency is None else max(0.0, latency)
         if latency is not None:
             self._latencies.append(self._applied_latency)
-
-
-def _accepting(carry_out: Callable[[Req], None]) -> Callable[[Req], Accepted]:
-    def answer(request: Req) -> Accepted:
-        carry_out(request)
-        return Accepted()
-
-    return answer
 
 
 def _quantiles(samples: deque[int] | deque[float]) -> tuple[float, float]:

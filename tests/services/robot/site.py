@@ -14,7 +14,8 @@ from services.robot.assembly import kinematics_of, simulated_arm
 from services.robot.control import Control
 from services.robot.memory import Volatile
 from services.robot.safety import Watchdog
-from services.robot.service import RobotService, TimedKinematics
+from services.robot.service import RobotService
+from services.robot.timed_kinematics import TimedKinematics
 from sim.robots.description import RobotDescription
 from sim.tasks import PARTICLE
 from tests.services.predictions import announce

@@ -40,7 +40,7 @@ def test_take_over_fences_the_former_holder_off():
     lease.check(present)
     with pytest.raises(Refusal, match="bob"):
         lease.check(former)
-    lease.renew("ann", former, SECOND)
+    lease.renew("ann", former, "station", SECOND)
     lease.expire(SECOND + 1)
     assert lease.holder == NOBODY
 
@@ -49,7 +49,7 @@ def test_the_lease_lives_as_long_as_it_is_renewed():
     lease = Lease(1.0)
     epoch = lease.acquire("ann", 0)
     for now in range(0, 10 * SECOND, SECOND // 2):
-        lease.renew("ann", epoch, now)
+        lease.renew("ann", epoch, "station", now)
         lease.expire(now)
         assert lease.holder == "ann"
     lease.expire(12 * SECOND)
@@ -85,7 +85,7 @@ def test_the_lease_says_how_long_it_lasts():
     epoch = lease.acquire("ann", 0)
     assert lease.expires_in_s(0) == 1.0
     assert lease.expires_in_s(SECOND // 4) == 0.75
-    lease.renew("ann", epoch, SECOND // 2)
+    lease.renew("ann", epoch, "station", SECOND // 2)
     assert lease.expires_in_s(SECOND // 2) == 1.0
     assert lease.expires_in_s(5 * SECOND) == 0.0
 
@@ -93,7 +93,7 @@ def test_the_lease_says_how_long_it_lasts():
 def test_a_renewal_that_comes_late_does_not_shorten_the_lease():
     lease = Lease(1.0)
     epoch = lease.acquire("ann", SECOND)
-    lease.renew("ann", epoch, SECOND // 2)
+    lease.renew("ann", epoch, "station", SECOND // 2)
     assert lease.expires_in_s(SECOND) == 1.0
 
 
@@ -132,11 +132,11 @@ def test_nobody_has_no_silence_and_a_new_holder_has_not_been_heard():
     assert lease.silence_s(0) is None
     epoch = lease.acquire("ann", 0)
     assert lease.silence_s(SECOND) is None
-    lease.renew("ann", epoch, 0)
+    lease.renew("ann", epoch, "station", 0)
     assert lease.silence_s(0) == 0.0
-    lease.renew("ann", epoch, SECOND)
+    lease.renew("ann", epoch, "station", SECOND)
     assert lease.silence_s(SECOND + SECOND // 4) == 0.25
-    lease.renew("ann", epoch, SECOND // 2)
+    lease.renew("ann", epoch, "station", SECOND // 2)
     assert lease.silence_s(SECOND + SECOND // 4) == 0.25
     lease.acquire("ann", 2 * SECOND)
     assert lease.silence_s(2 * SECOND) is None
@@ -144,14 +144,14 @@ def test_nobody_has_no_silence_and_a_new_holder_has_not_been_heard():
 
 def test_only_the_holder_under_the_present_epoch_is_covered():
     lease = Lease(1.0)
-    assert not lease.covers(NOBODY, lease.epoch)
+    assert not lease.covers(NOBODY, lease.epoch, "master")
     epoch = lease.acquire("ann", 0)
-    assert lease.covers("ann", epoch)
-    assert not lease.covers("bob", epoch)
-    assert not lease.covers("ann", epoch - 1)
+    assert lease.covers("ann", epoch, "master")
+    assert not lease.covers("bob", epoch, "master")
+    assert not lease.covers("ann", epoch - 1, "master")
     lease.end("eve")
-    assert not lease.covers("ann", epoch)
-    assert not lease.covers(NOBODY, lease.epoch)
+    assert not lease.covers("ann", epoch, "master")
+    assert not lease.covers(NOBODY, lease.epoch, "master")
 
 
 def test_the_operator_goes_with_the_authority():
@@ -268,7 +268,7 @@ def carry_out(lease, what, number):
         case "release":
             lease.release(ReleaseAuthority(name, lease.epoch))
         case "renew":
-            lease.renew(name, lease.epoch, now)
+            lease.renew(name, lease.epoch, "station", now)
         case "revoke":
             lease.revoke(RevokeAuthority(name, "it burns"))
         case "ask":
@@ -295,3 +295,25 @@ def test_every_change_raises_the_epoch_and_no_epoch_commands_twice(actions):
         if lease.holder != NOBODY:
             assert owner.setdefault(lease.epoch, lease.holder) == lease.holder
         assert asked is None or asked.holder != holder, "nobody asks for what is their own"
+
+
+def test_another_persons_processes_cannot_use_an_authority_whose_epoch_they_have_read():
+    lease = Lease(1.0)
+    epoch = lease.acquire("ann", 0, operator="ann", process="station-ann")
+    assert lease.covers("ann", epoch, "master-ann")
+    assert not lease.covers("ann", epoch, "master-bob")
+    lease.check_sender(epoch, "station-ann")
+    with pytest.raises(Refusal, match="station-bob"):
+        lease.check_sender(epoch, "station-bob")
+    lease.renew("ann", epoch, "station-bob", SECOND // 2)
+    lease.expire(SECOND + 1)
+    assert lease.holder == NOBODY
+
+
+def test_an_authority_that_was_given_is_its_new_holders():
+    lease = Lease(1.0)
+    epoch = lease.acquire("ann", 0, process="station-ann")
+    lease.ask(AuthorityRequest(holder="bob", number=7, process="station-bob"), 0)
+    lease.answer(AnswerRequest("ann", epoch, 7, give=True), 1)
+    assert lease.covers("bob", lease.epoch, "master-bob")
+    assert not lease.covers("bob", lease.epoch, "master-ann")
