@@ -54,7 +54,7 @@ class Kind:
     routes: bool = False
 
 
-_AT_THE_DESK = ("station", "viewer", "cli")
+_AT_THE_DESK = ("station", "viewer", "cli", "history")
 
 KINDS: tuple[Kind, ...] = (
     Kind("router", (), routes=True),

@@ -226,7 +226,15 @@ POINT_CLOUD = Topic(
     "cam/cloud", messages.PointCloud, 5.0, QoS.PICTURE, "camera", 73_728, "surfaces that the head camera sees"
 )
 PICTURE_QUEUE = Topic(
-    "cam/queue", messages.PictureQueue, 5.0, QoS.STATE, "any", 1_024, "how late pictures come to who looks", kept=64
+    "cam/queue",
+    messages.PictureQueue,
+    5.0,
+    QoS.STATE,
+    "any",
+    1_024,
+    "how late pictures come to who looks",
+    kept=64,
+    readers=("camera",),
 )
 OBJECT_POSE = Topic(
     "state/object_pose",

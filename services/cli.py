@@ -28,9 +28,9 @@ examples:
   retouch up                                  everything on this machine, and a page in the browser
   retouch up --operator anna                  the same; what anna does carries her name
   retouch up --headless --once                the same with a scripted operator; says what happened
-  retouch up --listen tcp/0.0.0.0:7447 --only robot,camera,perception,model
+  retouch up --listen tls/0.0.0.0:7447 --only robot,camera,perception,model
                                               the robot's side, for operators on other machines
-  retouch up --connect tcp/ROBOT:7447 --only master,viewer,station
+  retouch up --connect tls/ROBOT:7447 --only master,viewer,station
                                               the operator's side
   retouch stop                                emergency stop of the robot
   retouch teach --waypoints reach.csv --object 0.85,0.05,0.55

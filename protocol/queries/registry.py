@@ -75,9 +75,17 @@ UNDO = Query(
     "model",
     20_480,
     "take the newest update back, or any demonstration",
-    askers=("station", "teach"),
+    askers=("station", "teach", "history"),
 )
-REDO = Query("model/redo", Redo, Learnt, "model", 20_480, "use a demonstration again that was taken back")
+REDO = Query(
+    "model/redo",
+    Redo,
+    Learnt,
+    "model",
+    20_480,
+    "use a demonstration again that was taken back",
+    askers=("station", "history"),
+)
 HISTORY = Query(
     "model/history",
     ListHistory,
@@ -85,6 +93,7 @@ HISTORY = Query(
     "model",
     1_048_576,
     "what was learnt, by whom, and how far it led",
+    askers=("station", "history"),
     looks=True,
 )
 COMPARE = Query("model/compare", Compare, Compared, "model", 1_048_576, "what a demonstration changes", looks=True)
@@ -95,7 +104,7 @@ DESCRIBE = Query(
     "model",
     20_480,
     "the model as it lies on disk",
-    askers=("station", "teach"),
+    askers=("station", "teach", "history"),
     looks=True,
 )
 

@@ -22,7 +22,11 @@ def add_network(parser: ArgumentParser) -> None:
     parser.add_argument("--config", type=Path, metavar="FILE", help="a TOML file; see README for its keys")
     parser.add_argument("--robot", metavar="NAME", help="the robot's name on the network (default: robot1)")
     parser.add_argument("--operator", metavar="NAME", help="who is at this station (default: operator)")
-    parser.add_argument("--connect", metavar="ENDPOINT", help="of a router, such as tcp/192.0.2.1:7447")
+    parser.add_argument("--connect", metavar="ENDPOINT", help="of a router, such as tls/192.0.2.1:7447")
+    parser.add_argument(
+        "--tls", metavar="FOLDER", help="this machine's certificates (default: ~/.config/retouch/certs)"
+    )
+    parser.add_argument("--insecure", action="store_true", help="let endpoints without certificates be open to others")
     parser.add_argument("--debug", action="store_true", help="log more, and tracebacks")
 
 

@@ -12,8 +12,10 @@ from typing import Any
 import msgpack
 
 from services.bus.zenoh import Passing, open_session, watch
+from services.certificates.credentials import credentials
 from services.commands.arguments import add_network, whole
 from services.commands.settings import configuration
+from services.process.config import Configuration
 from services.process.ending import end_within
 from services.process.runner import stop_on_signals
 
@@ -37,7 +39,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """See `Action`."""
-    echo(configuration(arguments).connect, arguments.key, arguments.count)
+    echo(configuration(arguments), arguments.key, arguments.count)
     return 0
 
 
@@ -97,7 +99,7 @@ class Heard:
         return missed
 
 
-def echo(connect: str, key: str, count: int | None) -> None:
+def echo(configuration: Configuration, key: str, count: int | None) -> None:
     """Print until interrupted, or `count` messages.
 
     Raises:
@@ -106,7 +108,8 @@ def echo(connect: str, key: str, count: int | None) -> None:
     stop = stop_on_signals()
     end_within()
     heard = Heard()
-    session = open_session(connect, 5.0, stop)
+    certificate = credentials(configuration, configuration.connect)
+    session = open_session(configuration.connect, 5.0, stop, credentials=certificate)
     try:
         watch(session, key, heard.keep)
         shown_count = 0

@@ -31,7 +31,7 @@ examples:
   retouch history                             all entries, the newest first
   retouch history --undo 7 --operator anna    takes entry 7 back; the list says that anna did
   retouch history --redo 7                    uses it again
-  retouch history --robot garage --connect tcp/192.0.2.1:7447
+  retouch history --robot garage --connect tls/192.0.2.1:7447
                                               of another robot
 
 'retouch teach --undo' takes back the newest that is in use, whatever its number.

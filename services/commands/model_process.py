@@ -11,6 +11,7 @@ from protocol.messages import ModelState
 from protocol.queries import Query
 from services.bus.bus import Bus, Failed, Rep, Req
 from services.bus.zenoh import connect
+from services.certificates.credentials import credentials
 from services.process.clock import Clock, SystemClock
 from services.process.config import Configuration
 from services.process.exceptions import CommandFailed, NoAnswer
@@ -91,7 +92,9 @@ def model_process(configuration: Configuration, command: str) -> Iterator[ModelP
         ServiceError: there is no such network.
     """
     clock = SystemClock()
-    bus = connect(configuration.connect, configuration.name, command, clock)
+    shown = credentials(configuration, configuration.connect, command)
+    name = shown.process(command) if shown is not None else command
+    bus = connect(configuration.connect, configuration.name, name, clock, credentials=shown)
     try:
         yield ModelProcess(bus, configuration.name, clock, stop_on_signals())
     finally:

@@ -2,17 +2,30 @@
 
 from __future__ import annotations
 
+import logging
 from argparse import Namespace
 
 import msgspec
 
 from protocol.topics import checked_name
+from services.certificates.credentials import check_secured, is_open, present
 from services.process.addresses import EVERYWHERE, in_url
 from services.process.config import Configuration, load
 from services.process.master_devices import Scripted
 from services.process.processes import PROCESSES
 
-_FLAGS = {"robot": "name", "operator": "operator", "connect": "connect", "listen": "listen", "seed": "seed"}
+log = logging.getLogger(__name__)
+
+OPEN = "this network is open to others (--insecure): whoever reaches it can listen in and command"
+
+_FLAGS = {
+    "robot": "name",
+    "operator": "operator",
+    "connect": "connect",
+    "listen": "listen",
+    "tls": "tls",
+    "seed": "seed",
+}
 """Flag to the key that it stands for."""
 
 _STATION_FLAGS = {"headless": "scripted", "once": "once", "untaught": "untaught", "variant": "variant"}
@@ -26,12 +39,15 @@ def configuration(arguments: Namespace) -> Configuration:
         ConfigurationError: the file cannot be used.
         ProtocolError: the robot's or operator's name cannot stand in a message.
         SimError: there is no such scene, or it has no such variant.
+        Unsecured: an endpoint is open to others, and nobody said that it may be.
     """
     given = {flag: value for flag, value in vars(arguments).items() if value is not None}
     result = load(arguments.config) if "config" in given else Configuration()
     changes: dict[str, object] = {key: given[flag] for flag, key in _FLAGS.items() if flag in given}
     if "listen" in given and "connect" not in given:
         changes["connect"] = reachable(given["listen"])
+    if given.get("insecure"):
+        changes["insecure"] = True
     if "scene" in given:
         changes["robot"] = msgspec.structs.replace(result.robot, scene=given["scene"])
     if given.get("headless"):
@@ -48,6 +64,11 @@ def configuration(arguments: Namespace) -> Configuration:
     checked_name(result.name)
     for process in PROCESSES:
         checked_name(process.named(checked_name(result.operator)))
+    for endpoint in (result.connect, result.listen):
+        check_secured(result, endpoint)
+    result = msgspec.structs.replace(result, operator=present(result))
+    if is_open(result):
+        log.warning(OPEN)
     return result
 
 

@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from protocol import topics
 from protocol.messages import LONGEST_REASON, SHORTEST_REASON
 from services.bus.zenoh import Lanes, ZenohBus, open_session
+from services.certificates.credentials import TOOL, credentials
 from services.commands.arguments import add_network, within
 from services.commands.pressing import Press, Release, Revoke, story
 from services.commands.settings import configuration as configured
@@ -110,7 +111,7 @@ def revoke(configuration: Configuration, reason: str, timeout_s: float = TIMEOUT
         raise CommandFailed(f"--revoke: give a reason of {SHORTEST_REASON} to {LONGEST_REASON} characters")
     remedy = "stop the robot with 'retouch stop'"
     attempt = _Attempt("revocation", configuration.name, timeout_s, remedy)
-    with attempt.bus(configuration) as bus:
+    with attempt.bus(configuration, revokes=True) as bus:
         revoked = Revoke(bus, configuration.operator, reason.strip())
         attempt.until(revoked.step)
     assert revoked.was is not None
@@ -140,14 +141,16 @@ class _Attempt:
         end_within()
 
     @contextmanager
-    def bus(self, configuration: Configuration) -> Iterator[ZenohBus]:
+    def bus(self, configuration: Configuration, *, revokes: bool = False) -> Iterator[ZenohBus]:
         """The way to the robot, once there is one; dialled until then."""
+        shown = credentials(configuration, configuration.connect, revokes=revokes)
         try:
-            session = open_session(configuration.connect, self._timeout_s, self._interrupted, self._tell)
+            session = open_session(configuration.connect, self._timeout_s, self._interrupted, self._tell, shown)
         except RouterUnreachable as error:
             reason = f"no router at {error.endpoint}: {error.reason}"
             raise NotConfirmed(self._what, self._robot, self._timeout_s, reason, self._remedy) from None
-        bus = ZenohBus(Lanes(session), self._robot, f"cli-{os.getpid()}", SystemClock())
+        name = shown.process(TOOL) if shown is not None else f"{TOOL}-{os.getpid()}"
+        bus = ZenohBus(Lanes(session), self._robot, name, SystemClock())
         try:
             yield bus
         finally:

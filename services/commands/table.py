@@ -15,6 +15,7 @@ COMMANDS: tuple[Command, ...] = (
     Command("top", "services.commands.top", "the live processes of a network", needs="process"),
     Command("stop", "services.commands.stop", "emergency stop of a robot, or its release", needs="process"),
     Command("replay", "services.commands.replay", "open a recording in Rerun", needs="viewer"),
+    Command("certs", "services.commands.certs", "certificates: who may join a network, and what for", needs="process"),
     Command("topics", "services.commands.topics", "print the table of topics and queries", needs="process"),
     Command("reproduce", "services.commands.reproduce", "the thesis' analyses made again: one report", needs="study"),
     Command("map", "services.commands.map", "where a model succeeds, before and after a correction", needs="study"),

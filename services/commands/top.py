@@ -13,10 +13,12 @@ from protocol.exceptions import ProtocolError
 from protocol.messages import Heartbeat
 from protocol.topics import HEARTBEAT, VERSION
 from services.bus.zenoh import Passing, open_session, watch
+from services.certificates.credentials import credentials
 from services.commands.arguments import add_network
 from services.commands.settings import configuration
 from services.commands.terminal import Terminal
 from services.process.clock import SystemClock
+from services.process.config import Configuration
 from services.process.ending import end_within
 from services.process.runner import stop_on_signals
 
@@ -31,7 +33,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """See `Action`."""
-    top(configuration(arguments).connect, once=arguments.once)
+    top(configuration(arguments), once=arguments.once)
     return 0
 
 
@@ -93,7 +95,7 @@ def _seconds(value: float) -> str:
     return "-" if value < 0 else f"{1e3 * value:.1f} ms"
 
 
-def top(connect: str, *, once: bool) -> None:
+def top(configuration: Configuration, *, once: bool) -> None:
     """Show until interrupted, or one table after a few heartbeats.
 
     Raises:
@@ -101,7 +103,8 @@ def top(connect: str, *, once: bool) -> None:
     """
     stop = stop_on_signals()
     end_within()
-    session = open_session(connect, 5.0, stop)
+    shown = credentials(configuration, configuration.connect)
+    session = open_session(configuration.connect, 5.0, stop, credentials=shown)
     beats = Beats()
     console = Terminal(width=None if Terminal().is_terminal else 160)
     try:

@@ -153,6 +153,8 @@ class Configuration(Section, frozen=True):
         operator: who is at this station; stands in everything that a hand or a press causes.
         connect: the router's Zenoh endpoint.
         listen: where `retouch up` and `retouch router` listen.
+        tls: the folder of this machine's certificates; empty for the one in the user's folder of settings.
+        insecure: endpoints without certificates may be open to others, who then can listen in and command.
         seed: of everything random.
     """
 
@@ -160,6 +162,8 @@ class Configuration(Section, frozen=True):
     operator: str = NOBODY_IN_PARTICULAR
     connect: str = "tcp/127.0.0.1:7447"
     listen: str = "tcp/127.0.0.1:7447"
+    tls: str = ""
+    insecure: bool = False
     seed: Annotated[int, msgspec.Meta(ge=0)] = 0
     robot: RobotSection = RobotSection()
     camera: CameraSection = CameraSection()

@@ -13,6 +13,9 @@ PROTOCOLS = ("tcp", "tls", "quic", "udp", "ws")
 
 OVER_TCP = ("tcp", "tls", "ws")
 
+SECURE = ("tls", "quic")
+"""Which show each end who the other one is, and nobody else what passes."""
+
 DEFAULT_PORT = 7447
 LAST_PORT = 65535
 
@@ -56,6 +59,11 @@ class Endpoint:
         except ValueError:
             return False
         return True
+
+    @property
+    def secure(self) -> bool:
+        """Whether nobody can listen in on it."""
+        return self.protocol in SECURE
 
 
 def parse(text: str) -> Endpoint:

@@ -31,6 +31,13 @@ ServiceError
 ├── ViewerError              (services.viewer.exceptions)
 │   ├── WebFilesMissing      the Rerun SDK did not give its web viewer's files (an EnvironmentFault too)
 │   └── CannotReplay         a recording that cannot be opened
+├── CertificateError         (services.certificates.exceptions)
+│   ├── NoAuthority          a folder that holds no certificate authority
+│   ├── AuthorityThere       one that holds one already
+│   ├── CannotIssue          a certificate that is not issued, renewed or revoked
+│   ├── Unreadable           a file of the folder that holds something else
+│   ├── CertificateMissing   a process without a certificate
+│   └── Unsecured            an endpoint that is open to others
 └── StudyError               (services.reproduction.exceptions)
     ├── UnknownAnalysis      a name that no analysis has
     ├── CannotKeep           a folder that results cannot be kept in (an EnvironmentFault too)

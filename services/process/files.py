@@ -10,10 +10,15 @@ from pathlib import Path
 from services.process.exceptions import FolderUnusable
 
 
-def write_whole(path: Path, content: bytes) -> None:
+def write_whole(path: Path, content: bytes, mode: int = 0o644) -> None:
     """Write a file whole or not at all; when this returns it outlives a power cut.
 
     A link stays one: what it points to is written. What is no file, such as a device, is never replaced by one.
+
+    Args:
+        path: of the file.
+        content: all of it.
+        mode: who may read and write it.
 
     Raises:
         OSError: it cannot be written; what was there before is untouched.
@@ -28,7 +33,7 @@ def write_whole(path: Path, content: bytes) -> None:
             file.write(content)
             file.flush()
             os.fsync(file.fileno())
-        part.chmod(0o644)
+        part.chmod(mode)
         part.replace(path)
     finally:
         part.unlink(missing_ok=True)

@@ -29,7 +29,11 @@ class Process:
 
     def named(self, operator: str) -> str:
         """Its name on the network: that of an operator's process says whose it is, so that two can be there at once."""
-        return f"{self.name}-{operator}" if self.at_operator and operator != NOBODY_IN_PARTICULAR else self.name
+        # Imported here: whoever only asks for help does not wait for the protocol.
+        from protocol.topics import process_name  # noqa: PLC0415
+
+        named = self.at_operator and operator != NOBODY_IN_PARTICULAR
+        return process_name(self.name, operator) if named else self.name
 
 
 PROCESSES: tuple[Process, ...] = (

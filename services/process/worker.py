@@ -11,6 +11,8 @@ from typing import cast
 
 from services.bus.bus import Bus
 from services.bus.zenoh import connect
+from services.certificates.credentials import credentials
+from services.certificates.expiry import Expiry
 from services.process.clock import Clock, SystemClock
 from services.process.config import Configuration
 from services.process.ending import WITHIN_S, end_within
@@ -42,7 +44,10 @@ def run_process(process: Process, configuration: Configuration) -> None:
     build = _builder(process)
     clock = SystemClock()
     name = process.named(configuration.operator)
-    bus = connect(configuration.connect, configuration.name, name, clock)
+    shown = credentials(configuration, configuration.connect, process.name)
+    bus = connect(configuration.connect, configuration.name, name, clock, credentials=shown)
+    if shown is not None:
+        Expiry(shown).start()
     try:
         service = build(bus, clock, configuration)
         stop = stop_on_signals()

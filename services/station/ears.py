@@ -102,3 +102,11 @@ def heading(camera: messages.Pose) -> float:
     forward, up = (rotate(np.array(camera.orientation), np.array(axis)) for axis in (_FORWARD, _UP))
     x, y, _ = forward - forward[2] * up
     return math.atan2(y, x)
+
+
+def prediction_of(
+    prediction: messages.Prediction | None, model: messages.ModelState | None
+) -> messages.Prediction | None:
+    """The prediction while it is the model's: what has been learnt or taken back since makes another one."""
+    current = prediction is not None and model is not None and prediction.model_version == model.version
+    return prediction if current else None

@@ -17,13 +17,14 @@ from protocol.messages import Figure, OperatorInput
 from services.bus.arrays import vector3
 from services.bus.bus import Bus, Pending
 from services.bus.identity import new_number
+from services.certificates.credentials import is_open
 from services.process.clock import Clock
 from services.process.config import Configuration
 from services.process.exceptions import UnusableSetting
 from services.process.schedule import Schedule
 from services.station.company import Company
 from services.station.device_buttons import DeviceButtons
-from services.station.ears import Ears, came_s, message, picture, young
+from services.station.ears import Ears, came_s, message, picture, prediction_of, young
 from services.station.frontend import Frontend
 from services.station.handover import GIVE, KEEP, HandOver
 from services.station.history import HistoryReader
@@ -61,7 +62,8 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> StationServic
     except LookupError as error:
         raise UnusableSetting("[station] language", str(error)) from None
     page = None if section.scripted else _open_page(configuration, clock)
-    return StationService(bus, settings(section, configuration.operator), page, configuration.seed)
+    told = is_open(configuration)
+    return StationService(bus, settings(section, configuration.operator), page, configuration.seed, open_network=told)
 
 
 def _open_page(configuration: Configuration, clock: Clock) -> Page:
@@ -83,14 +85,18 @@ class StationService:
         workflow_settings: of the run.
         page: the operator's; None where the workflow is scripted.
         seed: of the places.
+        open_network: others can listen in on it, and command on it.
     """
 
     rate_hz = topics.OPERATOR_INPUT.rate_hz
 
-    def __init__(self, bus: Bus, workflow_settings: Settings, page: Frontend | None, seed: int) -> None:
+    def __init__(
+        self, bus: Bus, workflow_settings: Settings, page: Frontend | None, seed: int, *, open_network: bool = False
+    ) -> None:
         self._bus = bus
         self._settings = workflow_settings
         self._page = page
+        self._open_network = open_network
         self._random = np.random.default_rng(seed)
         self._ears = Ears(bus)
         self._stop = StopButton(bus, self._ears.safety, workflow_settings.holder)
@@ -263,8 +269,9 @@ class StationService:
             neighbours=self._neighbours.there(now_ns) if self._neighbours is not None else (),
             attendances=self._company.there(now_ns),
             notice=self._hand_over.fault(now_ns),
+            open_network=self._open_network,
             model=view.model,
-            prediction=_of(workflow.prediction, view.model),
+            prediction=prediction_of(workflow.prediction, view.model),
             history=self._history.rows if self._history is not None else None,
             execution=view.execution,
             spoilt=self._stage.spoilt(now_ns),
@@ -290,9 +297,3 @@ class StationService:
             wrist=picture(ears.wrist, now_ns, self._bus.identity),
             cloud=picture(ears.cloud, now_ns, self._bus.identity),
         )
-
-
-def _of(prediction: messages.Prediction | None, model: messages.ModelState | None) -> messages.Prediction | None:
-    """The prediction while it is the model's: what has been learnt or taken back since makes another one."""
-    current = prediction is not None and model is not None and prediction.model_version == model.version
-    return prediction if current else None

@@ -64,10 +64,10 @@ def measure(link, folder, outages, loops):
     """The times [s]."""
     router = f"tcp/{link.near}:{free_port()}"
     with contextlib.ExitStack() as running:
-        command = running.enter_context(Command("router", "--listen", router, folder=folder))
+        command = running.enter_context(Command("router", "--insecure", "--listen", router, folder=folder))
         command.until(lambda: reachable(router), START_S, "the router listens")
         running.enter_context(busy(loops))
-        running.enter_context(Command("robot", "--scene", "particle", "--connect", router, folder=folder))
+        running.enter_context(Command("robot", "--scene", "particle", "--insecure", "--connect", router, folder=folder))
         onlooker = running.enter_context(Onlooker(router))
         witness = running.enter_context(Witness(router))
         operator = running.enter_context(Operator(link, router))

@@ -22,6 +22,6 @@ def link():
 def router(link, tmp_path):
     """The endpoint of a router on this machine, for both sides."""
     endpoint = f"tcp/{link.near}:{free_port()}"
-    with Command("router", "--listen", endpoint, folder=tmp_path) as command:
+    with Command("router", "--insecure", "--listen", endpoint, folder=tmp_path) as command:
         command.until(lambda: reachable(endpoint), 30.0, "the router listens")
         yield endpoint

@@ -48,7 +48,8 @@ class Sites:
         near.mkdir()
         far.mkdir()
         with contextlib.ExitStack() as stack:
-            arguments = ("--fresh", "--only", "robot,model", "--scene", SCENE, "--listen", f"tcp/0.0.0.0:{port}")
+            arguments = ("--fresh", "--only", "robot,model", "--scene", SCENE)
+            arguments += ("--insecure", "--listen", f"tcp/0.0.0.0:{port}")
             robot = stack.enter_context(Command("up", *arguments, folder=near))
             robot.until(lambda: reachable(here), START_S, "the router listens")
             self.ear = stack.enter_context(Ear(here, NEAR))
@@ -74,7 +75,7 @@ class Sites:
     def _joined(self, endpoint, folder):
         """A router on the far machine; its endpoint there."""
         there = f"tcp/127.0.0.1:{free_port()}"
-        arguments = ("router", "--listen", there, "--connect", endpoint)
+        arguments = ("router", "--insecure", "--listen", there, "--connect", endpoint)
         with Command(*arguments, folder=folder, there=self._link.there) as router:
             router.until(lambda: "listening" in router.err, START_S, "the desk's router listens")
             yield there
@@ -83,7 +84,7 @@ class Sites:
         settings = folder / "desk.toml"
         settings.write_text(f"[station]\nautonomous_s = {AUTONOMOUS_S}\nrefine_s = {REFINE_S}\n")
         arguments = ["--headless", "--once", "--only", "master,station", "--scene", SCENE]
-        arguments += ["--connect", endpoint, "--config", settings, "--json", folder / "out.json"]
+        arguments += ["--insecure", "--connect", endpoint, "--config", settings, "--json", folder / "out.json"]
         return Command("up", *arguments, folder=folder, there=self._link.there)
 
     def closes(self, within_s):

@@ -27,7 +27,7 @@ LONG_S = 0.12
 @pytest.fixture
 def moving(link, router, tmp_path):
     """A robot that executes what a far operator asked for, both watched from the robot's side."""
-    arguments = ("--scene", "particle", "--connect", router)
+    arguments = ("--scene", "particle", "--insecure", "--connect", router)
     with (
         Command("robot", *arguments, folder=tmp_path),
         Onlooker(router) as onlooker,
@@ -85,7 +85,7 @@ def test_a_stop_pressed_in_the_middle_of_an_outage_is_latched_before_anything_mo
 def test_a_stop_pressed_in_an_outage_arrives_over_a_way_that_has_become_long(link, router, tmp_path):
     link.shape(delay_s=SHORT_S)
     with (
-        Command("robot", "--scene", "particle", "--connect", router, folder=tmp_path),
+        Command("robot", "--scene", "particle", "--insecure", "--connect", router, folder=tmp_path),
         Onlooker(router) as onlooker,
         Operator(link, router) as operator,
     ):
@@ -105,7 +105,9 @@ def test_the_command_line_presses_through_an_outage(link, moving, router, tmp_pa
     onlooker, _ = moving
     cut = link.cut()
     sleep_until(cut + CUT_S / 2)
-    with Command("stop", "--operator", "bob", "--connect", router, folder=tmp_path, there=link.there) as stop:
+    with Command(
+        "stop", "--operator", "bob", "--insecure", "--connect", router, folder=tmp_path, there=link.there
+    ) as stop:
         stop.until(lambda: "NOT confirmed yet" in stop.err, START_S, "it says that nobody has heard it")
         sleep_until(cut + CUT_S)
         link.restore()

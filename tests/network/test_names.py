@@ -93,7 +93,7 @@ def links():
 def port(links, tmp_path):
     """Of a router on this machine, on every link."""
     number = free_port()
-    with Command("router", "--listen", f"tcp/0.0.0.0:{number}", folder=tmp_path) as command:
+    with Command("router", "--insecure", "--listen", f"tcp/0.0.0.0:{number}", folder=tmp_path) as command:
         command.until(lambda: reachable(f"tcp/127.0.0.1:{number}"), 30.0, "the router listens")
         yield number
 

@@ -14,7 +14,7 @@ ROBOTS = ("kitchen", "garage")
 PEOPLE = ("anna", "bob")
 PROCESSES = [
     *("robot", "camera", "perception", "model"),
-    *(f"{role}-{name}" for role in ("master", "station", "viewer", "cli", "teach") for name in PEOPLE),
+    *(f"{role}-{name}" for role in ("master", "station", "viewer", "cli", "teach", "history") for name in PEOPLE),
 ]
 SUBJECTS = [f"{kind.name}.{'anna' if kind.person else 'kitchen'}" for kind in KINDS if not kind.routes]
 

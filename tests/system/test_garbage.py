@@ -198,7 +198,7 @@ def test_every_query_refuses_what_is_no_request(network, unmoved):
         if query.request not in (queries.Undo, queries.Describe):  # which have no field that could be wrong
             wrong.append(sample)
         for payload, schema in [*((payload, query.schema) for payload in wrong), (sample, garbage.ANOTHER_VERSION)]:
-            (answer,) = network.stranger.get(query.key("robot1"), payload, schema)
+            (answer,) = network.stranger.get(query.key("robot1", "anybody"), payload, schema)
             reply = decode_reply(query, answer)
             assert isinstance(reply, queries.Refused), (query.name, payload[:80], reply)
         sent[query.server, query.name] = len(wrong) + 1

@@ -124,15 +124,15 @@ def test_a_sample_under_a_key_that_is_not_its_own_is_dropped_and_counted(bus, st
 
 def test_a_request_of_another_robot_is_refused(bus, stranger):
     server = bus("model").serve(queries.UNDO)
-    stranger.answered(queries.UNDO.key("robot1"))
-    (answer,) = stranger.get(queries.UNDO.key("robot1"), b"\x80", "Undo/1 robot2 model/undo")
+    stranger.answered(queries.UNDO.key("robot1", "anybody"))
+    (answer,) = stranger.get(queries.UNDO.key("robot1", "anybody"), b"\x80", "Undo/1 robot2 model/undo")
     assert "robot 'robot2'" in decode_reply(queries.UNDO, answer).reason
     assert server.take() == []
 
 
 def test_a_change_that_is_asked_twice_is_made_once(bus, stranger):
     server, asker = bus("model").serve(queries.UNDO), bus("station")
-    stranger.answered(queries.UNDO.key("robot1"))
+    stranger.answered(queries.UNDO.key("robot1", "anybody"))
     request = queries.Undo(request=12345)
     for _ in range(2):
         lost = asker.ask(queries.UNDO, request, timeout_s=0.2)
@@ -146,7 +146,7 @@ def test_a_change_that_is_asked_twice_is_made_once(bus, stranger):
 
 def test_a_question_is_answered_and_a_refusal_is_an_answer(bus, stranger):
     server, asker = bus("model").serve(queries.UNDO), bus("station")
-    stranger.answered(queries.UNDO.key("robot1"))
+    stranger.answered(queries.UNDO.key("robot1", "anybody"))
     for reply in (
         queries.Refused("nothing to take back"),
         queries.Learnt(ModelState(kind="adaptive", version=3, demonstrations=2, updates=1, scene="table")),
@@ -165,7 +165,7 @@ def test_a_question_that_nobody_answers_fails_at_once_and_says_whom_it_misses(bu
 
 def test_a_question_whose_server_is_silent_fails_in_time(bus, stranger):
     server = bus("model").serve(queries.UNDO)
-    stranger.answered(queries.UNDO.key("robot1"))
+    stranger.answered(queries.UNDO.key("robot1", "anybody"))
     pending = bus("station").ask(queries.UNDO, queries.Undo(), timeout_s=0.5)
     outcome = eventually(pending.poll, WITHIN_S, "the failure")
     assert isinstance(outcome, Failed)

@@ -6,7 +6,6 @@ import contextlib
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any, TypeVar
 
 import msgspec
@@ -27,8 +26,10 @@ from services.bus.subscription import Subscription
 from services.bus.zenoh.dialling import Opened
 from services.bus.zenoh.encoding import announced, encoding
 from services.bus.zenoh.lanes import Lanes, comes_again
+from services.bus.zenoh.qos import MANNERS
 from services.bus.zenoh.session import open_session
 from services.bus.zenoh.watch import watch
+from services.certificates.credentials import Credentials
 from services.process.clock import Clock
 from services.process.exceptions import NameTaken, RouterUnreachable
 
@@ -44,26 +45,6 @@ NAME_ASK_S = 0.5
 
 ROBOTS_KEPT = 64
 """So many robots of one network are told apart."""
-
-
-@dataclass(frozen=True)
-class _Transport:
-    """Zenoh's words for a quality of service."""
-
-    priority: zenoh.Priority
-    congestion_control: zenoh.CongestionControl
-    express: bool
-
-
-# Nothing blocks: a full link must not stop a control loop. What must not be lost is repeated by its publisher; a
-# question that was lost fails in time and is asked again. An answer travels as its question did.
-_TRANSPORTS = {
-    QoS.SAFETY: _Transport(zenoh.Priority.REAL_TIME, zenoh.CongestionControl.DROP, True),
-    QoS.REALTIME: _Transport(zenoh.Priority.INTERACTIVE_HIGH, zenoh.CongestionControl.DROP, True),
-    QoS.STATE: _Transport(zenoh.Priority.INTERACTIVE_LOW, zenoh.CongestionControl.DROP, True),
-    QoS.PICTURE: _Transport(zenoh.Priority.DATA_LOW, zenoh.CongestionControl.DROP, False),
-    QoS.EVENT: _Transport(zenoh.Priority.DATA_HIGH, zenoh.CongestionControl.DROP, False),
-}
 
 
 class ZenohBus:
@@ -142,14 +123,16 @@ class ZenohBus:
     def serve(self, query: Query[Req, Rep]) -> Server[Req, Rep]:
         """Answer a query."""
         server = Server(query, self._robot, self._clock)
-        key = query.key(self._robot)
 
         def store(call: zenoh.Query) -> None:
             payload = call.payload.to_bytes() if call.payload is not None else b""
             schema = announced(call.encoding) if call.encoding is not None else ""
-            server.receive(payload, schema, _responder(call, key, announcement(query, self._robot, query.reply)))
+            key = str(call.key_expr)
+            respond = _responder(call, key, announcement(query, self._robot, query.reply))
+            server.receive(payload, schema, respond, key.rpartition("/")[2])
 
-        self._session.declare(lambda session: session.declare_queryable(key, store, complete=True))
+        key_expression = query.key(self._robot)
+        self._session.declare(lambda session: session.declare_queryable(key_expression, store, complete=True))
         self._inlets.append(server)
         return server
 
@@ -168,17 +151,24 @@ class ZenohBus:
                 pending.settle(Failed(str(error)))
 
         def end() -> None:
-            pending.settle(Failed(f"nobody answers {query.name}: is the {query.server} process of this robot running?"))
+            shown = self._session.credentials
+            if shown is None:
+                pending.settle(
+                    Failed(f"nobody answers {query.name}: is the {query.server} process of this robot running?")
+                )
+            else:
+                reason = f"is the {query.server} there, and may {shown.subject} ask?"
+                pending.settle(Failed(f"nobody answers {query.name}: {reason}"))
 
         try:
             payload = encode_request(query, request)
         except ProtocolError as error:
             pending.settle(Failed(str(error)))
             return pending
-        transport = _TRANSPORTS[QoS.EVENT]
+        transport = MANNERS[QoS.EVENT]
         self._session.use(
             lambda opened: opened.session.get(
-                query.key(self._robot),
+                query.key(self._robot, self._process),
                 zenoh.handlers.Callback(settle, end),
                 payload=payload,
                 encoding=encoding(announcement(query, self._robot, query.request)),
@@ -217,7 +207,7 @@ class ZenohBus:
 
     def _put(self, session: zenoh.Session, topic: Topic[Any], payload: bytes) -> None:
         """Send a datagram; nothing is declared for it, since that could be lost."""
-        transport = _TRANSPORTS[topic.qos]
+        transport = MANNERS[topic.qos]
         session.put(
             topic.key(self._robot, self._process),
             payload,
@@ -230,7 +220,7 @@ class ZenohBus:
     def _publisher(self, opened: Opened, topic: Topic[Any]) -> zenoh.Publisher:
         publisher = opened.publishers.get(topic.name)
         if publisher is None:
-            transport = _TRANSPORTS[topic.qos]
+            transport = MANNERS[topic.qos]
             publisher = opened.publishers[topic.name] = opened.session.declare_publisher(
                 topic.key(self._robot, self._process),
                 encoding=encoding(topic.schema),
@@ -264,7 +254,15 @@ def _responder(call: zenoh.Query, key: str, says: str) -> Callable[[bytes], None
     return respond
 
 
-def connect(endpoint: str, robot: str, process: str, clock: Clock, *, timeout_s: float = 30.0) -> ZenohBus:
+def connect(
+    endpoint: str,
+    robot: str,
+    process: str,
+    clock: Clock,
+    *,
+    timeout_s: float = 30.0,
+    credentials: Credentials | None = None,
+) -> ZenohBus:
     """A bus for one process, its name claimed.
 
     Args:
@@ -273,12 +271,13 @@ def connect(endpoint: str, robot: str, process: str, clock: Clock, *, timeout_s:
         process: this process' name.
         clock: for stamps and receipt times.
         timeout_s: how long to wait for the router [s].
+        credentials: to show to it; None where it asks for none.
 
     Raises:
         BusError: see `open_session`.
         NameTaken: the robot has such a process already.
     """
-    bus = ZenohBus(Lanes(open_session(endpoint, timeout_s)), robot, process, clock)
+    bus = ZenohBus(Lanes(open_session(endpoint, timeout_s, credentials=credentials)), robot, process, clock)
     try:
         bus.claim_name()
     except TimeoutError:

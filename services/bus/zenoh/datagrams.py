@@ -159,7 +159,7 @@ class Datagrams(threading.Thread):
     def _open(self) -> Opened | None:
         pace_ms = self._session.pace_ms
         try:
-            session = zenoh.open(configuration("client", self._router, None, pace_ms, pace_ms))
+            session = zenoh.open(configuration("client", self._router, None, pace_ms, within_ms=pace_ms))
         except zenoh.ZError:
             return None
         return linked(session, pace_ms)

@@ -9,6 +9,7 @@ import zenoh
 
 from services.bus.reach import OPEN_MOST_MS, Silence, open_timeout_ms, probe
 from services.bus.zenoh.transport import REDIAL_MS, configuration, leave, reason
+from services.certificates.credentials import Credentials
 from services.process.endpoint import Endpoint
 from services.process.exceptions import BusError, ServiceError
 
@@ -47,14 +48,16 @@ class Dialling(threading.Thread):
 
     Args:
         endpoint: of the router.
+        credentials: to show to it; None where it asks for none.
     """
 
-    def __init__(self, endpoint: Endpoint) -> None:
+    def __init__(self, endpoint: Endpoint, credentials: Credentials | None = None) -> None:
         super().__init__(name="dialling", daemon=True)
         self.opened: Opened | None = None
         self.error: ServiceError | None = None
         self.silence = "it does not answer as a router"
         self._endpoint = endpoint
+        self._credentials = credentials
         self._given_up = threading.Event()
         self._handing_over = threading.Lock()
 
@@ -92,6 +95,9 @@ class Dialling(threading.Thread):
             if self._given_up.wait(REDIAL_MS / 1e3):
                 return None
         self.silence = "something listens there, but does not answer as a router"
+        if self._credentials is not None:
+            who = self._credentials.subject
+            self.silence = f"there is none, or it does not let {who} in ('retouch certs list' says whether it ended)"
         return trip
 
     def _open(self, least_ms: int) -> Opened | None:
@@ -110,7 +116,11 @@ class Dialling(threading.Thread):
 
     def _attempt(self, pace_ms: int) -> zenoh.Session | None:
         try:
-            return zenoh.open(configuration("client", self._endpoint.text, None, pace_ms, ATTEMPTS * pace_ms))
+            within_ms = ATTEMPTS * pace_ms
+            config = configuration(
+                "client", self._endpoint.text, None, pace_ms, within_ms=within_ms, credentials=self._credentials
+            )
+            return zenoh.open(config)
         except zenoh.ZError as error:
             if "Timeout!" not in str(error):
                 raise

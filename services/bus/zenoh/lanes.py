@@ -52,7 +52,8 @@ class Lanes:
             return self.session
         with self._opening:
             if self._pictures is None:
-                self._pictures = open_session(self.session.endpoint.text, OPEN_S)
+                session = self.session
+                self._pictures = open_session(session.endpoint.text, OPEN_S, credentials=session.credentials)
             return self._pictures
 
     def datagrams(self, topic: Topic[Any]) -> Datagrams | None:

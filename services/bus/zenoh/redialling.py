@@ -16,6 +16,7 @@ from typing import Protocol
 from services.bus.reach import Silence, fits, probe
 from services.bus.zenoh.dialling import Dialling, Opened
 from services.bus.zenoh.transport import POLL_S
+from services.certificates.credentials import Credentials
 from services.process.endpoint import Endpoint
 from services.process.exceptions import BadEndpoint
 
@@ -37,6 +38,11 @@ class Redialled(Protocol):
     @property
     def endpoint(self) -> Endpoint:
         """Of the router at its other end."""
+        ...
+
+    @property
+    def credentials(self) -> Credentials | None:
+        """To show to it."""
         ...
 
     @property
@@ -80,7 +86,7 @@ class Redialling(threading.Thread):
             return False
         if fits(self._link.pace_ms, trip):
             self._end.wait(GRACE_S)
-        dialling = Dialling(self._link.endpoint)
+        dialling = Dialling(self._link.endpoint, self._link.credentials)
         dialling.start()
         while dialling.is_alive() and not self._end.wait(POLL_S):
             pass

@@ -12,10 +12,12 @@ import zenoh
 
 from services.bus.reach import Silence, open_timeout_ms, probe
 from services.bus.zenoh.dialling import Opened
+from services.bus.zenoh.readmission import Readmission
 from services.bus.zenoh.redialling import Redialling
 from services.bus.zenoh.transport import LEASE_MS, REDIAL_MS, configuration, leave, reason
+from services.certificates.credentials import Credentials
 from services.process.endpoint import Endpoint, parse
-from services.process.exceptions import BusError, EndpointInUse
+from services.process.exceptions import BusError, EndpointInUse, ServiceError
 
 UNSENT_BYTES = 16_384
 """So much waits in the kernel at most, beyond what is on its way."""
@@ -33,13 +35,18 @@ class Router:
         listen: the endpoint to listen on, such as "tcp/127.0.0.1:7447".
         connect: another router's endpoint, where there is one.
         opened: Zenoh's session, as it was opened first.
+        credentials: to show to whoever comes, and which name whom to let in; None where everybody may.
 
     Attributes:
+        credentials: to show to whoever comes, and to the other router.
         pace_ms: how long each attempt to open the link to the other router may take [ms].
         end: set once the router is closed.
     """
 
-    def __init__(self, listen: str, connect: str | None, opened: Opened) -> None:
+    def __init__(
+        self, listen: str, connect: str | None, opened: Opened, credentials: Credentials | None = None
+    ) -> None:
+        self.credentials = credentials
         self.pace_ms = opened.pace_ms
         self.end = threading.Event()
         self._listen = listen
@@ -57,8 +64,8 @@ class Router:
         told = ""
         while not self.end.is_set():
             try:
-                session = _opened(self._listen, self._connect, pace_ms)
-            except BusError as error:  # what hangs in the old one still holds the port
+                session = _opened(self._listen, self._connect, pace_ms, self.credentials)
+            except ServiceError as error:  # what hangs in the old one still holds the port
                 if str(error) != told:
                     told = str(error)
                     log.warning("trying again: %s", told)
@@ -94,6 +101,11 @@ class Uplink:
         self._other: zenoh.ZenohId | None = None
 
     @property
+    def credentials(self) -> Credentials | None:
+        """To show to the other router."""
+        return self._router.credentials
+
+    @property
     def pace_ms(self) -> int:
         """How long each attempt to open it again may take [ms]."""
         return self._router.pace_ms
@@ -117,31 +129,35 @@ class Uplink:
         return False
 
 
-def open_router(listen: str, connect: str | None = None) -> Router:
+def open_router(listen: str, connect: str | None = None, credentials: Credentials | None = None) -> Router:
     """A router, which finds the other one however long the way there has become.
 
     Args:
         listen: the endpoint to listen on, such as "tcp/127.0.0.1:7447".
         connect: another router's endpoint, where there is one.
+        credentials: to show to whoever comes, and which name whom to let in; None where everybody may.
 
     Raises:
         BadEndpoint: one of them is none.
         EndpointInUse: nothing can listen there.
         BusError: the transport cannot use them.
+        Unreadable: the register of certificates is none.
     """
     parse(listen)
     other = parse(connect) if connect else None
     trip = probe(other) if other else 0.0
     pace_ms = open_timeout_ms(0.0 if isinstance(trip, Silence) else trip)
-    router = Router(listen, connect, Opened(_opened(listen, connect, pace_ms), pace_ms))
+    router = Router(listen, connect, Opened(_opened(listen, connect, pace_ms, credentials), pace_ms), credentials)
     if other is not None:
         Redialling(Uplink(router, other), router.end).start()
+    if credentials is not None:
+        Readmission(router, credentials).start()
     return router
 
 
-def _opened(listen: str, connect: str | None, pace_ms: int) -> zenoh.Session:
+def _opened(listen: str, connect: str | None, pace_ms: int, credentials: Credentials | None) -> zenoh.Session:
     try:
-        session = zenoh.open(configuration("router", connect, listen, pace_ms))
+        session = zenoh.open(configuration("router", connect, listen, pace_ms, credentials=credentials))
     except zenoh.ZError as error:
         if "listener bound to" in str(error):
             raise EndpointInUse(listen) from None

@@ -13,6 +13,7 @@ import zenoh
 from services.bus.zenoh.dialling import Dialling, Opened
 from services.bus.zenoh.redialling import Redialling
 from services.bus.zenoh.transport import POLL_S, leave, reason
+from services.certificates.credentials import Credentials
 from services.process.endpoint import Endpoint, parse
 from services.process.exceptions import RouterUnreachable
 
@@ -30,13 +31,16 @@ class Session:
     Args:
         endpoint: of the router.
         opened: Zenoh's session, as it was opened first.
+        credentials: that are shown to the router; None where it asks for none.
 
     Attributes:
         endpoint: of the router.
+        credentials: that are shown to it.
     """
 
-    def __init__(self, endpoint: Endpoint, opened: Opened) -> None:
+    def __init__(self, endpoint: Endpoint, opened: Opened, credentials: Credentials | None = None) -> None:
         self.endpoint = endpoint
+        self.credentials = credentials
         self._opened = opened
         self._declarations: list[Callable[[zenoh.Session], object]] = []
         self._end = threading.Event()
@@ -124,6 +128,7 @@ def open_session(
     timeout_s: float,
     stop: threading.Event | None = None,
     tell: Callable[[str], None] | None = None,
+    credentials: Credentials | None = None,
 ) -> Session:
     """A client's session; waits until the router is there, and says what it waits for.
 
@@ -132,6 +137,7 @@ def open_session(
         timeout_s: how long to wait at most [s].
         stop: ends the waiting too.
         tell: called once a second with what is waited for; by default it is logged when it changes.
+        credentials: to show to the router; None where it asks for none.
 
     Raises:
         BadEndpoint: the endpoint is none, or nobody knows its host; at once.
@@ -141,7 +147,7 @@ def open_session(
     """
     tell = tell or _News()
     endpoint = parse(connect)
-    dialling = Dialling(endpoint)
+    dialling = Dialling(endpoint, credentials)
     dialling.start()
     now = time.monotonic()
     deadline, due = now + timeout_s, now + TELL_S
@@ -160,7 +166,7 @@ def open_session(
     if opened is None:
         dialling.give_up()
         raise RouterUnreachable(connect, timeout_s, dialling.silence)
-    session = Session(endpoint, opened)
+    session = Session(endpoint, opened, credentials)
     session.look_after()
     return session
 

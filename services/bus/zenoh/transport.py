@@ -10,6 +10,8 @@ from typing import Any
 
 import zenoh
 
+from services.bus.zenoh.access import access_control, quotas
+from services.certificates.credentials import Credentials
 from services.process.endpoint import parse
 
 log = logging.getLogger(__name__)
@@ -19,6 +21,9 @@ LEASE_MS = 1000
 
 REDIAL_MS = 20
 """Between two attempts to open a link again."""
+
+SECURE_REDIAL_MS = 200
+"""The same, where certificates are shown: a listener that refused one takes nobody else for 0.1 s."""
 
 FULL_LINK_US = 200_000
 """How long what may not be dropped (a declaration) waits for room on a full link; then the link is dialled anew."""
@@ -33,7 +38,13 @@ POLL_S = 0.02
 
 
 def configuration(
-    mode: str, connect: str | None, listen: str | None, pace_ms: int, within_ms: int = -1
+    mode: str,
+    connect: str | None,
+    listen: str | None,
+    pace_ms: int,
+    *,
+    within_ms: int = -1,
+    credentials: Credentials | None = None,
 ) -> zenoh.Config:
     """No discovery: a network is what was named. Links that die are noticed and dialled again within a second.
 
@@ -43,6 +54,7 @@ def configuration(
         listen: where to listen.
         pace_ms: how long one attempt to open a link may take, now and after each cut [ms].
         within_ms: a session that has no link by then does not open [ms]; -1 to open it without.
+        credentials: which both ends show; a router lets in whom its register names, and denies what is not granted.
     """
     config: dict[str, Any] = {
         "mode": mode,
@@ -64,6 +76,12 @@ def configuration(
             },
         },
     }
+    if credentials is not None:
+        config["transport"]["link"]["tls"] = _mutual(credentials)
+        config["connect"]["retry"] |= {"period_init_ms": SECURE_REDIAL_MS, "period_max_ms": SECURE_REDIAL_MS}
+    if credentials is not None and listen and parse(listen).secure:
+        subjects = [(one.common_name, one.subject) for one in credentials.register().valid()]
+        config |= {"access_control": access_control(subjects), **quotas(subjects)}
     return zenoh.Config.from_json5(json.dumps(config))
 
 
@@ -73,6 +91,22 @@ def _lanes(mode: str, connect: str) -> list[str]:
     if mode != "router" or not datagrams:
         return [connect]
     return [f"{connect}?rel=1;prio=1-4", f"{connect}?rel=1;prio=5-7", f"{datagrams}?rel=0;prio=1-4"]
+
+
+def _mutual(credentials: Credentials) -> dict[str, Any]:
+    """Read anew with every session that is opened: what was renewed on the disk is used from then on."""
+    file = str(credentials.file)
+    return {
+        "root_ca_certificate": str(credentials.root),
+        "enable_mtls": True,
+        "verify_name_on_connect": True,
+        "listen_private_key": file,
+        "listen_certificate": file,
+        "connect_private_key": file,
+        "connect_certificate": file,
+        # What runs goes on; whoever renews nothing is told in time, and cannot come back.
+        "close_link_on_expiration": False,
+    }
 
 
 def leave(session: zenoh.Session) -> None:

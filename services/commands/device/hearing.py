@@ -11,6 +11,7 @@ from protocol.exceptions import ProtocolError
 from protocol.messages import Controller, OperatorInput
 from protocol.topics import OPERATOR_INPUT, VERSION
 from services.bus.zenoh import Passing, open_session, watch
+from services.certificates.credentials import credentials
 from services.master.devices.profiles import Profiles
 from services.master.devices.spacemouse import SpaceMouse, vendor
 from services.process.clock import Clock
@@ -77,7 +78,8 @@ def hearing(configuration: Configuration, clock: Clock, stop: threading.Event) -
     heard = Hearing(clock, configuration.operator)
     session = mouse = None
     try:
-        session = open_session(configuration.connect, OPEN_WITHIN_S, stop)
+        shown = credentials(configuration, configuration.connect)
+        session = open_session(configuration.connect, OPEN_WITHIN_S, stop, credentials=shown)
         watch(session, f"retouch/{VERSION}/{configuration.name}/{OPERATOR_INPUT.name}/*", heard.hear)
     except BusError:
         heard.missing.append(

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from protocol.messages import TeachingState
 from services.bus.zenoh import Lanes, ZenohBus, open_session
+from services.certificates.credentials import credentials
 from services.commands.up.child import Child
 from services.commands.up.network import Narrator, Page, Watch
 from services.commands.up.report import Report, attempt_reports, write
@@ -58,6 +59,7 @@ class Supervisor:
         self._ends = ends
         self._page = page
         self._watch: Watch | None = None
+        self._credentials = credentials(configuration, configuration.connect)
 
     def run(self, stop: threading.Event) -> End | None:
         """Poll until the end.
@@ -116,7 +118,7 @@ class Supervisor:
         """Enter the network as soon as there is one, on a thread of its own: nobody else waits for it."""
         while not stop.is_set():
             try:
-                session = open_session(self._configuration.connect, DIAL_S)
+                session = open_session(self._configuration.connect, DIAL_S, credentials=self._credentials)
             except BusError:
                 stop.wait(POLL_S)
                 continue

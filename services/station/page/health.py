@@ -11,7 +11,7 @@ from services.station.page.view import Shown
 from services.station.words.predictions import certainty
 from services.station.words.table import say
 
-FIGURES = ("phase", "age", "latency", "link", "limited", "object", "model", "prediction", "authority")
+FIGURES = ("phase", "age", "latency", "link", "limited", "object", "model", "prediction", "authority", "network")
 """What stands behind the one word of health, in order; the link is measured by the page's script."""
 
 SLOW_S = 0.1
@@ -35,6 +35,8 @@ def health(shown: Shown) -> Values:
         tone, words = "warn", say("health.recording")
     else:
         tone, words = "good", say("health.good")
+    if view.open_network:  # said for as long as it is so
+        tone, words = "warn" if tone == "good" else tone, say("health.open", words=words)
     return {"health@data-tone": tone, "health-text": words}
 
 
@@ -54,6 +56,8 @@ def figures(shown: Shown) -> Values:
         else say("figure.version", version=model.version, updates=model.updates),
         "figure-prediction": say("figure.none") if prediction is None else certainty(prediction),
         "figure-prediction@data-tone": _sureness(prediction),
+        "figure-network": say("figure.open") if view.open_network else say("figure.closed"),
+        "figure-network@data-tone": "warn" if view.open_network else "good",
         "limited": say("pad.limited", what=clamped) if clamped else "",
     }
 

@@ -72,6 +72,7 @@ class PageView:
         attendances: who is at which station's page.
         latencies: measured delays worth showing, in seconds.
         notice: one line about what went wrong last; empty where nothing did.
+        open_network: others can listen in on the robot's network, and command on it.
     """
 
     teaching: TeachingState | None = None
@@ -98,6 +99,7 @@ class PageView:
     cloud: Picture | None = None
     latencies: tuple[Figure, ...] = ()
     notice: str = ""
+    open_network: bool = False
 
 
 @dataclass(frozen=True)

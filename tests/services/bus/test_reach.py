@@ -5,9 +5,14 @@ import socket
 import pytest
 
 from services.bus import reach
-from services.bus.reach import OPEN_LEAST_MS, OPEN_MOST_MS, Silence, fits, open_timeout_ms, probe
+from services.bus.reach import OPEN_LEAST_MS, OPEN_MOST_MS, UNMEASURED_S, Silence, fits, open_timeout_ms, probe
 from services.process.endpoint import parse
 from services.process.exceptions import BadEndpoint
+
+
+def test_a_listener_with_tls_is_not_dialled_to_measure_the_way():
+    assert probe(parse("tls/127.0.0.1:1")) == UNMEASURED_S
+    assert fits(open_timeout_ms(UNMEASURED_S), UNMEASURED_S)
 
 
 def test_somebody_who_listens_is_reached():

@@ -139,8 +139,8 @@ def test_a_person_has_what_the_page_reads_and_a_headless_run_the_script():
 
 
 def test_who_listens_everywhere_connects_to_itself():
-    result = parsed("up", "--listen", "tcp/0.0.0.0:7999")
-    assert (result.listen, result.connect) == ("tcp/0.0.0.0:7999", "tcp/127.0.0.1:7999")
+    result = parsed("up", "--listen", "tls/0.0.0.0:7999")
+    assert (result.listen, result.connect) == ("tls/0.0.0.0:7999", "tls/127.0.0.1:7999")
 
 
 def test_the_documented_example_is_valid(write):

@@ -84,9 +84,9 @@ def test_flags_stand_above_the_file(tmp_path):
 @pytest.mark.parametrize(
     ("listen", "own"),
     [
-        ("tcp/0.0.0.0:7447", "tcp/127.0.0.1:7447"),
-        ("tcp/[::]:7447", "tcp/[::1]:7447"),
-        ("tcp/192.0.2.1:7447", "tcp/192.0.2.1:7447"),
+        ("tls/0.0.0.0:7447", "tls/127.0.0.1:7447"),
+        ("tls/[::]:7447", "tls/[::1]:7447"),
+        ("tls/192.0.2.1:7447", "tls/192.0.2.1:7447"),
     ],
 )
 def test_this_machines_processes_reach_their_own_router(listen, own):

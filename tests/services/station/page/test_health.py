@@ -85,3 +85,14 @@ def test_a_prediction_is_told_by_what_is_known_and_which_way_it_takes(certainty,
 def test_without_a_prediction_nothing_is_said_of_it():
     told = figures(shown())
     assert (told["figure-prediction"], told["figure-prediction@data-tone"]) == ("none", "none")
+
+
+def test_a_network_that_is_open_to_others_is_said_whatever_else_there_is_to_say():
+    well = health(shown(**WELL, open_network=True))
+    assert well == {"health@data-tone": "warn", "health-text": "All well. Network open to others"}
+    unheard = health(shown(open_network=True))
+    assert unheard == {"health@data-tone": "bad", "health-text": "The robot is not heard. Network open to others"}
+    told = figures(shown(open_network=True))
+    assert told["figure-network@data-tone"] == "warn"
+    assert "open to others" in told["figure-network"]
+    assert figures(shown())["figure-network"] == "closed to others"
