@@ -54,11 +54,11 @@ class Sites:
             robot.until(lambda: reachable(here), START_S, "the router listens")
             self.ear = stack.enter_context(Ear(here, NEAR))
             if self._pictures:
-                stack.enter_context(_running([sys.executable, _HERE / "pictures.py", here]))
+                stack.enter_context(running([sys.executable, _HERE / "pictures.py", here]))
             if self._router:
                 endpoint = stack.enter_context(self._joined(endpoint, far))
             program = [*self._link.there, sys.executable, _HERE / "ear.py", endpoint, self._far_file]
-            self._far_ear = stack.enter_context(_running(program))
+            self._far_ear = stack.enter_context(running(program))
             assert self._far_ear.stdout.readline() == "listening\n"
             self.desk = stack.enter_context(self._operator(endpoint, far))
             self._stack = stack.pop_all()
@@ -127,7 +127,8 @@ class Sites:
 
 
 @contextlib.contextmanager
-def _running(command):
+def running(command):
+    """A program of the tests' own."""
     process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     try:
         yield process

@@ -11,8 +11,10 @@ from protocol.codec import encode
 from protocol.messages import CameraImage, Pose
 from services.bus.arrays import quaternion
 from services.bus.clocks import Clocks
+from services.bus.memory import MemoryNetwork
 from services.bus.subscription import Subscription
-from services.station.ears import heading, picture
+from services.process.clock import ManualClock
+from services.station.ears import PICTURES_WITHIN_S, Ears, heading, picture
 
 MS = 1_000_000
 HERE, ELSEWHERE = 1 << 47, 2 << 47
@@ -57,3 +59,33 @@ def test_before_the_first_picture_there_is_none():
 def test_a_camera_that_is_turned_looks_so_far_to_the_side(camera, yaw):
     turned = multiply(exp_map(np.array((0.0, 0.0, yaw))), np.array(camera))
     assert heading(Pose((1.0, 2.0, 3.0), quaternion(turned))) == pytest.approx(yaw, abs=1e-6)
+
+
+@pytest.fixture
+def looking():
+    """A station's ears, and its clock; a camera's picture comes when it is asked for."""
+    clock = ManualClock()
+    network = MemoryNetwork(clock)
+    ears, camera = Ears(network.bus("station")), network.bus("camera")
+    shown = CameraImage(
+        camera="head", width=1, height=1, data=b"x", intrinsics=(1.0,) * 4, pose=Pose((0.0,) * 3, LEVEL)
+    )
+
+    def show():
+        camera.publish(topics.HEAD_IMAGE, shown)
+        ears.queue.step(clock.now_ns())
+
+    return ears, clock, show
+
+
+def test_by_pictures_that_were_there_and_are_too_old_nobody_corrects(looking):
+    ears, clock, show = looking
+    clock.advance(60.0)
+    assert not ears.blind(clock.now_ns()), "where no camera is there is none to wait for"
+    show()
+    clock.advance(PICTURES_WITHIN_S)
+    assert not ears.blind(clock.now_ns())
+    clock.advance(0.001)
+    assert ears.blind(clock.now_ns())
+    show()
+    assert not ears.blind(clock.now_ns())
