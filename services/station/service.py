@@ -250,7 +250,7 @@ class StationService:
     def _publish(self, held: OperatorInput, now_ns: int) -> None:
         """Who is here and what is held; that s/he is present, where this station holds the authority."""
         operator, holder, epoch = self._settings.operator, self._settings.holder, self._workflow.held_epoch
-        blind = self._ears.blind(now_ns)
+        blind = self._page is not None and self._ears.blind(now_ns)  # a script looks at no pictures
         said = msgspec.structs.replace(held, operator=operator, holder=holder, epoch=epoch, blind=blind)
         self._bus.publish(topics.OPERATOR_INPUT, said)
         if epoch and held.present:
