@@ -59,14 +59,19 @@ COUNT = """
 """
 """How many pictures were drawn."""
 
-FORESIGHT = """
-    window.foresights = [];
+DRAWN = """
+    window.foresights = [], window.ages = [];
+    const aging = new MutationObserver((changes) => {
+        for (const { target } of changes) window.ages.push(Number(target.dataset.ageMs));
+    });
+    const ages = { attributeFilter: ["data-age-ms"] };
+    for (const canvas of document.querySelectorAll(".picture")) aging.observe(canvas, ages);
     const watcher = new MutationObserver((changes) => {
         for (const { target } of changes) window.foresights.push(Number(target.dataset.foresightMs));
     });
     watcher.observe(document.querySelector(".scene"), { attributeFilter: ["data-foresight-ms"] });
 """
-"""How long it took each time to foresee how the motion goes on [ms]."""
+"""How long it took each time to foresee how the motion goes on, and since when what each picture shows was [ms]."""
 
 
 class Operator:
@@ -179,7 +184,7 @@ def refine(operator, witness, endpoint):
     operator.press("execute", lambda: witness.robot is not None and witness.robot.episode > 0)
     operator.press("refine", lambda: is_corrected(witness.robot))
     with states(endpoint) as heard:
-        operator.page.evaluate(FORESIGHT)
+        operator.page.evaluate(DRAWN)
         drawn, began = operator.page.evaluate("window.drawn"), time.monotonic()
         before = costs(witness)
         while time.monotonic() - began < REFINE_S / 2:
@@ -187,15 +192,21 @@ def refine(operator, witness, endpoint):
         took = time.monotonic() - began
         after = costs(witness)
     latencies = np.array(latencies_ms(operator.taps_ns, *heard.values()))
+    said, displaced, applied = np.percentile(latencies, 50, axis=0)
     pictures = operator.page.evaluate("window.drawn") - drawn
-    foresights = np.array(operator.page.evaluate("window.foresights"))
+    foresights, ages = (np.array(operator.page.evaluate(f"window.{name}")) for name in ("foresights", "ages"))
     held = np.mean([robot.phase is Phase.HOLD for robot in heard[topics.ROBOT_STATE]])
     return [
-        Result("key to displacement applied, p50", float(np.percentile(latencies, 50)), "ms", 15.0),
-        Result("key to displacement applied, p99", float(np.percentile(latencies, 99)), "ms", 50.0),
+        Result("key to displacement applied, p50", float(applied), "ms", 15.0),
+        Result("of it, until the station says the key", float(said), "ms"),
+        Result("of it, until the master is displaced", float(displaced), "ms"),
+        Result("key to displacement applied, p99", float(np.percentile(latencies[:, 2], 99)), "ms", 50.0),
         Result("taps that moved the robot", len(latencies), "1"),
         Result("robot holds though somebody is at the keys", 100.0 * float(held), "%"),
         Result("3-D view, pictures a second", pictures / took, "Hz"),
+        Result("picture's age on the canvas, p50", float(np.percentile(ages, 50)), "ms", 60.0),
+        Result("picture's age on the canvas, p99", float(np.percentile(ages, 99)), "ms"),
+        Result("pictures on the canvases", len(ages) / took, "Hz"),
         Result("foresight reckoned, p50", float(np.percentile(foresights, 50)), "ms"),
         Result("foresight reckoned, p99", float(np.percentile(foresights, 99)), "ms", 20.0),
         Result("foresight, times a second", len(foresights) / took, "Hz"),
@@ -213,8 +224,8 @@ def is_corrected(robot):
 
 @contextlib.contextmanager
 def states(endpoint):
-    """What master and robot say meanwhile, by topic."""
-    passed, heard = [], {topics.MASTER_STATE: [], topics.ROBOT_STATE: []}
+    """What station, master and robot say meanwhile, by topic."""
+    passed, heard = [], {topics.OPERATOR_INPUT: [], topics.MASTER_STATE: [], topics.ROBOT_STATE: []}
     session = open_session(endpoint, START_S)
     try:
         for topic in heard:
@@ -234,8 +245,10 @@ def costs(witness):
     return {**told, "browser": sum(each.user + each.system for each in browser)}
 
 
-def latencies_ms(taps_ns, masters, robots):
-    """From each key press until the arm was told what the displacement that it made had shaped [ms]."""
+def latencies_ms(taps_ns, inputs, masters, robots):
+    """From each key press until the station says it, until it has displaced the master, and until the arm was told what
+    that displacement had shaped [ms], a row each."""
+    said_ns = np.array([said.stamp_ns for said in inputs if f"Key{KEY.upper()}" in said.keys])
     moved = np.array([master.displacement[AXIS] for master in masters])
     masters_ns, robots_ns = (np.array([state.stamp_ns for state in states]) for states in (masters, robots))
     applied = np.array([robot.applied_sequence for robot in robots])
@@ -246,8 +259,10 @@ def latencies_ms(taps_ns, masters, robots):
         if not grown.size:
             continue
         told = np.flatnonzero(applied >= masters[first + grown[0]].sequence)
-        if told.size and robots_ns[told[0]] - tap_ns < (TAP_MS + BETWEEN_MS) * 1e6:
-            latencies.append((robots_ns[told[0]] - tap_ns) / 1e6)
+        if not told.size or robots_ns[told[0]] - tap_ns >= (TAP_MS + BETWEEN_MS) * 1e6:
+            continue
+        stages_ns = said_ns[np.searchsorted(said_ns, tap_ns)], masters_ns[first + grown[0]], robots_ns[told[0]]
+        latencies.append([(stage_ns - tap_ns) / 1e6 for stage_ns in stages_ns])
     return latencies
 
 

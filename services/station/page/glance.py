@@ -16,11 +16,17 @@ class Glance:
     Args:
         shown: the view.
         joints: names of what moves in the live view.
+        now_ns: when it was looked up.
     """
 
-    def __init__(self, shown: Shown, joints: tuple[str, ...]) -> None:
+    def __init__(self, shown: Shown, joints: tuple[str, ...], now_ns: int) -> None:
         self.shown = shown
         self._joints = joints
+        self._looked_ns = now_ns
+
+    def elapsed_s(self, now_ns: int) -> float:
+        """Since the view was put up [s]."""
+        return self.shown.elapsed_s + (now_ns - self._looked_ns) / 1e9
 
     @cached_property
     def values(self) -> Values:
@@ -53,5 +59,5 @@ class Glances:
         """The newest view at this time."""
         period = now_ns // self._period_ns
         if self._newest is None or self._newest[0] != period:
-            self._newest = period, Glance(self._board.newest(), self._joints)
+            self._newest = period, Glance(self._board.newest(), self._joints, now_ns)
         return self._newest[1]

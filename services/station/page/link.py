@@ -14,7 +14,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from services.process.clock import Clock
 from services.station.live_view.drawing import Point, has_moved, packed
-from services.station.page.glance import Glance, Glances
+from services.station.page.glance import Glances
 from services.station.page.input import Desk
 from services.station.page.layout import own
 from services.station.page.said import Held
@@ -162,22 +162,23 @@ class Link:
         with contextlib.suppress(WebSocketDisconnect, RuntimeError):
             before_ns = 0
             while True:
-                now_ns = self._clock.now_ns()
+                due_ns = self._clock.now_ns()
+                if _is_another(NEWS_PERIOD_NS, due_ns, before_ns):
+                    await tab.socket.send_text(self._news(tab, due_ns))
+                now_ns = self._clock.now_ns()  # what goes over a thin link waits until it is through
                 glance = self._glances.at(now_ns)
-                shown = glance.shown
-                if _is_another(NEWS_PERIOD_NS, now_ns, before_ns):
-                    await tab.socket.send_text(self._news(tab, glance, now_ns))
-                for camera, picture in ((HEAD, shown.view.head), (WRIST, shown.view.wrist)):
-                    await tab.send_picture(camera, picture, shown.elapsed_s)
-                if _is_another(MOMENT_PERIOD_NS, now_ns, before_ns):
-                    await tab.send_moment(glance.moment, shown.robot_age_s)
+                view, elapsed_s = glance.shown.view, glance.elapsed_s(now_ns)
+                for camera, picture in ((HEAD, view.head), (WRIST, view.wrist)):
+                    await tab.send_picture(camera, picture, elapsed_s)
+                if _is_another(MOMENT_PERIOD_NS, due_ns, before_ns):
+                    await tab.send_moment(glance.moment, view.robot_age_s + elapsed_s)
                 if tab.wants_cloud:
-                    await tab.send_picture(CLOUD, shown.view.cloud, shown.elapsed_s)
-                before_ns = now_ns
+                    await tab.send_picture(CLOUD, view.cloud, elapsed_s)
+                before_ns = due_ns
                 await asyncio.sleep((LOOK_PERIOD_NS - self._clock.now_ns() % LOOK_PERIOD_NS) / 1e9)
 
-    def _news(self, tab: _Tab, glance: Glance, now_ns: int) -> str:
-        standing = self._desk.standing(tab.number, now_ns)
+    def _news(self, tab: _Tab, now_ns: int) -> str:
+        glance, standing = self._glances.at(now_ns), self._desk.standing(tab.number, now_ns)
         shown = glance.shown
         stamp_ms, heard_ns = tab.heard
         news = _News(

@@ -42,6 +42,7 @@ export class Pictures {
     }
     canvas.getContext("2d").drawImage(bitmap, 0, 0);
     this.captured[camera] = captured;
+    canvas.dataset.ageMs = (performance.now() - captured).toFixed(1); // for whoever measures
   }
 
   showAges() {
