@@ -24,8 +24,8 @@ site needs. The authority's folder stays where it is; what --to names is copied 
 the machine that it is for, as its ~/.config/retouch/certs.
 
   retouch certs init
-  retouch certs issue site.kitchen --host 192.0.2.1 --to kitchen
   retouch certs issue operator.anna --to anna
+  retouch certs issue site.kitchen --host 192.0.2.1 --to kitchen
 """
 
 _SITE = "site"
