@@ -47,7 +47,7 @@ def far(tmp_path):
             ear.wait(START_S)
         return msgpack.unpackb(file.read_bytes())
 
-    with Command("router", "--listen", f"tcp/0.0.0.0:{port}", folder=tmp_path) as router:
+    with Command("router", "--insecure", "--listen", f"tcp/0.0.0.0:{port}", folder=tmp_path) as router:
         router.until(lambda: reachable(here), START_S, "the router listens")
         yield entered, here, hear
     entered.__exit__()
