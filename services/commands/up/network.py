@@ -16,6 +16,7 @@ from services.bus.zenoh import ZenohBus
 from services.commands.up.report import attempt_line
 from services.process.addresses import EVERYWHERE, in_url
 from services.process.config import StationSection
+from services.process.repeats import Repeats
 
 Say = Callable[[str, str], None]
 """Prints a line under a name."""
@@ -78,6 +79,7 @@ class Narrator:
         self._say = say
         self._started = started
         self._phase = ""
+        self._repeats = Repeats()
 
     def tell(self, watch: Watch) -> None:
         """What is new."""
@@ -87,9 +89,13 @@ class Narrator:
         teaching = watch.teaching_state()
         if teaching is None:
             return
+        now_s = time.monotonic()
+        lines = self._repeats.due(now_s)
         if teaching.phase != self._phase:
             self._phase = teaching.phase
-            self._say("teaching", teaching.told)
+            lines += self._repeats.told(teaching.told, now_s)
+        for line in lines:
+            self._say("teaching", line)
         for attempt in teaching.attempts:
             told = (teaching.publisher, attempt.number)
             if told not in self.attempts:

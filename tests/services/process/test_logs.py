@@ -36,7 +36,7 @@ def reader():
 
 def said(handler, *lines):
     for line in lines:
-        handler.handle(logging.makeLogRecord({"msg": line}))
+        handler.handle(logging.makeLogRecord({"msg": line, "levelno": logging.WARNING}))
 
 
 def test_lines_wait_for_a_reader_and_come_in_their_order(reader):
@@ -65,3 +65,13 @@ def test_a_stream_that_is_closed_ends_nothing(tmp_path):
     said(handler, "one", "two")
     handler.flush()
     assert stream.closed
+
+
+def test_what_is_said_again_and_again_is_counted_and_buries_nothing(reader):
+    handler = Unhurried(reader)
+    reader.takes.set()
+    said(handler, *["the authority was lost"] * 265, "nothing is recorded")
+    handler.flush()
+    *lost, fault, count = reader.taken
+    assert (lost, fault) == (["the authority was lost\n"] * 3, "nothing is recorded\n")
+    assert count.startswith("262 more like this")

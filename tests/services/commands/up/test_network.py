@@ -39,3 +39,18 @@ def test_every_episode_is_told_once_though_only_the_newest_are_heard_and_a_new_s
         narrator.tell(watch)
     assert [line.split(".")[0] for line in lines if "prediction" in line] == ["1", "2", "3", "4", "5"]
     assert len(narrator.attempts) == 5
+
+
+def test_what_a_run_says_again_and_again_is_told_a_few_times():
+    network = MemoryNetwork(ManualClock())
+    watch = Watch(network.bus())
+    lines = []
+    narrator = Narrator(lambda _, line: lines.append(line), 0.0)
+    station = network.bus()
+    for number in range(50):
+        phase = ("waiting", "acquiring")[number % 2]
+        station.publish(
+            TEACHING_STATE, TeachingState(phase=phase, text="", event="The authority was lost.", light=Light.AMBER)
+        )
+        narrator.tell(watch)
+    assert lines == ["The authority was lost."] * 3
