@@ -17,7 +17,7 @@ def hold():
 def held(hold, milliseconds, since=0, epoch=7):
     """Hold for so long, in periods of 10 ms."""
     for now in range(since, since + milliseconds + 1, 10):
-        assert hold.reason(now * MS, "nobody there", epoch) == "nobody there"
+        assert "nobody there" in hold.reason(now * MS, "nobody there", epoch)
 
 
 def test_what_nobody_asked_for_waits():
@@ -41,7 +41,7 @@ def test_a_longer_one_waits_to_be_asked(hold):
     held(hold, round(1e3 * LONG_HOLD_S) + 10)
     assert hold.waiting
     for later in (600, 6000):
-        assert hold.reason(later * MS, "", 7) == TOO_LONG
+        assert hold.reason(later * MS, "", 7) == f"{TOO_LONG} (nobody there)"
 
 
 def test_what_was_asked_goes_on_as_soon_as_nothing_keeps_it(hold):
@@ -77,4 +77,18 @@ def test_under_another_authority_a_motion_waits_at_once(hold):
 def test_a_long_hold_does_not_hide_that_the_authority_is_another(hold):
     hold.reason(0, "nobody there", 8)
     held(hold, 1000, since=10)
-    assert hold.reason(1020 * MS, "", 7) == ANOTHER_AUTHORITY
+    assert hold.reason(1020 * MS, "", 7) == f"{ANOTHER_AUTHORITY} (nobody there)"
+
+
+@pytest.mark.parametrize("epoch", [7, 8])
+def test_what_comes_and_goes_while_it_waits_does_not_change_what_whoever_is_to_answer_reads(hold, epoch):
+    held(hold, 1000, epoch=epoch)
+    read = {hold.reason((1000 + 10 * k) * MS, ("", "no hand", "nobody there")[k // 20 % 3], epoch) for k in range(300)}
+    assert len(read) == 1
+
+
+def test_another_cause_that_lasts_is_told_while_it_waits(hold):
+    held(hold, 1000)
+    for now in range(1010, 1600, 10):
+        told = hold.reason(now * MS, "no hand", 7)
+    assert told == f"{TOO_LONG} (no hand)"

@@ -78,7 +78,7 @@ def test_every_episode_holds_when_the_lease_runs_out(site):
     site.execute()
     site.run(1.2, renew=False)
     assert site.state.phase is Phase.HOLD
-    assert site.state.hold_reason == "nobody holds the authority"
+    assert "nobody holds the authority" in site.state.hold_reason
 
 
 def test_the_emergency_stop_latches_and_asks_for_release_and_a_new_authority(site):
