@@ -10,12 +10,12 @@ from protocol.messages import Light, Phase, SafetyState
 
 SENTENCES = {
     "ready": "Ready. Watch what the robot does alone.",
-    "alone": "Watch: the robot moves alone.",
+    "alone": "The robot moves alone.",
     "failed": "The robot touched something, missed the target by 84 mm. Correct it.",
     "correcting": "Steer around it. Space when done.",
-    "paused": "Paused: this page was not in view, or did not answer. Press Go on, or Done.",
+    "paused": "This page was not in view, or did not answer. Press Go on, or Done.",
     "done": "Reached, nothing touched. Teach it?",
-    "learning": "Wait: the robot learns what you showed.",
+    "learning": "The robot learns what you showed.",
     "watching": "bert commands the robot. Ask, or take over.",
     "stopped": "Emergency stop by anna: release it to go on.",
     "finished": "Finished: the robot has learnt from the correction. Press Next object to begin again.",

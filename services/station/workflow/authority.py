@@ -7,6 +7,7 @@ from dataclasses import replace
 from protocol import queries
 from protocol.messages import AuthorityEvent, AuthorityState
 from services.station.words.table import say
+from services.station.workflow import unanswered
 from services.station.workflow.action import Action
 from services.station.workflow.asking import RETRY_S, ask, not_done, to
 from services.station.workflow.state import Phase, Settings, Workflow
@@ -17,6 +18,9 @@ LINGERS_S = 2.0
 
 CONFIRM_S = 2.0
 """Within this time after the authority was granted the robot's own state shows it."""
+
+TOLD_S = 10.0
+"""For so long it is told that the authority was lost, once it is back."""
 
 UNHEARD_S = 1.0
 """A robot that was silent for longer waits for another press: what was asked before it may be wrong by now."""
@@ -41,20 +45,22 @@ def missing(view: View, settings: Settings) -> str:
 
 def waiting(state: Workflow, view: View, settings: Settings) -> Step:
     """For robot, model and operator; the authority is asked for once all are there and nobody has it."""
+    state = unanswered.heard(state, view)
     if missing(view, settings):
         return Step(state)
     taker = another(view, settings)
     lingers_until_s = state.retry_s or view.now_s + LINGERS_S
     if state.watches or is_revoked(view) or (taker and (state.epoch or view.now_s >= lingers_until_s)):
-        return Step(to(state, Phase.WATCHING, view, watches=True))
+        return Step(to(state, Phase.WATCHING, view, watches=True, unanswered=None))
     if taker:
         return Step(replace(state, retry_s=lingers_until_s))
-    return Step(to(state, Phase.ACQUIRING, view) if view.now_s >= state.retry_s else state)
+    return Step(to(state, Phase.ACQUIRING, view, offered=state.offered) if view.now_s >= state.retry_s else state)
 
 
 def acquiring(state: Workflow, view: View, settings: Settings) -> Step:
     """Ask; where the robot waits in an episode of this station's, the operator is asked what becomes of it."""
-    offered = frozenset({Action.TAKE_OVER})
+    state = unanswered.heard(state, view)
+    offered = frozenset({Action.TAKE_OVER}) if state.unanswered is None else unanswered.ANSWERS
     if Action.TAKE_OVER in view.actions and state.wants is not Action.TAKE_OVER:
         state = to(state, Phase.ACQUIRING, view, wants=Action.TAKE_OVER, why=view.argument(Action.TAKE_OVER))
     take_over = state.wants is Action.TAKE_OVER
@@ -73,7 +79,8 @@ def acquiring(state: Workflow, view: View, settings: Settings) -> Step:
             notice = not_done(queries.ACQUIRE, reason)
             if state.wants is not None:
                 return Step(to(state, Phase.WATCHING, view, watches=True, notice=notice, retry_s=view.now_s + RETRY_S))
-            return Step(to(state, Phase.WAITING, view, notice=notice, retry_s=view.now_s + RETRY_S))
+            asked = state.offered & unanswered.ANSWERS
+            return Step(to(state, Phase.WAITING, view, notice=notice, retry_s=view.now_s + RETRY_S, offered=asked))
         case _:
             return Step(_granted(state, view, reply.epoch))
 
@@ -87,12 +94,17 @@ def _granted(state: Workflow, view: View, epoch: int) -> Workflow:
         granted_s=view.now_s,
         watches=False,
         warned=False,
+        unanswered=None,
         event=say("event.back") if state.event == say("event.lost") else state.event,
     )
     if not runs(state, view) or state.episode is None:
         return to(granted, Phase.LOOKING, view)
     number = state.episode.number or (view.robot.episode if view.robot is not None else 0)
-    return to(granted, Phase.EXECUTING, view, episode=replace(state.episode, number=number))
+    answer = state.unanswered.answer if state.unanswered is not None else None
+    asked = state.offered & unanswered.ANSWERS
+    return to(
+        granted, Phase.EXECUTING, view, episode=replace(state.episode, number=number), wants=answer, offered=asked
+    )
 
 
 def runs(state: Workflow, view: View) -> bool:
@@ -109,8 +121,10 @@ def heard(state: Workflow, view: View, settings: Settings) -> Workflow:
     """With what the robot says of itself and of the authority."""
     authority = view.authority
     mine = authority is not None and (authority.holder, authority.epoch) == (settings.holder, state.epoch)
+    old = state.event == say("event.back") and view.now_s - state.granted_s > TOLD_S
     return replace(
         state,
+        event="" if old else state.event,
         heard_s=view.now_s if view.robot is not None else state.heard_s,
         confirmed=state.confirmed or (state.holding and mine),
     )
@@ -124,7 +138,11 @@ def lost(state: Workflow, view: View, settings: Settings) -> Workflow | None:
     if reason:
         watches = bool(another(view, settings)) or is_revoked(view)
         dropped = replace(state, holding=False, pressed=False, watches=watches)
-        return to(dropped, Phase.WATCHING if watches else Phase.WAITING, view, event=reason)
+        if watches:
+            return to(dropped, Phase.WATCHING, view, event=reason)
+        asked = unanswered.kept(state, view)
+        offered = state.offered & unanswered.ANSWERS if asked is not None else frozenset()
+        return to(dropped, Phase.WAITING, view, event=reason, unanswered=asked, offered=offered)
     if state.pressed and view.now_s - state.heard_s > UNHEARD_S:
         return to(state, Phase.DECIDING, view, pressed=False, event=say("event.unheard"))
     return None

@@ -185,9 +185,7 @@ def executing(state: Workflow, view: View, settings: Settings) -> Step:
     let_go = _let_go(state, view)
     if let_go is not state.let_go:
         state = replace(state, let_go=let_go)
-    waits = view.robot is not None and view.robot.waiting
-    ends = {Action.FINISH, Action.GO_ON} if waits else {Action.FINISH}
-    offered = going.offered(view) | editing.offered(state, view) | ends
+    offered = _offered(state, view)
     match state.wants:
         case Action.FINISH:
             finishing = replace(state.episode, finishing=True) if state.episode is not None else None
@@ -202,12 +200,25 @@ def executing(state: Workflow, view: View, settings: Settings) -> Step:
     return step if offered == step.state.offered else Step(replace(step.state, offered=offered), step.ask)
 
 
+def _offered(state: Workflow, view: View) -> frozenset[Action]:
+    """What the operator may do; a robot that is not heard for a moment takes no button away."""
+    if view.robot is None and state.offered:
+        return state.offered
+    ends = {Action.FINISH, Action.GO_ON} if _waits(state, view) else {Action.FINISH}
+    return going.offered(view) | editing.offered(state, view) | ends
+
+
+def _waits(state: Workflow, view: View) -> bool:
+    """The robot waits to be asked, as far as it was heard."""
+    return view.robot.waiting if view.robot is not None else Action.GO_ON in state.offered
+
+
 def _wanted(state: Workflow, view: View, settings: Settings) -> Action | None:
     """What the operator wants of the robot: what is not answered yet, but to end goes before all else."""
     if Action.FINISH in view.actions or state.wants is not None:
         return Action.FINISH if Action.FINISH in view.actions else state.wants
     pressed = view.now_s >= state.retry_s if settings.scripted else Action.GO_ON in view.actions
-    if pressed and view.robot is not None and view.robot.waiting:
+    if pressed and _waits(state, view):
         return Action.GO_ON
     return Action.PACE if state.going is not None else None
 

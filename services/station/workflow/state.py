@@ -168,6 +168,19 @@ class Owed:
 
 
 @dataclass(frozen=True)
+class Unanswered:
+    """A motion that waits for the operator's answer while the authority is away.
+
+    Attributes:
+        since_s: when the authority was lost [s].
+        answer: that was given since; None where none was.
+    """
+
+    since_s: float
+    answer: Action | None = None
+
+
+@dataclass(frozen=True)
 class Workflow:
     """The state of a teaching run.
 
@@ -188,6 +201,7 @@ class Workflow:
         confirmed: the robot's own state has shown it.
         granted_s: when it was granted [s].
         heard_s: when the robot's state was heard last [s].
+        unanswered: what was to be answered when the authority was lost; None where nothing was, or that is long ago.
         episode: that the robot was told to run and whose result has not come; None where there is none.
         owed: to the model.
         turning: what is or was last done with an entry of the model's history.
@@ -232,6 +246,7 @@ class Workflow:
     confirmed: bool = False
     granted_s: float = 0.0
     heard_s: float = 0.0
+    unanswered: Unanswered | None = None
     episode: Episode | None = None
     owed: Owed | None = None
     turning: Turning = Turning()

@@ -30,7 +30,8 @@ def caught(state: Workflow, view: View) -> Workflow | None:
         return None
     told = bool(state.intent) if state.phase is Phase.LEARNING else state.owed is not None
     kept = state.taught is not None and (told or not state.taught.whole)
-    return to(state, Phase.STOPPED, view, pressed=False, taught=state.taught if kept else None)
+    taught = state.taught if kept else None
+    return to(state, Phase.STOPPED, view, pressed=False, taught=taught, event="", unanswered=None)
 
 
 def stopped(state: Workflow, view: View, settings: Settings) -> Step:

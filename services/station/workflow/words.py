@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 from protocol.messages import Light, Mode, Origin, Outcome, RobotState, SafetyState, TeachingState
 from protocol.messages import Phase as RobotPhase
@@ -25,10 +26,14 @@ _HOLDS = (
     ("the operator's keys or device were not heard", "unheard"),
     ("the operator's keys or device are heard", "late"),
     ("no hand", "hand"),
-    ("it held for", "long"),
-    ("it was asked for under another", "other"),
 )
-"""How the robot's reasons to hold begin, and the words for whoever stands at the page."""
+"""How what keeps the robot from going on begins, and the words for whoever stands at the page."""
+
+_WAITS = (("it held for", "long"), ("it was asked for under another", "other"))
+"""The same of why it waits to be asked."""
+
+_KEPT_BY = re.compile(r" \((.*)\)$")
+"""What had kept it, behind why it waits."""
 
 
 def teaching_state(state: Workflow, view: View, settings: Settings) -> TeachingState:
@@ -85,6 +90,8 @@ def _who(safety: SafetyState) -> str:
 def _light(state: Workflow, view: View) -> Light:
     if state.phase is Phase.DECIDING or (state.phase is Phase.FINISHED and state.offered):
         return Light.GREEN
+    if _asked(state):
+        return Light.HOLD
     if state.phase is not Phase.EXECUTING:
         return Light.AMBER
     if view.robot is not None and (view.robot.phase is RobotPhase.HOLD or paused(view)):
@@ -94,14 +101,19 @@ def _light(state: Workflow, view: View) -> Light:
     return Light.GREEN if _may_correct(state, view) else Light.AMBER
 
 
+def _asked(state: Workflow) -> bool:
+    """A motion that waits to be answered is answered in the same form while the authority comes back."""
+    return state.phase in (Phase.WAITING, Phase.ACQUIRING) and state.unanswered is not None
+
+
 def _may_correct(state: Workflow, view: View) -> bool:
     under_way = view.robot is not None and view.robot.phase is RobotPhase.EXECUTE
-    return under_way and not state.let_go and not _collided(view) and not elsewhere(view)
+    return under_way and not state.let_go and (_collided(view) or not elsewhere(view))
 
 
 def _text(state: Workflow, view: View, settings: Settings) -> str:
     match state.phase:
-        case Phase.WAITING | Phase.WATCHING:
+        case Phase.WAITING | Phase.ACQUIRING | Phase.WATCHING:
             return _without(state, view, settings)
         case Phase.STOPPED:
             return _stopped(view)
@@ -117,6 +129,10 @@ def _text(state: Workflow, view: View, settings: Settings) -> str:
 
 def _without(state: Workflow, view: View, settings: Settings) -> str:
     """Without the authority: what is waited for, or who has it and what can be done."""
+    if _asked(state) and view.robot is not None:
+        return _holding(view.robot)
+    if state.phase is Phase.ACQUIRING:
+        return say("workflow.acquiring")
     taker = another(view, settings)
     if state.phase is Phase.WAITING:
         return missing(view, settings) or (say("workflow.taken", who=taker) if taker else "")
@@ -180,11 +196,20 @@ def _correcting(state: Workflow, view: View) -> str:
 
 
 def _holding(robot: RobotState) -> str:
-    """Whether it goes on by itself, and what keeps it."""
-    why = next((say(f"hold.{word}") for start, word in _HOLDS if robot.hold_reason.startswith(start)), None)
-    kind = "waits" if robot.waiting else "holds"
-    reason = why or heard(robot.hold_reason)
-    return say(f"workflow.{kind}_because", why=reason) if reason else say(f"workflow.{kind}")
+    """Whether it goes on by itself, and what keeps it; where it waits to be asked, what had kept it."""
+    reason = robot.hold_reason
+    if not robot.waiting:
+        why = _worded(reason, _HOLDS) or heard(reason)
+        return say("workflow.holds_because", why=why) if why else say("workflow.holds")
+    kept_by = _KEPT_BY.search(reason)
+    why = _worded(kept_by[1] if kept_by is not None else reason, _HOLDS, "was_") or _worded(reason, _WAITS)
+    why = why or heard(reason)
+    return say("workflow.waits_because", why=why) if why else say("workflow.waits")
+
+
+def _worded(reason: str, table: tuple[tuple[str, str], ...], tense: str = "") -> str:
+    """The page's words for a reason; empty where it has none."""
+    return next((say(f"hold.{tense}{word}") for start, word in table if reason.startswith(start)), "")
 
 
 def _collided(view: View) -> bool:

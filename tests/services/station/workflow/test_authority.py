@@ -7,6 +7,7 @@ import pytest
 from protocol import messages, queries
 from services.bus.bus import Failed
 from services.station.workflow.action import Action
+from services.station.workflow.authority import TOLD_S
 from services.station.workflow.state import Phase
 from services.station.workflow.words import teaching_state
 from tests.services.station.workflow.site import (
@@ -16,6 +17,7 @@ from tests.services.station.workflow.site import (
     HOLD,
     IDLE,
     SCRIPTED,
+    STOPPED,
     Site,
     authority,
     lose_authority,
@@ -76,6 +78,17 @@ def test_a_lost_authority_is_asked_for_again_and_nothing_moves():
     assert site.names()[asked:] == ["authority/acquire"]
     assert site.state.held_epoch == site.epoch
     assert site.state.event == "The authority was lost, and is back."
+
+
+def test_that_the_authority_is_back_is_no_news_after_a_while_nor_during_a_stop():
+    site = Site(BY_HAND)
+    site.run_to(Phase.DECIDING)
+    for later in ({"seconds": round(TOLD_S)}, {"seconds": 1, "safety": STOPPED}):
+        lose_authority(site)
+        site.run_to(Phase.DECIDING)
+        assert site.state.event == "The authority was lost, and is back."
+        site.stay(**later)
+        assert site.state.event == ""
 
 
 @pytest.mark.parametrize(("holder", "later"), [("", 0), ("station", 1)], ids=["nobody holds it", "a later lease"])

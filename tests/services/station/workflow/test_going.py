@@ -128,7 +128,7 @@ def test_what_is_offered_fits_what_the_motion_does(pace, there):
 @pytest.mark.parametrize(
     ("robot", "light", "words"),
     [
-        ({"pace": 0.0}, Light.HOLD, "Paused"),
+        ({"pace": 0.0}, Light.HOLD, "Play goes on"),
         ({"pace": -1.0}, Light.AMBER, "goes back"),
         ({"progress": 0.1, "part": Part(0.3, 0.6)}, Light.AMBER, "from 30 % to 60 %"),
         ({"progress": 0.4, "part": Part(0.3, 0.6)}, Light.GREEN, "Steer around it"),

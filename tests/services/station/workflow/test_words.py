@@ -5,9 +5,10 @@ from dataclasses import replace
 import msgspec
 import pytest
 
-from protocol.messages import Light, Mode, Outcome, Part, RobotState, SafetyState, Verdict, Way
+from protocol.messages import ExecutionState, Light, Mode, Outcome, Part, RobotState, SafetyState, Verdict, Way
 from services.robot.hold import ANOTHER_AUTHORITY, TOO_LONG
 from services.robot.safety import Watchdog
+from services.station.words.table import speech
 from services.station.workflow.action import Action
 from services.station.workflow.closure import Closure
 from services.station.workflow.state import Episode, Phase, Taught, Workflow
@@ -48,7 +49,7 @@ def told(state, **seen):
     ("state", "seen", "light", "text"),
     [
         (REFINING, {"robot": robot(EXECUTE)}, Light.GREEN, "Steer around it. Space when done."),
-        (REFINING, {"robot": robot(RAMP)}, Light.AMBER, "Wait: the robot goes to where the motion goes on."),
+        (REFINING, {"robot": robot(RAMP)}, Light.AMBER, "The robot goes to where the motion goes on."),
         (REFINING, {"robot": robot(IDLE)}, Light.AMBER, "The motion has ended."),
         (REFINING, {"robot": None}, Light.AMBER, "The robot is not heard."),
         (
@@ -57,8 +58,8 @@ def told(state, **seen):
             Light.AMBER,
             "Let go of the keys: they count from then on.",
         ),
-        (ALONE, {"robot": robot(EXECUTE)}, Light.RED, "Watch: the robot moves alone."),
-        (ALONE, {"robot": robot(RAMP)}, Light.RED, "Wait: the robot goes to where the motion goes on."),
+        (ALONE, {"robot": robot(EXECUTE)}, Light.RED, "The robot moves alone."),
+        (ALONE, {"robot": robot(RAMP)}, Light.RED, "The robot goes to where the motion goes on."),
         (Workflow(phase=Phase.DECIDING), {}, Light.GREEN, "Ready. Watch what the robot does alone."),
         (
             Workflow(phase=Phase.DECIDING, last=REACHED),
@@ -89,9 +90,9 @@ def told(state, **seen):
             replace(ALONE, prediction=HARDLY_KNOWN),
             {"robot": robot(EXECUTE)},
             Light.RED,
-            "Watch: the robot moves alone (way 2 of 2, 80 %).",
+            "The robot moves alone (way 2 of 2, 80 %).",
         ),
-        (Workflow(phase=Phase.LEARNING), {}, Light.AMBER, "Wait: the robot learns what you showed."),
+        (Workflow(phase=Phase.LEARNING), {}, Light.AMBER, "The robot learns what you showed."),
         (Workflow(phase=Phase.FINISHED, reason="ended by hand"), {}, Light.AMBER, "Ended: ended by hand."),
         (
             Workflow(phase=Phase.FINISHED, closure=Closure(closed=True)),
@@ -127,20 +128,25 @@ def test_a_run_that_is_over_is_the_operator_s_turn_where_another_one_can_begin()
 def test_a_held_robot_has_a_light_of_its_own_and_never_green(state):
     light, text = told(state, robot=robot(HOLD, hold_reason="no hand is at the operator's keys or device"))
     assert light is Light.HOLD
-    assert text == "Paused: no hand is at the keys or the device."
+    assert text == "No hand is at the keys or the device: click into the page, or take the device up."
 
 
 def test_a_robot_that_waits_says_what_to_press_and_what_keeps_it():
-    _, text = told(ALONE, robot=robot(HOLD, waiting=True, hold_reason="nobody holds the authority"))
-    assert text == "Paused: nobody commands the robot. Press Go on, or Done."
+    because = f"{ANOTHER_AUTHORITY} (nobody holds the authority)"
+    _, text = told(ALONE, robot=robot(HOLD, waiting=True, hold_reason=because))
+    assert text == "Nobody commanded the robot. Press Go on, or Done."
     _, text = told(ALONE, robot=robot(HOLD, waiting=True))
-    assert text == "Paused. Press Go on, or Done."
+    assert text == "Press Go on, or Done."
 
 
-def test_after_a_collision_nobody_is_asked_to_correct():
-    light, text = told(REFINING, robot=robot(EXECUTE), verdict=HIT)
-    assert light is Light.AMBER
+@pytest.mark.parametrize("pace", [1.0, -1.0])
+def test_after_a_collision_nobody_is_asked_to_correct_but_to_end_it(pace):
+    """It is the operator's turn: the sentence asks for something, and steps back would not help."""
+    back = ExecutionState(episode=1, mode=Mode.REFINE, prediction=1, progress=0.5, pace=pace)
+    light, text = told(REFINING, robot=robot(EXECUTE), verdict=HIT, execution=back)
+    assert light is Light.GREEN
     assert "Correct" not in text
+    assert "step back does not change that. Press Done" in text
     assert "touched" in text
 
 
@@ -165,7 +171,7 @@ def test_what_happened_and_what_does_not_work_are_told_beside_the_sentence():
     state = Workflow(phase=Phase.LEARNING, event="It happened.", notice="It does not work.")
     teaching = teaching_state(state, View(now_s=1.0, number=1), BY_HAND)
     assert (teaching.text, teaching.event) == (
-        "Wait: the robot learns what you showed.",
+        "The robot learns what you showed.",
         "It happened. It does not work.",
     )
     assert teaching.told == f"{teaching.text} {teaching.event}"
@@ -234,20 +240,27 @@ def test_a_miss_is_told_in_millimetres_while_it_is_known():
     assert text == "The robot missed the target by 31 mm."
 
 
+def test_no_sentence_says_again_what_the_light_says():
+    headings = [f"{speech.words[f'light.{light.value}']}{stop}" for light in Light for stop in ":."]
+    texts = [words for name, words in speech.words.items() if name.partition(".")[0] in ("workflow", "hold", "showing")]
+    assert not [text for text in texts if text.startswith(tuple(headings))]
+
+
 @pytest.mark.parametrize("waiting", [True, False])
 def test_every_reason_of_the_robot_s_to_hold_has_words_for_whoever_stands_at_the_page(waiting):
     watchdog = Watchdog(hold_after_s=0.1, presence_after_s=0.2)
-    reasons = [
+    causes = [
         watchdog.presence("", None),
         watchdog.presence("station", 9.0),
         watchdog.hand(None, engaged=True),
         watchdog.hand(9.0, engaged=True),
         watchdog.hand(0.0, engaged=False),
         watchdog.hand(0.0, engaged=True, way_s=9.0),
-        TOO_LONG,
-        ANOTHER_AUTHORITY,
     ]
-    for reason in reasons:
+    why = (TOO_LONG, ANOTHER_AUTHORITY) if waiting else ()
+    for reason in [*causes, *why, *(f"{waits} ({cause})" for waits in why for cause in causes)]:
         _, text = told(REFINING, robot=robot(HOLD, hold_reason=reason, waiting=waiting))
-        assert text.startswith("Paused: ")
+        assert text[0].isupper()
+        assert text.endswith(". Press Go on, or Done.") is waiting
         assert reason not in text
+        assert "held for more" not in text
