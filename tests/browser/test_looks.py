@@ -26,8 +26,8 @@ REGIONS = {
     ".pad": (0.0, 0.79, 0.64, 1.0),
     ".guide": (0.65, None, 1.0, None),
     ".verdict": (0.65, None, 1.0, None),
-    ".history": (0.65, None, 1.0, 0.79),
-    ".stop": (0.65, 0.79, 1.0, 1.0),
+    ".history": (0.65, None, 1.0, None),
+    ".stop": (0.65, None, 1.0, 1.0),
 }
 """Left, top, right and bottom as shares of a window of 1600 x 900; None where it depends on what is said."""
 

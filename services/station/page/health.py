@@ -17,18 +17,24 @@ FIGURES = ("phase", "age", "latency", "link", "limited", "object", "model", "pre
 SLOW_S = 0.1
 """From hand to robot, above which a correction comes late."""
 
+OLD_PICTURE_S = 1.0
+"""Age above which a camera's picture is marked as old where it is shown, too."""
+
 
 def health(shown: Shown) -> Values:
     """In a word whether data and links are as they should be: the worst that there is to say."""
     view = shown.view
     recording = view.recording
     latency_s = max((figure.value for figure in view.latencies), default=0.0)
+    pictures_s = max((one.age_s + shown.elapsed_s for one in (view.head, view.wrist) if one is not None), default=0.0)
     if view.robot is None:
         tone, words = "bad", say("health.unheard")
     elif is_stale(shown):
         tone, words = "bad", say("health.stale", age=span(shown.robot_age_s))
     elif view.model is None:
         tone, words = "warn", say("health.model")
+    elif pictures_s > OLD_PICTURE_S:
+        tone, words = "warn", say("health.pictures", age=span(pictures_s))
     elif latency_s > SLOW_S:
         tone, words = "warn", say("health.slow", age=span(latency_s))
     elif recording is not None and recording.fault:

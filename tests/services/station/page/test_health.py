@@ -9,6 +9,7 @@ from views import SEATED, robot, shown
 from protocol.messages import AuthorityState, Figure, ModelState, Phase, Recording, Way
 from services.bus.arrays import motion_to_wire
 from services.station.page.health import commander, figures, health
+from services.station.page.view import Picture
 from tests.services.predictions import prediction
 
 MOTION = motion_to_wire([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], [[1.0, 0.0, 0.0, 0.0]] * 2, 1.0)
@@ -42,6 +43,8 @@ def test_an_authority_that_nobody_holds_is_nobody_s():
         ({"robot": None}, "bad", "The robot is not heard"),
         ({"robot_age_s": 1.4}, "bad", "Robot data 1.4 s old"),
         ({"model": None}, "warn", "The model is not heard"),
+        ({"head": Picture(b"", 0.2), "wrist": Picture(b"", 2.9)}, "warn", "Pictures 2.9 s old"),
+        ({"head": Picture(b"", 0.2)}, "good", "All well"),
         ({"latencies": (Figure("applied", 0.12, "s"),)}, "warn", "Slow: 120 ms from hand to robot"),
         (
             {"recording": Recording(path="a", viewer_url="", recording_id="r", fault="full")},
