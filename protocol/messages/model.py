@@ -100,3 +100,8 @@ class ModelState(Message, frozen=True, kw_only=True):
     updates: Count
     scene: Name
     robot_kind: Name = ""
+
+    @property
+    def empty(self) -> bool:
+        """It has learnt nothing to predict from."""
+        return not (self.demonstrations or self.updates)

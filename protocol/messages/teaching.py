@@ -77,6 +77,7 @@ class TeachingState(Message, frozen=True, kw_only=True):
         pace: at which motions go; 1 is their own.
         part: of the next refinement in which corrections count, or of the one that runs.
         confidence: how far the model is to believe what it is taught next (alpha of eq. 18).
+        led: the newest motion was led by hand to store waypoints on its way: it is no attempt, and has no verdict.
     """
 
     phase: Name
@@ -99,6 +100,7 @@ class TeachingState(Message, frozen=True, kw_only=True):
     pace: Real = 1.0
     part: Part = Part()
     confidence: Fraction = 1.0
+    led: bool = False
 
     @property
     def told(self) -> str:

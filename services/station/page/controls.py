@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from protocol.keys import PUSH_KEYS, TURN_KEYS, Direction
-from protocol.messages import Light, SafetyState, TeachingState
+from protocol.messages import MOST_WAYPOINTS, Light, SafetyState, TeachingState
 from services.bus.predictions import LITTLE
 from services.station.page.standing import Standing
 from services.station.page.values import Values
@@ -85,7 +85,7 @@ KEYBOARDS = (_keyboard(PUSH_KEYS, "push"), _keyboard(TURN_KEYS, "turn"))
 def actions(shown: Shown) -> Values:
     """What the operator may do now, and the one thing to do first; the rest is not there."""
     teaching = shown.view.teaching
-    allowed = () if teaching is None else teaching.actions
+    allowed = frozenset() if teaching is None else frozenset(teaching.actions) - _pointless(teaching)
     first = "" if teaching is None else _first(teaching)
     values: dict[str, str | bool] = {}
     for button in BUTTONS:
@@ -93,6 +93,11 @@ def actions(shown: Shown) -> Values:
         values[f"action-{button.action}@data-first"] = "yes" if button.action == first else "no"
     values["action-refine-label"] = say("action.show_me" if first == "refine" and _unknown(shown) else "action.refine")
     return values
+
+
+def _pointless(teaching: TeachingState) -> frozenset[str]:
+    """No further waypoint is stored where there are as many as can be; they can be moved all the same."""
+    return frozenset({"store"} if len(teaching.waypoints) >= MOST_WAYPOINTS else ())
 
 
 def _unknown(shown: Shown) -> bool:

@@ -163,7 +163,8 @@ def _swap(view: str) -> str:
 
 def _counter(name: str) -> str:
     return (
-        f'<div class="counter" data-counter="{name}"><div class="counter-title">{_say(f"history.{name}")}</div>'
+        f'<div class="counter" data-counter="{name}" title="{_say(f"history.{name}_hint")}">'
+        f'<div class="counter-title">{_say(f"history.{name}")}</div>'
         f'<div class="counter-value" data-value="{name}">{_say("figure.none")}</div>'
         f'<div class="counter-bar" data-value="{name}-bar"></div></div>'
     )

@@ -24,11 +24,17 @@ def methods(shown: Shown) -> Values:
     if teaching is None:
         return {}
     allowed = frozenset(teaching.actions)
+    empty = shown.view.model is not None and shown.view.model.empty
+    returns = teaching.method is Method.REFINE
     return {
         "method": say(f"method.{teaching.method.value}"),
         "methods@data-method": teaching.method.value,
         "methods@data-based": "yes" if "basis" in allowed else "no",
         **_chosen("method", [one.value for one in METHODS], teaching.method.value, open_="method" in allowed),
+        "method-refine@disabled": empty or "method" not in allowed,
+        "method-refine@title": say("method.unusable") if empty else "",
+        "keyboard-help": say("pad.keyboard_help" if returns else "pad.keyboard_help_led"),
+        "pointer-help": say("pad.pointer_help" if returns else "pad.pointer_help_led"),
         **_chosen("basis", [one.value for one in BASES], teaching.basis.value, open_="basis" in allowed),
         "action-clear@disabled": "clear" not in allowed,
         "waypoints@data-places": ";".join(_place(waypoint) for waypoint in teaching.waypoints),

@@ -62,7 +62,9 @@ def criteria(shown: Shown) -> tuple[tuple[bool | None, str], ...]:
 
 
 def outcome(shown: Shown) -> tuple[bool | None, str]:
-    """All three criteria in a word."""
+    """All three criteria in a word; none of a motion that was only led to store waypoints."""
+    if _was_led(shown):
+        return None, say("verdict.led")
     met = [good for good, _ in criteria(shown)]
     if False in met:
         return False, say("verdict.failure")
@@ -73,7 +75,12 @@ def outcome(shown: Shown) -> tuple[bool | None, str]:
 
 def _open_while_moving(shown: Shown) -> bool | None:
     robot = shown.view.robot
-    return None if (robot is not None and robot.phase.running) or not _has_moved(shown) else False
+    running = robot is not None and robot.phase.running
+    return None if running or _was_led(shown) or not _has_moved(shown) else False
+
+
+def _was_led(shown: Shown) -> bool:
+    return shown.view.teaching is not None and shown.view.teaching.led
 
 
 def _has_moved(shown: Shown) -> bool:

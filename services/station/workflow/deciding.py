@@ -8,6 +8,7 @@ from protocol.messages import Method, Mode, Origin
 from services.station.words.table import say
 from services.station.workflow import editing
 from services.station.workflow.action import Action
+from services.station.workflow.approach import Approach
 from services.station.workflow.asking import to
 from services.station.workflow.closure import Closure
 from services.station.workflow.editing import EDITING
@@ -27,15 +28,21 @@ def deciding(state: Workflow, view: View, settings: Settings) -> Step:
     """Wait for a press; what the model was told and has not answered comes first."""
     if state.owed is not None:
         return Step(to(state, state.owed.phase, view, intent=state.owed.intent, owed=None))
-    state = set_for_next(state, view)
+    state = set_for_next(replace(state, approach=_usable(state.approach, view)), view)
     offered = _offered(state, view)
     if view.actions & offered & (EDITING | _CHOOSING):
         return Step(_shown(state, view, offered))
     pressed = [action for action in Action if action in view.actions & offered - SETTING]
-    chosen = recommended(state, view, settings) if settings.scripted else next(iter(pressed), None)
+    chosen = recommended(state, settings) if settings.scripted else next(iter(pressed), None)
     if chosen is None:
         return Step(replace(state, offered=frozenset(offered)))
     return _take(state, view, settings, chosen)
+
+
+def _usable(approach: Approach, view: View) -> Approach:
+    """An empty model has no motion to correct: it is shown one."""
+    corrects = approach.method is Method.REFINE
+    return replace(approach, method=Method.WAYPOINTS) if corrects and view.empty else approach
 
 
 def _offered(state: Workflow, view: View) -> frozenset[Action]:
@@ -75,8 +82,6 @@ def _take(state: Workflow, view: View, settings: Settings, chosen: Action) -> St
             taken = press(state, view, Mode.AUTONOMOUS, origin)
         case Action.REFINE:
             taken = _refine(state, view, settings)
-        case Action.METHOD:  # of an empty skill, by a script: whoever is a person has chosen it above
-            taken = replace(state, approach=state.approach.chosen(Method.WAYPOINTS.value))
         case Action.LEAD:
             taken = _lead(state, view, settings)
         case Action.TEACH:
@@ -112,7 +117,7 @@ def _elsewhere(state: Workflow) -> Workflow:
     )
 
 
-def recommended(state: Workflow, view: View, settings: Settings) -> Action:
+def recommended(state: Workflow, settings: Settings) -> Action:
     """What brings the run on, by the method, by the verdict of the newest episode here, and by what is known here.
 
     A part of a failed refinement is learnt where a person says so, and is never what is recommended.
@@ -121,8 +126,6 @@ def recommended(state: Workflow, view: View, settings: Settings) -> Action:
         return Action.TEACH
     if state.approach.method is not Method.REFINE:
         return _recommended_offline(state, settings)
-    if view.empty:
-        return Action.METHOD
     if state.last is None:
         return Action.REFINE if state.warned else Action.EXECUTE
     if not state.last.success:

@@ -37,4 +37,5 @@ def lacking(state: Workflow) -> int:
 
 def _here(state: Workflow, view: View) -> Pose | None:
     """Where a waypoint is stored: where the hand has led the robot, or left it."""
-    return view.robot.measured if view.robot is not None and state.mode is Mode.TEACH else None
+    there = state.led and state.mode is Mode.TEACH
+    return view.robot.measured if view.robot is not None and there else None

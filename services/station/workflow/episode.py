@@ -151,7 +151,8 @@ def starting(state: Workflow, view: View, settings: Settings) -> Step:
         return Step(replace(reply.state, episode=told), reply.ask)
     started = replace(state.episode, number=reply.episode) if state.episode is not None else None
     paced = going.begun(state, settings, part)
-    return Step(to(state, Phase.EXECUTING, view, episode=started, pressed=False, let_go=False, going=paced))
+    begun = {"episode": started, "pressed": False, "led": False, "let_go": False, "going": paced}
+    return Step(to(state, Phase.EXECUTING, view, **begun))
 
 
 def refused(

@@ -32,4 +32,5 @@ def taking_up(state: Workflow, view: View, settings: Settings) -> Step:
         told = Episode(reply.state.intent, robot.publisher) if reply.ask is not None else state.episode
         return Step(replace(reply.state, episode=told), reply.ask)
     started = replace(state.episode, number=reply.episode) if state.episode is not None else None
-    return Step(to(state, Phase.EXECUTING, view, episode=started, pressed=False, let_go=False))
+    led = state.approach.method is Method.WAYPOINTS
+    return Step(to(state, Phase.EXECUTING, view, episode=started, pressed=False, let_go=False, led=led))

@@ -12,16 +12,20 @@ from services.station.workflow.view import View
 
 def deciding(state: Workflow, view: View) -> str:
     """While the robot stands; empty where the other words say it."""
-    if state.approach.method is Method.REFINE:
-        return say("showing.choose") if view.empty else ""
     count = len(state.approach.waypoints)
-    if state.taught is not None or state.last is not None or (count == 0 and state.updates > 0):
+    shown = count == 0 and not state.led and state.updates > 0
+    if state.approach.method is Method.REFINE or state.taught is not None or state.last is not None or shown:
         return ""
+    if count == 0:
+        then = _to_begin(state)
+        return say("showing.empty", then=then) if view.empty else then
+    return say("showing.lacking" if lacking(state) else "showing.through", count=count, missing=lacking(state))
+
+
+def _to_begin(state: Workflow) -> str:
     if state.approach.method is Method.DEMONSTRATE:
         return say("showing.to_lead")
-    if count == 0:
-        return say("showing.to_store")
-    return say("showing.lacking" if lacking(state) else "showing.through", count=count, missing=lacking(state))
+    return say("showing.none_stored" if state.led else "showing.to_store")
 
 
 def leading(state: Workflow, robot: RobotState) -> str:

@@ -207,6 +207,7 @@ class Workflow:
         turning: what is or was last done with an entry of the model's history.
         confidence: how far the model is to believe what it is taught next; None for what the settings say.
         approach: how the operator teaches at this place.
+        led: the newest motion was led by hand to store waypoints on its way: it is no attempt, and has no verdict.
         mode: of the next episode, or of the newest.
         origin: where its motion comes from.
         pace: at which motions go; 1 is their own.
@@ -252,6 +253,7 @@ class Workflow:
     turning: Turning = Turning()
     confidence: float | None = None
     approach: Approach = field(default_factory=Approach)
+    led: bool = False
     mode: Mode = Mode.AUTONOMOUS
     origin: Origin = Origin.MODEL
     pace: float = 1.0

@@ -42,7 +42,7 @@ def judged(state: Workflow, view: View, settings: Settings) -> Workflow:
     result, episode = view.result, state.episode
     if result is None or episode is None or result.request != episode.request:
         return state
-    if result.mode is Mode.TEACH and state.approach.method is Method.WAYPOINTS:
+    if result.mode is Mode.TEACH and state.led:
         return _led(replace(state, episode=None, last=None), view, result)
     outcome = Outcome(result.verdict.reached, result.verdict.kicked_over, result.verdict.collision)
     attempt = Attempt(
@@ -72,7 +72,8 @@ def judged(state: Workflow, view: View, settings: Settings) -> Workflow:
     if result.mode is Mode.TEACH and known.taught is not None:
         return preview(replace(known, event=""), view, Origin.DEMONSTRATION)
     learns = known.taught is not None and known.taught.whole and result.completed
-    return to(known, Phase.LEARNING if learns else Phase.DECIDING, view, pressed=False, event=_end(result))
+    event = " ".join(part for part in (_end(result), _nothing(known, result)) if part)
+    return to(known, Phase.LEARNING if learns else Phase.DECIDING, view, pressed=False, event=event)
 
 
 def shown(state: Workflow) -> bool:
@@ -98,6 +99,18 @@ def _followed(state: Workflow, result: EpisodeResult) -> Approach:
 
 def _end(result: EpisodeResult) -> str:
     return "" if result.completed else say("event.cut", why=heard(result.reason))
+
+
+def _nothing(known: Workflow, result: EpisodeResult) -> str:
+    """Why nothing of a refinement that failed can be taught; empty where something can, or it did not fail."""
+    failed = known.last is not None and not known.last.success
+    if result.mode is not Mode.REFINE or known.taught is not None or not failed or result.cut is Cut.TAKEN_OVER:
+        return ""
+    if not result.operator_input:
+        return say("event.nothing_counted")
+    if result.completed and result.clear_until >= result.progress:
+        return say("event.only_missed")
+    return say("event.too_early", share=f"{100.0 * min(result.clear_until, result.progress):.0f}")
 
 
 def _kept(state: Workflow, taught: Taught | None) -> Taught | None:

@@ -94,7 +94,7 @@ class View:
     @property
     def empty(self) -> bool:
         """The model says that it has learnt nothing to predict from."""
-        return self.model is not None and not (self.model.demonstrations or self.model.updates)
+        return self.model is not None and self.model.empty
 
     @property
     def latched(self) -> bool:

@@ -61,13 +61,14 @@ def teaching_state(state: Workflow, view: View, settings: Settings) -> TeachingS
         basis=state.approach.basis,
         part=state.episode.part if state.episode is not None else state.part,
         confidence=confidence(state, settings),
+        led=state.led,
     )
 
 
 def _first(state: Workflow, view: View, settings: Settings) -> str:
     """What is to be pressed first; empty where there is nothing to choose."""
     if state.phase is Phase.DECIDING:
-        return recommended(state, view, settings).value if state.offered else ""
+        return recommended(state, settings).value if state.offered else ""
     first = showing.first(state) if state.phase is Phase.EXECUTING else None
     return first.value if first in state.offered else ""
 
@@ -158,7 +159,7 @@ def _deciding(state: Workflow, view: View, settings: Settings) -> str:
     if state.taught is not None:
         return f"{outcome}{say('workflow.teach' if state.taught.whole else 'workflow.teach_part')}"
     if state.last:
-        return f"{outcome}{say(f'workflow.then_{recommended(state, view, settings).value}')}"
+        return f"{outcome}{say(f'workflow.then_{recommended(state, settings).value}')}"
     if state.warned and state.prediction is not None:
         return say("workflow.little_known", known=certainty(state.prediction))
     return say("workflow.ready")

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import msgspec
 import pytest
-from views import SEATED, shown, teaching
+from views import POSE, SEATED, shown, teaching
 
 from protocol.keys import PUSH_KEYS, TURN_KEYS
-from protocol.messages import Light, SafetyState
+from protocol.messages import MOST_WAYPOINTS, Light, SafetyState
 from services.bus.arrays import motion_to_wire
 from services.station.page import history, methods
 from services.station.page.controls import BUTTONS, KEYBOARDS, actions, emergency_stop
@@ -34,6 +34,12 @@ def test_the_page_shows_the_very_keys_that_the_device_obeys():
     for key in pushing:
         axis, sign = PUSH_KEYS[key.code]
         assert key.axis == ("+" if sign > 0 else "\N{MINUS SIGN}") + "xyz"[axis]
+
+
+def test_a_waypoint_more_is_offered_only_where_there_is_room_for_it():
+    for count, full in ((MOST_WAYPOINTS - 1, False), (MOST_WAYPOINTS, True)):
+        values = actions(shown(teaching=teaching(actions=("store",), waypoints=(POSE,) * count)))
+        assert values["action-store@disabled"] is full
 
 
 def test_every_action_of_the_workflow_has_a_button():

@@ -3,7 +3,7 @@
 import pytest
 from views import POSE, shown, teaching
 
-from protocol.messages import Method, Origin
+from protocol.messages import Method, ModelState, Origin
 from services.station.page.methods import EDITS, METHODS, methods
 from services.station.words.table import speech
 
@@ -34,3 +34,20 @@ def test_waypoints_are_told_in_centimetres_with_what_can_be_done():
     assert values["waypoints@data-edits"].split() == list(EDITS)
     assert values["waypoints-count"].endswith("2")
     assert values["action-clear@disabled"]
+
+
+def test_a_method_that_cannot_be_used_says_why():
+    model = ModelState(kind="adaptive", version=0, demonstrations=0, updates=0, scene="table")
+    values = methods(shown(teaching=teaching(actions=("method",), method=Method.WAYPOINTS), model=model))
+    assert values["method-refine@disabled"]
+    assert "no motion to correct" in values["method-refine@title"]
+    assert not values["method-waypoints@disabled"]
+    known = methods(shown(teaching=teaching(actions=("method",))))
+    assert (known["method-refine@disabled"], known["method-refine@title"]) == (False, "")
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_the_hints_say_what_becomes_of_the_gripper_where_all_is_let_go(method):
+    values = methods(shown(teaching=teaching(method=method)))
+    for pad in ("keyboard-help", "pointer-help"):
+        assert ("return" in values[pad].rpartition("et go")[2]) is (method is Method.REFINE)

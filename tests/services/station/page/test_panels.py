@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from views import SEATED, shown, teaching
+from views import SEATED, robot, shown, teaching
 
 from protocol.messages import Light, Mode, Phase, Pose, Recording, RobotState, SafetyState, Verdict
 from services.station.page.panels import counters, scene, traffic_light, verdict
@@ -77,6 +77,13 @@ def test_the_verdict_is_told_criterion_by_criterion():
     tones = [values[f"{name}@data-tone"] for name in ("verdict", "reached", "kicked", "collision")]
     assert tones == ["bad", "good", "bad", "good"]
     assert values["reached-evidence"] == "31 mm from the target"
+
+
+def test_a_motion_that_was_only_led_has_no_verdict():
+    missed = Verdict(reached=False, kicked_over=False, collision=False, missed=0.2)
+    values = verdict(shown(verdict=missed, robot=robot(Phase.IDLE), teaching=teaching(led=True)))
+    assert (values["verdict@data-tone"], values["reached@data-tone"]) == ("none", "none")
+    assert values["outcome"].startswith("No verdict")
 
 
 def test_a_robot_that_does_not_tell_how_far_the_target_was_missed_is_not_spoken_for():

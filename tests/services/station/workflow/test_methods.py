@@ -218,6 +218,33 @@ def test_whoever_goes_on_storing_goes_on_from_where_the_robot_stands():
     assert site.places == [0.5, 0.6, 0.7]
 
 
+def test_leading_without_a_waypoint_is_told_and_gets_no_verdict():
+    site = Teaching(Method.WAYPOINTS)
+    site.lead()
+    assert site.told.led
+    site.finish()
+    assert site.told.led
+    assert site.told.text.startswith("No waypoint is stored.")
+    assert site.told.recommended == "lead"
+    assert not site.state.attempts
+    site.store(0.5, 0.6, 0.7)
+    site.decide()
+    site.press(Action.EXECUTE, Phase.EXECUTING)
+    assert not site.told.led
+
+
+def test_a_waypoint_is_stored_only_where_the_hand_has_led_for_it():
+    site = Teaching(Method.DEMONSTRATE)
+    site.lead()
+    assert not site.told.led
+    site.finish(REACHED, commanded=shown_way())
+    site.choose(Method.WAYPOINTS)
+    assert Action.STORE not in site.state.offered
+    site.lead()
+    site.step()
+    assert Action.STORE in site.state.offered
+
+
 def test_a_waypoint_out_of_reach_is_named_and_nothing_moves():
     site = Teaching(Method.WAYPOINTS)
     site.lead()
@@ -320,10 +347,14 @@ def test_an_empty_model_learns_its_first_demonstration(method, led):
     assert site.requests(queries.PREDICT) == []
 
 
-def test_whoever_has_not_chosen_a_method_for_an_empty_model_is_told_to():
+def test_an_empty_model_is_taught_by_a_method_that_can_be_used_and_whoever_teaches_is_told_why():
     site = Teaching(Method.REFINE, empty=True)
-    assert "Waypoints or Show it" in site.told.text
-    assert site.told.recommended == "method"
+    assert site.told.method is Method.WAYPOINTS
+    assert "nothing to correct" in site.told.text
+    assert site.told.recommended == "lead"
+    site.choose(Method.DEMONSTRATE)
+    assert site.told.method is Method.DEMONSTRATE
+    assert "nothing to correct" in site.told.text
 
 
 def test_a_script_waits_for_the_first_demonstrations():

@@ -104,6 +104,26 @@ def test_where_nothing_is_known_to_have_been_right_nothing_is_offered(outcome, c
     assert LEARN not in site.names()
 
 
+@pytest.mark.parametrize(
+    ("outcome", "changes", "why"),
+    [
+        (MISSED, {}, "Where it went wrong is not known"),
+        (COLLIDED, {"clear_until": 0.6, "operator_input": False}, "No correction of yours counted"),
+        (COLLIDED, {**FINISHED, "progress": 0.6, "clear_until": 0.14}, "It failed at 14 % of the motion: too little"),
+        (MISSED, {"progress": 0.1, "clear_until": 0.1, **CUT}, "It failed at 10 % of the motion: too little"),
+    ],
+)
+def test_where_nothing_can_be_taught_the_operator_is_told_why(outcome, changes, why):
+    assert why in failed(outcome, **changes).state.event
+
+
+@pytest.mark.parametrize(("outcome", "changes"), [(COLLIDED, {"clear_until": 0.6}), (REACHED, {})])
+def test_where_something_can_or_was_no_reason_is_told(outcome, changes):
+    event = failed(outcome, **changes).state.event
+    assert "teach" not in event
+    assert "taught" not in event
+
+
 def test_numbers_that_no_robot_sends_are_not_offered():
     nowhere = motion_to_wire(np.full((N, 3), np.nan), np.tile([1.0, 0.0, 0.0, 0.0], (N, 1)), 12.0)
     site = failed(MISSED, 0.6, 0.6, **CUT, commanded=nowhere)
