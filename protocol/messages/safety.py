@@ -22,6 +22,7 @@ class SafetyState(Message, frozen=True, kw_only=True):
         reason: for people.
         at: when it was latched, or released where it is not: UTC by the robot's clock, ISO 8601; empty for never.
         released_by: who released it last; empty while it is latched, or for never.
+        earlier: the newest press and release were before the robot's process began.
         standing: every joint was measured to stand still.
         self_distance: least distance between parts of the robot [m].
     """
@@ -31,5 +32,6 @@ class SafetyState(Message, frozen=True, kw_only=True):
     reason: Text = ""
     at: Name = ""
     released_by: Name = ""
+    earlier: bool = False
     standing: bool = False
     self_distance: Real = 0.0

@@ -68,6 +68,7 @@ class Control:
         self._utc = utc
         recalled = memory.recall(self._now())
         self.latch: Latch = recalled.latch
+        self._recalled = self.latch
         # The time of day is above every epoch of a robot whose file was lost.
         self.lease = Lease(lease_s, epoch=max(recalled.epoch_bound, round(1e3 * utc().timestamp())))
         self.order: Order | None = None
@@ -197,6 +198,11 @@ class Control:
         """An episode goes on only when it is asked to."""
         episode = self.arm.episode
         return episode is not None and not episode.settling and self._hold.waiting
+
+    @property
+    def latched_earlier(self) -> bool:
+        """Stop and release are as they were when the process began: nobody has pressed or released since."""
+        return self.latch is self._recalled and bool(self.latch.at)
 
     @property
     def mode(self) -> Mode:

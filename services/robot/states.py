@@ -133,6 +133,7 @@ class States:
             reason="; ".join(part for part in (latch.reason, memory.fault) if part),
             at=latch.at,
             released_by=latch.released_by,
+            earlier=self._control.latched_earlier,
             standing=standing(tick.observation.qd),
             self_distance=tick.self_distance,
         )

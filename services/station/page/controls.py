@@ -36,6 +36,7 @@ BUTTONS = (
     Button("refine", "pen"),
     Button("lead", "hand"),
     Button("store", "place"),
+    Button("look", "undo"),
     Button("go_on", "next"),
     Button("finish", "flag"),
     Button("teach", "check"),
@@ -128,7 +129,9 @@ def emergency_stop(shown: Shown, standing: Standing) -> Values:
 
 
 def _released(safety: SafetyState | None) -> str:
-    return "" if safety is None or not safety.released_by else say("stop.released", name=safety.released_by)
+    if safety is None or not safety.released_by:
+        return ""
+    return say("stop.released_earlier" if safety.earlier else "stop.released", name=safety.released_by)
 
 
 def is_confirmed(safety: SafetyState | None) -> bool:

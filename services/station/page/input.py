@@ -141,6 +141,7 @@ class Desk:
             settled = self._presses.settled(known.hello.load if known is not None else "")
             return Standing(
                 armed=armed,
+                vacant=self._seat.tab is None,
                 let_go=self._let_go,
                 heard=held is not None,
                 focused=held is not None and held.focused,

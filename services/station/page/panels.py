@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from protocol.messages import Light, Mode, Origin
+from protocol.messages import Light, Mode, Origin, Role
 from services.station.page.readout import criteria, is_stale, outcome, span, tone
 from services.station.page.standing import Standing
 from services.station.page.values import Values
@@ -53,7 +53,11 @@ def traffic_light(shown: Shown, standing: Standing) -> Values:
         return {"light@data-light": "off", **starting, "notice": ""}
     light, words = teaching.light, teaching.text or teaching.reason
     stopped = shown.view.safety is not None and shown.view.safety.emergency_stop
-    if light is Light.GREEN and not standing.armed:
+    waits = teaching.phase == "waiting" and words == say("waiting.operator")
+    if standing.vacant and (waits or light is Light.GREEN):
+        light = Light.RED if light is Light.GREEN else light
+        words = say("light.vacant_operator" if standing.identity.role is Role.OPERATOR else "light.vacant")
+    elif light is Light.GREEN and not standing.armed:
         light, words = Light.RED, say("light.other")
     elif light is Light.GREEN and teaching.phase == "executing" and standing.let_go:
         light, words = Light.HOLD, say("light.let_go")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from protocol.messages import Role
 from services.station.page.standing import Standing
 from services.station.page.values import Values
 from services.station.words.table import say
@@ -28,6 +29,8 @@ def _looking_on(standing: Standing) -> str:
         return say("seat.kept")
     if standing.lost is not None:
         return say("seat.lost", name=_who(standing.lost.by), why=standing.lost.why)
+    if standing.vacant and standing.identity.role is Role.OPERATOR:
+        return say("seat.vacant")
     return say(f"seat.{standing.identity.role.value}")
 
 

@@ -14,6 +14,7 @@ class Standing:
 
     Attributes:
         armed: it has the seat: its input counts.
+        vacant: nobody has the seat.
         let_go: it counts once everything that steers was let go.
         heard: what is held there comes, and in time.
         focused: it has the focus, as it said last.
@@ -29,6 +30,7 @@ class Standing:
     """
 
     armed: bool
+    vacant: bool
     let_go: bool
     heard: bool
     focused: bool

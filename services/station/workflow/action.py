@@ -32,6 +32,7 @@ class Action(Enum):
     METHOD = "method"
     BASIS = "basis"
     LEAD = "lead"
+    LOOK = "look"
     STORE = "store"
     DELETE = "delete"
     EARLIER = "earlier"

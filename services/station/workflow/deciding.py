@@ -12,7 +12,7 @@ from services.station.workflow.approach import Approach
 from services.station.workflow.asking import to
 from services.station.workflow.closure import Closure
 from services.station.workflow.editing import EDITING
-from services.station.workflow.episode import press
+from services.station.workflow.episode import is_seen, look, press
 from services.station.workflow.going import SETTING, set_for_next
 from services.station.workflow.history import turn, turns
 from services.station.workflow.leading import lead
@@ -23,12 +23,16 @@ from services.station.workflow.view import Step, View
 _CHOOSING = frozenset({Action.METHOD, Action.BASIS})
 """What says how to teach, and moves nothing."""
 
+_TOWARDS = frozenset({Action.EXECUTE, Action.REFINE, Action.BASIS, Action.LEAD})
+"""What leads to a target: one that is not seen is looked for first."""
+
 
 def deciding(state: Workflow, view: View, settings: Settings) -> Step:
     """Wait for a press; what the model was told and has not answered comes first."""
     if state.owed is not None:
         return Step(to(state, state.owed.phase, view, intent=state.owed.intent, owed=None))
-    state = set_for_next(replace(state, approach=_usable(state.approach, view)), view)
+    unseen = state.unseen and not is_seen(state, view)
+    state = set_for_next(replace(state, approach=_usable(state.approach, view), unseen=unseen), view)
     offered = _offered(state, view)
     if view.actions & offered & (EDITING | _CHOOSING):
         return Step(_shown(state, view, offered))
@@ -59,6 +63,8 @@ def _offered(state: Workflow, view: View) -> frozenset[Action]:
         offered.add(Action.EXECUTE)
     if state.taught is not None:
         offered.add(Action.TEACH)
+    if state.unseen:
+        return frozenset(offered - _TOWARDS | {Action.LOOK})
     return frozenset(offered)
 
 
@@ -82,6 +88,8 @@ def _take(state: Workflow, view: View, settings: Settings, chosen: Action) -> St
             taken = press(state, view, Mode.AUTONOMOUS, origin)
         case Action.REFINE:
             taken = _refine(state, view, settings)
+        case Action.LOOK:
+            taken = look(state, view)
         case Action.LEAD:
             taken = _lead(state, view, settings)
         case Action.TEACH:
@@ -124,6 +132,8 @@ def recommended(state: Workflow, settings: Settings) -> Action:
     """
     if state.taught is not None and state.taught.whole:
         return Action.TEACH
+    if state.unseen:
+        return Action.LOOK
     if state.approach.method is not Method.REFINE:
         return _recommended_offline(state, settings)
     if state.last is None:

@@ -47,6 +47,11 @@ def press(state: Workflow, view: View, mode: Mode, origin: Origin = Origin.MODEL
     return to(state, Phase.RESETTING, view, mode=mode, origin=origin, pressed=True, refusals=0, taught=None, event="")
 
 
+def look(state: Workflow, view: View) -> Workflow:
+    """The operator asked for a look at the target: the arm goes back to its start, out of the way, and nothing else."""
+    return to(state, Phase.RESETTING, view, wants=Action.LOOK, pressed=True, refusals=0, event="", taught=state.taught)
+
+
 def resetting(state: Workflow, view: View, settings: Settings) -> Step:
     """Put the robot back to its start and the target to its place."""
     if not state.question and view.robot is not None and view.robot.phase.running:
@@ -59,7 +64,8 @@ def resetting(state: Workflow, view: View, settings: Settings) -> Step:
     reply = ask(state, view, queries.RESET, lambda intent: _reset(state, view, settings, intent))
     if isinstance(reply, queries.Refused):
         return refused(state, view, settings, queries.RESET, reply)
-    return reply if isinstance(reply, Step) else Step(to(state, Phase.LOOKING, view))
+    moves_on = state.wants is not Action.LOOK
+    return reply if isinstance(reply, Step) else Step(to(state, Phase.LOOKING, view, pressed=moves_on))
 
 
 def _reset(state: Workflow, view: View, settings: Settings, intent: int) -> queries.Reset:
@@ -80,15 +86,19 @@ def looking(state: Workflow, view: View, settings: Settings) -> Step:
         # Nothing to look for: the robot says where it stands, once it has been reset.
         if state.pressed and view.scene_s <= state.since_s:
             return Step(state)
-        return Step(to(state, onward, view, looked=ORIGIN, condition=view.scene.condition))
+        return Step(to(state, onward, view, looked=ORIGIN, condition=view.scene.condition, unseen=False))
     sighting = view.seen
-    if sighting is None or sighting.pictures < PICTURES_NEEDED or view.seen_s - state.since_s < LOOK_S:
-        patience_s = UNSEEN_AFTER_RESET_S if state.pressed else UNSEEN_S
+    if sighting is None or not is_seen(state, view):
+        patience_s = UNSEEN_AFTER_RESET_S if state.pressed or state.unseen else UNSEEN_S
         if view.now_s - state.since_s < patience_s:
             return Step(state)
-        event = f"{state.event} {say('event.unseen')}".strip()
-        return Step(to(state, Phase.DECIDING, view, pressed=False, event=event))
-    return Step(to(state, onward, view, looked=sighting.pose.position, condition=()))
+        return Step(to(state, Phase.DECIDING, view, pressed=False, unseen=True))
+    return Step(to(state, onward, view, looked=sighting.pose.position, condition=(), unseen=False))
+
+
+def is_seen(state: Workflow, view: View) -> bool:
+    """Whether the target was seen, in pictures enough, since the workflow came to where it stands."""
+    return view.seen is not None and view.seen.pictures >= PICTURES_NEEDED and view.seen_s - state.since_s >= LOOK_S
 
 
 def _onward(state: Workflow) -> Phase:
@@ -168,7 +178,8 @@ def refused(
     notice, refusals = not_done(query, reply.reason), state.refusals + 1
     if refusals < REFUSALS_SUFFERED and not reply.lasting:
         retry_s = view.now_s + RETRY_S
-        return Step(to(state, again or state.phase, view, refusals=refusals, retry_s=retry_s, notice=notice))
+        once_more = {"refusals": refusals, "retry_s": retry_s, "notice": notice, "wants": state.wants}
+        return Step(to(state, again or state.phase, view, **once_more))
     if settings.scripted:
         return Step(to(state, Phase.FINISHED, view, reason=notice))
     return Step(to(state, Phase.DECIDING, view, pressed=False, event=notice))

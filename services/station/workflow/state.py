@@ -216,6 +216,7 @@ class Workflow:
         placed: where the target was put.
         looked: where the object was seen [m]; the base frame's origin where there is none.
         condition: that the robot stood in then; empty where it is the object's.
+        unseen: the last look found no target, and none was seen since.
         prediction: the newest.
         warned: the operator was told that little is known at this place; Execute executes all the same.
         taught: what the newest episode has shown, while it can be learnt.
@@ -262,6 +263,7 @@ class Workflow:
     placed: Place | None = None
     looked: Vector3 | None = None
     condition: Condition = ()
+    unseen: bool = False
     prediction: messages.Prediction | None = None
     warned: bool = False
     taught: Taught | None = None

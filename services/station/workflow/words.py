@@ -121,7 +121,8 @@ def _text(state: Workflow, view: View, settings: Settings) -> str:
         case Phase.EXECUTING:
             return _executing(state, view)
         case Phase.DECIDING:
-            return showing.deciding(state, view) or _deciding(state, view, settings)
+            shows = "" if state.unseen else showing.deciding(state, view)
+            return shows or _deciding(state, view, settings)
         case Phase.FINISHED:
             return _finished(state)
         case phase:
@@ -158,6 +159,8 @@ def _deciding(state: Workflow, view: View, settings: Settings) -> str:
     outcome = f"{outcome_text(state.last, view)} " if state.last else ""
     if state.taught is not None:
         return f"{outcome}{say('workflow.teach' if state.taught.whole else 'workflow.teach_part')}"
+    if state.unseen:
+        return f"{outcome}{say('workflow.unseen')}"
     if state.last:
         return f"{outcome}{say(f'workflow.then_{recommended(state, settings).value}')}"
     if state.warned and state.prediction is not None:

@@ -133,8 +133,24 @@ def test_a_stop_is_latched_still_when_the_process_comes_back(path):
     assert site.state.phase is Phase.STOPPED
     assert (site.safety.emergency_stop, site.safety.by, site.safety.reason) == (True, "bob", "smoke")
     assert "smoke" in site.ask(queries.ACQUIRE, queries.AcquireAuthority("ann")).reason
+    assert site.safety.earlier
     site.release()
     assert not site_with(path).control.latch.latched
+
+
+def test_what_was_released_before_the_process_began_is_told_as_such(path):
+    site = site_with(path)
+    site.run(0.02)
+    assert not site.safety.earlier, "there was nothing"
+    site.press("bob", "smoke")
+    site.release("carl")
+    site.run(0.02)
+    assert (site.safety.released_by, site.safety.earlier) == ("carl", False)
+    later = site_with(path)
+    later.run(0.02)
+    assert (later.safety.released_by, later.safety.earlier) == ("carl", True)
+    later.press("eve", "fire")
+    assert not later.safety.earlier
 
 
 def test_the_arm_stands_before_the_file_is_written_and_the_stop_shows_only_then(path):

@@ -42,6 +42,14 @@ def test_a_waypoint_more_is_offered_only_where_there_is_room_for_it():
         assert values["action-store@disabled"] is full
 
 
+def test_a_release_of_before_the_robot_was_started_says_so():
+    told = [
+        emergency_stop(shown(safety=msgspec.structs.replace(RELEASED, earlier=earlier)), SEATED)["stop-released"]
+        for earlier in (False, True)
+    ]
+    assert told == ["Released by bert", "Before the robot was started, released by bert"]
+
+
 def test_every_action_of_the_workflow_has_a_button():
     elsewhere = {Action.RELEASE_STOP.value, *CONTROLS, *history.CONTROLS, *methods.CONTROLS}
     assert {action.value for action in Action} <= {button.action for button in BUTTONS} | elsewhere

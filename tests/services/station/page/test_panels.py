@@ -5,8 +5,10 @@ from dataclasses import replace
 import pytest
 from views import SEATED, robot, shown, teaching
 
-from protocol.messages import Light, Mode, Phase, Pose, Recording, RobotState, SafetyState, Verdict
+from protocol.messages import Light, Mode, Phase, Pose, Recording, RobotState, Role, SafetyState, TeachingState, Verdict
+from services.station.page.identity import Identity
 from services.station.page.panels import counters, scene, traffic_light, verdict
+from services.station.words.table import say
 
 LOOKING_ON = replace(SEATED, armed=False)
 NOT_COUNTING = replace(SEATED, let_go=True)
@@ -40,6 +42,19 @@ def test_keys_that_do_not_count_matter_only_where_they_would_steer(light, phase)
 def test_the_light_is_not_green_for_who_looks_on():
     values = traffic_light(shown(teaching=teaching()), LOOKING_ON)
     assert (values["light@data-light"], values["light-text"]) == ("red", "Whoever has the input acts.")
+
+
+@pytest.mark.parametrize(
+    ("role", "words"), [(Role.OPERATOR, "Nobody has the input: ask for it."), (Role.OBSERVER, "Nobody has the input.")]
+)
+def test_where_nobody_has_the_input_any_more_nobody_is_told_to_keep_its_page_in_view(role, words):
+    nobody = replace(LOOKING_ON, vacant=True, identity=Identity("carl", role))
+    waits = TeachingState(phase="waiting", text=say("waiting.operator"), light=Light.AMBER)
+    for state, light in ((waits, "amber"), (teaching(), "red")):
+        values = traffic_light(shown(teaching=state), nobody)
+        assert (values["light-text"], values["light@data-light"]) == (words, light)
+    for_the_robot = TeachingState(phase="waiting", text="Waiting for the robot.", light=Light.AMBER)
+    assert traffic_light(shown(teaching=for_the_robot), nobody)["light-text"] == "Waiting for the robot."
 
 
 def test_while_the_stop_is_latched_the_light_says_stopped():

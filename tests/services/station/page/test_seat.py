@@ -8,6 +8,7 @@ from browser_tab import MS, BrowserTab
 from protocol.messages import OperatorInput
 from services.station.page.input import Desk
 from services.station.page.seat import Seat
+from services.station.page.seating import seating
 from services.station.press import Press
 
 ASKED_MS = 10_000
@@ -20,6 +21,14 @@ def first():
     tab = BrowserTab(Desk())
     tab.keep_on(2.0)
     return tab
+
+
+def test_where_nobody_has_the_input_any_more_whoever_comes_is_told_to_ask_for_it(first):
+    second = BrowserTab(first.desk, tab=2, now_ms=first.now_ms)
+    assert seating(second.standing())["view-only-text"] == "The input is not here: you can only stop."
+    first.leave()
+    assert seating(second.standing())["view-only-text"] == "Nobody has the input: ask for it."
+    assert not first.standing().armed
 
 
 @pytest.fixture

@@ -6,6 +6,7 @@ from services.station.page.view import PageView, Shown
 
 SEATED = Standing(
     armed=True,
+    vacant=False,
     let_go=False,
     heard=True,
     focused=True,

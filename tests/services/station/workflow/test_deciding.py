@@ -7,6 +7,7 @@ from protocol.messages import Mode
 from services.station.workflow.action import Action
 from services.station.workflow.going import SETTING
 from services.station.workflow.state import Phase
+from services.station.workflow.words import teaching_state
 from tests.services.station.workflow.site import (
     BY_HAND,
     COLLIDED,
@@ -14,11 +15,16 @@ from tests.services.station.workflow.site import (
     MISSED,
     REACHED,
     SCRIPTED,
+    UNANSWERED,
     Site,
 )
 
 HISTORY = {Action.TAKE_BACK, Action.USE_AGAIN}
 MOVING = {"cmd/reset", "cmd/execute", "cmd/resume"}
+
+
+def told(site):
+    return teaching_state(site.state, site.view, site.settings)
 
 
 def test_after_connecting_it_asks_for_the_authority_looks_and_stands():
@@ -45,8 +51,69 @@ def test_a_press_before_it_asks_moves_nothing():
 def test_a_target_that_is_not_seen_is_said_and_the_operator_asked_all_the_same():
     site = Site(BY_HAND)
     site.run_to(Phase.DECIDING, seen=None)
-    assert "not seen" in site.state.event
+    site.step(seen=None)
+    assert "not seen" in told(site).text
+    assert "Ready" not in told(site).text
     assert not MOVING & set(site.names())
+
+
+def unseen():
+    """The arm hides the target."""
+    site = Site(BY_HAND)
+    site.run_to(Phase.DECIDING, seen=None)
+    site.step(seen=None)
+    return site
+
+
+def test_no_motion_is_offered_to_a_target_that_is_not_seen_but_a_look_at_it():
+    site = unseen()
+    assert not {Action.EXECUTE, Action.REFINE, Action.LEAD} & site.state.offered
+    assert told(site).recommended == "look"
+    assert not MOVING & {query for press in (Action.EXECUTE, Action.REFINE) for query in pressed(site, press)}
+
+
+def pressed(site, action):
+    site.step(action, seen=None)
+    return site.stay(seen=None)
+
+
+def test_a_look_puts_the_arm_back_and_leads_to_no_motion():
+    site = unseen()
+    site.fail(queries.RESET, queries.Refused("an episode is running"))
+    site.step(Action.LOOK, seen=None)
+    site.run_to(Phase.DECIDING)
+    site.stay()
+    assert MOVING & set(site.names()) == {"cmd/reset"}
+    assert site.names().count("cmd/reset") == 2
+    assert Action.EXECUTE in site.state.offered
+    assert Action.LOOK not in site.state.offered
+
+
+def test_a_look_that_finds_nothing_is_said_again_after_some_patience():
+    site = unseen()
+    site.step(Action.LOOK, seen=None)
+    site.run_to(Phase.LOOKING, seen=None)
+    since_s = site.now_s
+    site.run_to(Phase.DECIDING, seen=None)
+    assert site.now_s - since_s == pytest.approx(15.0, abs=1.1)
+    site.step(seen=None)
+    assert told(site).recommended == "look"
+
+
+def test_a_target_that_comes_into_view_is_not_said_to_be_hidden():
+    site = unseen()
+    site.step()
+    assert Action.EXECUTE in site.state.offered
+    assert told(site).text.startswith("Ready")
+
+
+def test_a_press_whose_robot_fell_silent_before_the_look_moves_nothing_later():
+    site = unseen()
+    site.fail(queries.RESET, UNANSWERED)
+    site.step(Action.LOOK, seen=None)
+    site.stay(3, robot=None, seen=None)
+    assert site.state.phase is Phase.DECIDING
+    assert site.stay() == []
 
 
 def test_the_press_that_asks_for_an_episode_begins_with_the_reset():

@@ -1,7 +1,7 @@
 // Shows what the station says, value by value: a text, or after "@" an attribute or a style property of the
 // element of that name.
 
-import { timeOfDay } from "/assets/js/time.js";
+import { timeOf } from "/assets/js/time.js";
 
 export function show(values) {
   for (const [name, value] of Object.entries(values)) {
@@ -11,7 +11,7 @@ export function show(values) {
     else if (attribute.startsWith("--")) element.style.setProperty(attribute, value);
     else if (typeof value === "boolean") element.toggleAttribute(attribute, value);
     else element.setAttribute(attribute, value);
-    if (attribute === "data-at") element.dataset.time = timeOfDay(value);
+    if (attribute === "data-at") element.dataset.time = timeOf(value);
   }
 }
 
