@@ -47,7 +47,7 @@ def complaint(*arguments, folder, environment=None, code=Exit.BAD_INPUT):
         (("up", "--listen", "tls/0.0.0.0:7447", "--tls", "nowhere"), ("nowhere", "'retouch certs --help'")),
         (("certs", "issue", "king.anna", "--folder", "nowhere"), ("nowhere", "certs init")),
         (("stop", "--connect", "tcp/192.0.2.1:99999"), ("99999", "65535")),
-        (("master", "--connect", "tcp/no-such-host.invalid:7447"), ("no-such-host.invalid", "not known")),
+        (("master", "--connect", "tls/no-such-host.invalid:7447"), ("no-such-host.invalid", "not known")),
         (("echo", "**", "--connect", "foo/robot:7447"), ("'foo'", "tcp/robot:7447")),
         (("teach", "--connect", ""), ("empty", "tcp/")),
         (("router", "--listen", "nonsense"), ("nonsense", "no protocol", "tcp/nonsense:7447")),
