@@ -42,9 +42,11 @@ def open_page(firefox, calm_station, eventually):
 
 
 @pytest.fixture
-def tab(open_page):
-    """A tab that has the input, where nothing is drawn in three dimensions."""
-    return open_page(scripts.UNDRAWN)
+def tab(open_page, station, eventually):
+    """A tab that has the input and whose keys count, where nothing is drawn in three dimensions."""
+    opened = open_page(scripts.UNDRAWN)
+    eventually(lambda: station[0].take_input().focused)
+    return opened
 
 
 def test_it_loads_without_a_fault_and_draws_or_says_that_it_cannot(open_page):

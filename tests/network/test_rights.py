@@ -94,7 +94,8 @@ def test_publishing(one, heard):
     expected = {*allowed(whom, Act.PUBLISH, keys), last}
 
     def said():
-        for key in expected:
+        # Only what was not heard yet: of several in a row the router's limit on one person lets the first pass.
+        for key in expected - set(heard):
             put(session, key)
             time.sleep(SPACED_S)
         return expected <= set(heard)
