@@ -71,7 +71,9 @@ class Somebody:
     def _stay(self, link):
         pressed = 0
         while not self._over.is_set():
-            self._say(link, Held(keys=(), visible=True, focused=True, controllers=(), drawn=(0, 0, 0), **self._stamp()))
+            self._say(
+                link, Held(keys=(), visible=True, focused=True, controllers=(), drawn=(0, 0, 0, 0), **self._stamp())
+            )
             while pressed < len(self._presses):
                 pressed += 1
                 action, argument = self._presses[pressed - 1]
