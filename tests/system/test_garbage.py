@@ -106,7 +106,8 @@ def network(tmp_path_factory):
         asking = Outbox(new_publisher(), "robot1", "station")
         asked = asking.stamp(topics.AUTHORITY_REQUEST, request, SystemClock().now_ns())
         samples[topics.AUTHORITY_REQUEST.name] = encode(topics.AUTHORITY_REQUEST, asked)
-        queue = messages.PictureQueue(robot="robot1", topic=topics.PICTURE_QUEUE.name, sequence=1)
+        looking = Outbox(new_publisher(), "robot1", SOURCE_OF_ANY)
+        queue = looking.stamp(topics.PICTURE_QUEUE, messages.PictureQueue(), SystemClock().now_ns())
         samples[topics.PICTURE_QUEUE.name] = encode(topics.PICTURE_QUEUE, queue)
         for topic in TOPICS:
             if topic.publisher == "any":
@@ -117,8 +118,9 @@ def network(tmp_path_factory):
         network = Network(up, witness, stranger, samples, marks)
         # A process that came up after the only prediction was made has not heard it yet.
         network.send(topics.PREDICTION, [samples[topics.PREDICTION.name]])
-        # Nobody repeats it, so that nobody is asked for long.
-        network.send(topics.AUTHORITY_REQUEST, [samples[topics.AUTHORITY_REQUEST.name]])
+        # Nobody repeats these, so that nobody is asked for long, and no camera waits for anybody.
+        for said in (topics.AUTHORITY_REQUEST, topics.PICTURE_QUEUE):
+            network.send(said, [samples[said.name]])
         yield network
 
 
