@@ -20,6 +20,7 @@ _EAGERNESS = 3.0  # [1/s] share of what is left that is dragged in a second
 _FASTEST = 0.25  # [m/s]
 _FASTEST_TURN = 0.8  # [rad/s]
 _NOTCHES = 0.12  # [s] between two of the wheel
+_TAKEN_BACK = 0.6  # [s] before which nobody takes a notch back: they have not seen yet what it did
 _CONTENT_TURN = 0.12  # [rad] that is left as it is
 _TURNS_WITHIN = 0.03  # [m] nobody turns before they are there
 _LIFTED = 0.35  # [s] for bringing a pen back
@@ -70,6 +71,7 @@ class Pen:
         self._down_at = np.zeros(6)
         self._dragged: deque[tuple[float, Array]] = deque()
         self._rolled = self._lifted = -math.inf
+        self._rolled_by = np.zeros(6)
         self._down = False
         self._time: float | None = None
 
@@ -125,10 +127,11 @@ class Pen:
         goal = np.concatenate([_shortened(goal[:3], _FASTEST), _shortened(goal[3:], _FASTEST_TURN)])
         self._speed = self._speed + (goal - self._speed) * (1.0 - math.exp(-dt / _LAG))
         self._far = self._far + dt * self._speed
-        rolls = ~_WAYS & (np.abs(meant) > 0.6 * self._notches)
-        if rolls.any() and time - self._rolled >= _NOTCHES:
-            self._rolled = time
-            self._far = self._far + np.where(rolls, np.sign(meant) * self._notches, 0.0)
+        by = np.where(~_WAYS & (np.abs(meant) > 0.6 * self._notches), np.sign(meant) * self._notches, 0.0)
+        waits = _TAKEN_BACK if np.any(by * self._rolled_by < 0.0) else _NOTCHES
+        if by.any() and time - self._rolled >= waits:
+            self._rolled, self._rolled_by = time, by
+            self._far = self._far + by
 
 
 def _shortened(vector: Array, length: float) -> Array:
