@@ -62,11 +62,12 @@ class Fingers:
         self._meant = np.zeros(6)
         self._time: float | None = None
 
-    def rest(self) -> None:
-        """Let go of everything."""
+    def rest(self) -> Array:
+        """Let go of everything; the deflections then, shape (6,)."""
         self._meant = np.zeros(6)
         self._pushed.clear()
         self._time = None
+        return np.zeros(6)
 
     def act(self, time: float, left: Array) -> Array:
         """Push; deflections from -1 to 1, shape (6,).

@@ -28,6 +28,10 @@ class Reach(Protocol[Act_co]):
         """Lead on by what is left, shape (6,) [m, rad]."""
         ...
 
+    def rest(self) -> Act_co:
+        """Let go."""
+        ...
+
     def expected(self, value: Array, since: float, *, decays: bool) -> Array:
         """Where what is led should be now, that was at a value some time ago, shape (6,)."""
         ...

@@ -2,9 +2,26 @@
 
 import pytest
 
+from services.bus.zenoh import open_router
+from tests.network.identities import Identities
 from tests.network.link import Impossible, Link
 from tests.ports import free_port
 from tests.system.harness import Command, reachable
+
+
+@pytest.fixture(scope="module")
+def identities(tmp_path_factory):
+    """Certificates of everybody, and what forgers have."""
+    return Identities(tmp_path_factory.mktemp("identities"))
+
+
+@pytest.fixture(scope="module")
+def endpoint(identities):
+    """Of a router that lets in who shows a certificate."""
+    endpoint = f"tls/127.0.0.1:{free_port()}"
+    router = open_router(endpoint, None, identities.of("router.kitchen"))
+    yield endpoint
+    router.close()
 
 
 @pytest.fixture

@@ -32,19 +32,6 @@ WITHIN_S = 20.0
 MOMENT_S = 0.3
 
 
-@pytest.fixture(scope="module")
-def identities(tmp_path_factory):
-    return Identities(tmp_path_factory.mktemp("identities"))
-
-
-@pytest.fixture(scope="module")
-def endpoint(identities):
-    endpoint = f"tls/127.0.0.1:{free_port()}"
-    router = open_router(endpoint, None, identities.of("router.kitchen"))
-    yield endpoint
-    router.close()
-
-
 @pytest.fixture
 def bus(identities, endpoint):
     """Makes buses, each of a process with a certificate."""

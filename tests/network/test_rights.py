@@ -9,9 +9,7 @@ import zenoh
 from protocol.queries import QUERIES
 from protocol.rights import Act, rights, subject
 from protocol.topics import HEARTBEAT, TOPICS, VERSION
-from services.bus.zenoh import open_router, watch
-from tests.network.identities import Identities
-from tests.ports import free_port
+from services.bus.zenoh import watch
 from tests.protocol.includes import includes
 from tests.system.harness import eventually
 
@@ -28,19 +26,6 @@ SUBJECTS = (
 )
 PROCESSES = ("robot", "camera", "perception", "model", "station-anna", "station-carl", "station-sue", "master-anna")
 EVERYTHING = f"retouch/{VERSION}/**"
-
-
-@pytest.fixture(scope="module")
-def identities(tmp_path_factory):
-    return Identities(tmp_path_factory.mktemp("identities"))
-
-
-@pytest.fixture(scope="module")
-def endpoint(identities):
-    endpoint = f"tls/127.0.0.1:{free_port()}"
-    router = open_router(endpoint, None, identities.of("router.kitchen"))
-    yield endpoint
-    router.close()
 
 
 @pytest.fixture(scope="module")

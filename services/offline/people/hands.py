@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from enum import Enum
+from typing import Generic, TypeVar
 
 import msgspec
 import numpy as np
@@ -15,13 +16,15 @@ from services.process import default_profiles
 from services.process.master_devices import Page
 from services.process.profile import Profile
 from sim.person.fingers import Fingers, Handling
-from sim.person.helm import Helm
+from sim.person.helm import Helm, Reach
 from sim.person.intention import Intention
 from sim.person.itinerary import Itinerary
 from sim.person.pen import Dragged, Pad, Pen
 from sim.pose import Pose
 
 Array = NDArray[np.float64]
+
+Act = TypeVar("Act")
 
 ATTENDS = OperatorInput(present=True, focused=True)
 """A page in front of somebody who holds nothing."""
@@ -95,39 +98,45 @@ class PersonHand(ABC):
         return self._button[0]
 
 
-class _Pushing(PersonHand):
-    """On keys, sticks or a cap."""
+class _Leading(PersonHand, Generic[Act]):
+    """On a device that is pushed or dragged.
 
-    def __init__(self, handling: Handling, rng: np.random.Generator) -> None:
+    Args:
+        reach: with which they lead.
+    """
+
+    def __init__(self, reach: Reach[Act]) -> None:
         super().__init__()
-        self._fingers = Fingers(handling, rng)
-        self._pushed = np.zeros(6)
+        self._reach = reach
+        self._done = reach.rest()
 
     def correct(self, helm: Helm, time: float, progress: float, robot: Pose, intention: Intention) -> None:
-        self._pushed = helm.correct(self._fingers, time, progress, robot, intention)
+        """See `PersonHand`."""
+        self._done = helm.correct(self._reach, time, progress, robot, intention)
 
     def lead(self, helm: Helm, time: float, robot: Pose, itinerary: Itinerary) -> bool:
-        self._pushed, arrived = helm.lead(self._fingers, time, robot, itinerary)
+        """See `PersonHand`."""
+        self._done, arrived = helm.lead(self._reach, time, robot, itinerary)
         return arrived
 
     def rest(self) -> None:
-        self._fingers.rest()
-        self._pushed = np.zeros(6)
+        """See `PersonHand`."""
+        self._done = self._reach.rest()
 
 
-class OnKeys(_Pushing):
+class OnKeys(_Leading[Array]):
     """On the keyboard."""
 
     def __init__(self, rng: np.random.Generator) -> None:
-        super().__init__(_KEYS, rng)
+        super().__init__(Fingers(_KEYS, rng))
 
     def says(self, time: float) -> OperatorInput:
         """See `PersonHand`."""
         del time
-        return msgspec.structs.replace(ATTENDS, keys=told.keys(self._pushed))
+        return msgspec.structs.replace(ATTENDS, keys=told.keys(self._done))
 
 
-class OnController(_Pushing):
+class OnController(_Leading[Array]):
     """On a gamepad or a 3-D mouse.
 
     Args:
@@ -139,7 +148,7 @@ class OnController(_Pushing):
         mouse = device is Device.SPACE_MOUSE
         self._profile = default_profiles.SPACE_MOUSE if mouse else default_profiles.STANDARD_GAMEPAD
         self._told = told.space_mouse if mouse else told.gamepad
-        super().__init__(_handling(self._profile, crosstalk=0.08 if mouse else 0.0), rng)
+        super().__init__(Fingers(_handling(self._profile, crosstalk=0.08 if mouse else 0.0), rng))
 
     @property
     def buttons(self) -> tuple[str, ...]:
@@ -150,37 +159,22 @@ class OnController(_Pushing):
         """See `PersonHand`."""
         buttons = self._profile.buttons
         held = {"store": buttons.store, "finish": buttons.finish}.get(self._pressed(time))
-        controller = self._told(self._pushed, self._profile, () if held is None else (held,))
+        controller = self._told(self._done, self._profile, () if held is None else (held,))
         return msgspec.structs.replace(ATTENDS, controllers=(controller,))
 
 
-class OnPad(PersonHand):
+class OnPad(_Leading[Dragged]):
     """On the pad of the page, with a mouse that has a wheel."""
 
     def __init__(self) -> None:
-        super().__init__()
         pad = Pad(_NOTCH * _LAW.reach, _NOTCH * _LAW.turn_reach, _ROOM * _LAW.reach, _ROOM * _LAW.turn_reach)
-        self._pen = Pen(pad)
-        self._dragged = Dragged(np.zeros(6), down=False)
-
-    def correct(self, helm: Helm, time: float, progress: float, robot: Pose, intention: Intention) -> None:
-        """See `PersonHand`."""
-        self._dragged = helm.correct(self._pen, time, progress, robot, intention)
-
-    def lead(self, helm: Helm, time: float, robot: Pose, itinerary: Itinerary) -> bool:
-        """See `PersonHand`."""
-        self._dragged, arrived = helm.lead(self._pen, time, robot, itinerary)
-        return arrived
-
-    def rest(self) -> None:
-        """See `PersonHand`."""
-        self._dragged = self._pen.rest()
+        super().__init__(Pen(pad))
 
     def says(self, time: float) -> OperatorInput:
         """See `PersonHand`."""
         del time
         profile = default_profiles.POINTER
-        controller = told.pointer(self._dragged.far / _REACH, profile, down=self._dragged.down)
+        controller = told.pointer(self._done.far / _REACH, profile, down=self._done.down)
         return msgspec.structs.replace(ATTENDS, controllers=(controller,))
 
 

@@ -8,7 +8,7 @@ import msgspec
 import numpy as np
 import pytest
 
-from protocol.messages import Attendance, Phase
+from protocol.messages import Phase
 from protocol.topics import ROBOT_STATE, TEACHING_STATE
 from services.offline.first_demonstrations import first_demonstrations
 from services.offline.people.person import NoEffects
@@ -19,6 +19,7 @@ from services.station.page.said import Held, Hello, Pressed
 from services.station.service import StationService
 from services.station.settings import settings
 from sim.tasks.particle import PARTICLE
+from tests.services.quiet_page import QuietPage
 
 pytestmark = pytest.mark.sim
 
@@ -31,7 +32,7 @@ JUMP_M = 0.002
 """From one control period to the next; the motion itself goes a tenth of that."""
 
 
-class Page:
+class Page(QuietPage):
     """The page of a browser that has one tab at most; see `Frontend`."""
 
     def __init__(self, clock):
@@ -63,18 +64,6 @@ class Page:
 
     def take_presses(self):
         return self._desk.take_presses()
-
-    def attendance(self):
-        return Attendance(holder="")
-
-    def show(self, view):
-        pass
-
-    def figures(self):
-        return ()
-
-    def close(self):
-        pass
 
     def _stamp(self):
         self._said += 1

@@ -3,7 +3,7 @@
 import pytest
 
 from protocol import queries
-from protocol.messages import Attendance, EmergencyStop, OperatorInput, Phase, Purpose
+from protocol.messages import EmergencyStop, OperatorInput, Phase, Purpose
 from protocol.topics import EMERGENCY_STOP, ROBOT_STATE, SAFETY_STATE, TEACHING_STATE
 from services.bus.arrays import motion_to_wire, vector3
 from services.offline.first_demonstrations import first_demonstrations
@@ -15,6 +15,7 @@ from services.station.service import StationService
 from services.station.settings import settings
 from services.station.workflow.episode import UNSEEN_AFTER_RESET_S
 from sim.tasks.particle import PARTICLE
+from tests.services.quiet_page import QuietPage
 
 pytestmark = pytest.mark.sim
 
@@ -22,7 +23,7 @@ MOVING = {Phase.RAMP, Phase.EXECUTE, Phase.HOLD}
 LONG = UNSEEN_AFTER_RESET_S + 1.0  # [s] longer than robot and station wait for anything while nothing is executed
 
 
-class Tab:
+class Tab(QuietPage):
     """A person's page: there, holding nothing, pressing what the test says."""
 
     def __init__(self):
@@ -35,18 +36,6 @@ class Tab:
 
     def take_input(self):
         return OperatorInput(present=self.present, focused=True)
-
-    def attendance(self):
-        return Attendance(holder="")
-
-    def show(self, view):
-        pass
-
-    def figures(self):
-        return ()
-
-    def close(self):
-        pass
 
 
 class Person(Stage):
