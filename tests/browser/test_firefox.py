@@ -68,6 +68,7 @@ def test_a_held_key_counts_and_goes_with_the_focus(tab, firefox, station, eventu
     eventually(lambda: page.take_input().keys == ())
     other.close()
     tab.bring_forward()
+    eventually(lambda: page.take_input().focused)
     tab.key("e", down=False)
     tab.key("q", down=True)
     eventually(lambda: page.take_input().keys == ("KeyQ",))

@@ -1,11 +1,9 @@
 """The page over HTTPS, as another computer opens it."""
 
-import shutil
-import subprocess
-
 import pytest
 
 from tests.ports import free_port
+from tests.services.station.page.self_signed import self_signed
 
 pytestmark = pytest.mark.browser
 
@@ -15,11 +13,7 @@ def secured(tmp_path):
     """A page that is served under a certificate."""
     from harness import served
 
-    if shutil.which("openssl") is None:
-        pytest.skip("openssl makes the certificate")
-    certificate, key = tmp_path / "certificate.pem", tmp_path / "key.pem"
-    request = ["req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2", "-subj", "/CN=localhost"]
-    subprocess.run(["openssl", *request, "-keyout", key, "-out", certificate], check=True, capture_output=True)
+    certificate, key = self_signed(tmp_path, "page")
     with served(port=free_port(), certificate=str(certificate), key=str(key)) as (page, _):
         yield page
 

@@ -141,5 +141,7 @@ def test_every_topic_is_heard_by_somebody_who_is_tried():
     StationService(network.bus(), BY_HAND, None, seed=3)
     build_master(network.bus(), clock, Configuration(master=MasterSection(device=Scripted())))
     heard = {s.topic.name for s in (*network.subscriptions, *Site().network.subscriptions)}
-    drawn = {topics.WORLD_STATE.name, topics.TEACHING_STATE.name, topics.HEARTBEAT.name}
+    drawn = {
+        topic.name for topic in (topics.WORLD_STATE, topics.TEACHING_STATE, topics.HEARTBEAT, topics.PICTURE_QUEUE)
+    }
     assert heard >= {topic.name for topic in topics.TOPICS} - drawn

@@ -111,10 +111,15 @@ def both(people, witness):
         """Ann commands, or may take over: whoever comes first to a robot that is free commands it."""
         return ann.shown.get("who-text") == "You command" or ann.shown.get("action-take_over@disabled") is False
 
+    def taken():
+        """By the robot's own word; she takes over whenever that is offered: her station may just ask by itself."""
+        if ann.shown.get("action-take_over@disabled") is False:
+            ann.shown["action-take_over@disabled"] = True  # until she is told otherwise
+            ann.press("take_over", "the test begins")
+        return witness.authority is not None and witness.authority.operator == "Ann"
+
     eventually(decided, WITHIN_S, lambda: ann.shown)
-    if ann.shown["who-text"] != "You command":
-        ann.press("take_over", "the test begins")
-    commands(witness, "Ann")
+    eventually(taken, WITHIN_S, lambda: f"Ann commands; {witness.authority}, {ann.shown}")
     shows(ann, "who-text", "You command")
     shows(bob, "who-text", "Ann commands")
     shows(bob, "action-ask@disabled", "False")

@@ -30,6 +30,7 @@ from services.station.page.guard import Guard
 from services.station.page.input import Desk
 from services.station.page.link import Link
 from services.station.page.view import Board, PageView
+from services.station.page.web_socket import WebSocketProtocol
 from services.station.press import Press
 
 log = logging.getLogger(__name__)
@@ -164,7 +165,7 @@ class Page:
             lifespan="off",
             loop="asyncio",
             http="h11",
-            ws="websockets-sansio",
+            ws=WebSocketProtocol,
             ws_max_size=65_536,
             ws_per_message_deflate=False,
             timeout_graceful_shutdown=1,

@@ -238,6 +238,7 @@ class Link:
     """
 
     endpoint = parse("tcp/127.0.0.1:7447")
+    credentials = None
     pace_ms = OPEN_LEAST_MS
 
     def __init__(self, takes=1):
@@ -283,7 +284,8 @@ def looked_after(monkeypatch):
 class At:
     """Dialling that has opened at once."""
 
-    def __init__(self, endpoint):
+    def __init__(self, endpoint, credentials):
+        assert credentials is Link.credentials
         self.opened = endpoint.text
 
     def start(self):

@@ -118,4 +118,4 @@ def test_what_cannot_be_planned_is_not_touched(fault, caplog):
     for _ in range(50):
         state = site.tick()
     assert not state.engaged
-    assert caplog.text.count("episode 1 is not corrected") == 1
+    assert caplog.text.count("episode 1 is not taught") == 1

@@ -1,23 +1,11 @@
 """A certificate is judged before the page is served, and what is wrong with it is one line."""
 
-import shutil
-import subprocess
-
 import pytest
 
 from services.process.config import StationSection
 from services.process.exceptions import UnusableSetting
 from services.station.page.certificate import check
-
-
-def made(folder, name):
-    """Certificate and key, files in the folder."""
-    if shutil.which("openssl") is None:
-        pytest.skip("openssl makes the certificate")
-    key, certificate = folder / f"{name}.key", folder / f"{name}.pem"
-    request = ["req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2", "-subj", "/CN=localhost"]
-    subprocess.run(["openssl", *request, "-keyout", key, "-out", certificate], check=True, capture_output=True)
-    return certificate, key
+from tests.services.station.page.self_signed import self_signed
 
 
 def fault(certificate="", key=""):
@@ -34,7 +22,7 @@ def test_without_a_certificate_there_is_nothing_to_judge():
 
 
 def test_a_certificate_and_its_key_can_be_used_in_two_files_or_in_one(tmp_path):
-    certificate, key = made(tmp_path, "one")
+    certificate, key = self_signed(tmp_path, "one")
     check(StationSection(certificate=str(certificate), key=str(key)))
     certificate.write_bytes(certificate.read_bytes() + key.read_bytes())
     check(StationSection(certificate=str(certificate)))
@@ -42,7 +30,7 @@ def test_a_certificate_and_its_key_can_be_used_in_two_files_or_in_one(tmp_path):
 
 
 def test_a_key_of_another_certificate_is_said_to_be_one(tmp_path):
-    (certificate, _), (_, key) = made(tmp_path, "one"), made(tmp_path, "two")
+    (certificate, _), (_, key) = self_signed(tmp_path, "one"), self_signed(tmp_path, "two")
     assert "do not belong together" in fault(certificate, key)
 
 

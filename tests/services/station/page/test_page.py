@@ -1,6 +1,7 @@
 """The page listens where it was told to, and says so as a browser understands it."""
 
 import socket
+import ssl
 import urllib.request
 
 import pytest
@@ -10,11 +11,34 @@ from services.process.config import StationSection
 from services.station.live_view.description import described
 from services.station.page.page import Page
 from sim.tasks.scene import Eye
+from tests.ports import free_port
+from tests.services.station.page.self_signed import self_signed
+
+UPGRADE = b"\r\n".join(
+    (
+        b"GET /link HTTP/1.1",
+        b"Host: %s:%d",
+        b"Origin: https://%s:%d",
+        b"Connection: Upgrade",
+        b"Upgrade: websocket",
+        b"Sec-WebSocket-Version: 13",
+        b"Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==",
+        b"",
+        b"",
+    )
+)
+"""RFC 6455, section 1.3."""
+
+GOODBYE = b"\x88\x82\x00\x00\x00\x00\x03\xe9"
+"""A masked close frame, "going away"; section 5.5.1."""
+
+GOING = b"\x88\x02\x03\xe9"
+"""Its answer."""
 
 NOTHING = described((), {}, Eye(), None)
 
 
-def free_port(host):
+def free_port_of_version_6(host):
     try:
         with socket.create_server((host, 0), family=socket.AF_INET6) as probe:
             return probe.getsockname()[1]
@@ -23,10 +47,27 @@ def free_port(host):
 
 
 def test_it_can_be_opened_under_an_address_of_version_6():
-    page = Page(StationSection(host="::1", port=free_port("::1")), "robot1", SystemClock(), NOTHING)
+    page = Page(StationSection(host="::1", port=free_port_of_version_6("::1")), "robot1", SystemClock(), NOTHING)
     page.start()
     try:
         assert page.url.startswith("http://[::1]:")
         assert urllib.request.urlopen(page.url, timeout=10.0).status == 200
     finally:
         page.close()
+
+
+def test_it_ends_quietly_while_a_browser_that_said_goodbye_still_holds_its_connection(tmp_path):
+    certificate, key = self_signed(tmp_path, "page")
+    station = StationSection(port=free_port(), certificate=str(certificate), key=str(key))
+    page = Page(station, "robot1", SystemClock(), NOTHING)
+    page.start()
+    context = ssl.create_default_context()
+    context.check_hostname, context.verify_mode = False, ssl.CERT_NONE
+    with context.wrap_socket(socket.create_connection(("127.0.0.1", station.port), timeout=10.0)) as browser:
+        browser.sendall(UPGRADE % (b"127.0.0.1", station.port, b"127.0.0.1", station.port))
+        assert browser.recv(65_536).startswith(b"HTTP/1.1 101")
+        browser.sendall(GOODBYE)
+        while received := browser.recv(65_536):
+            if received.endswith(GOING):
+                break
+        page.close()  # what its thread cannot cope with fails this test, by pytest's own rule
