@@ -110,5 +110,5 @@ def _decode(subject: str, payload: bytes, bound: int, type_: Any) -> Any:
     _bounded(subject, payload, bound)
     try:
         return _DECODERS[type_].decode(payload)
-    except (msgspec.DecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:  # a text that is no UTF-8 among them
         raise MalformedMessage(subject, str(error)) from None

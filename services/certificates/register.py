@@ -87,7 +87,7 @@ def load(folder: Path) -> Register:
             subject(one.name)
     except FileNotFoundError:
         return Register()
-    except (msgspec.DecodeError, msgspec.ValidationError, InvalidName) as error:
+    except (ValueError, RecursionError, InvalidName) as error:  # no UTF-8 among them
         raise Unreadable(path, f"it is no register of certificates ({error})") from None
     return register
 

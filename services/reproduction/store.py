@@ -105,7 +105,7 @@ class Store:
             if isinstance(kept.record, Failed):
                 return kept.record
             figures = tuple(self._with_image(run, figure) for figure in kept.record.finding.figures)
-        except (OSError, msgspec.MsgspecError):
+        except (OSError, ValueError):  # no UTF-8 among them
             return None
         finding = msgspec.structs.replace(kept.record.finding, figures=figures)
         return msgspec.structs.replace(kept.record, finding=finding)

@@ -129,7 +129,7 @@ class SafetyFile:
             self._record = msgspec.json.decode(self._path.read_bytes(), type=SafetyRecord)
         except FileNotFoundError:
             return SafetyRecord.of(Latch())
-        except (OSError, msgspec.DecodeError) as error:
+        except (OSError, ValueError, RecursionError) as error:  # no UTF-8, and what is nested too deeply, among them
             # Nobody knows whether a stop was latched: the safe answer is that it was.
             cause = (error.strerror or str(error)) if isinstance(error, OSError) else str(error)
             reason = f"{self._path} cannot be read ({cause}): look at the robot, then release the stop"

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from protocol import messages, queries, topics
 from protocol.codec import decode, decode_reply, decode_request, encode, encode_reply, encode_request
 from protocol.exceptions import MalformedMessage, OversizedMessage, ProtocolError, WrongVersion
+from tests.protocol.filled import filled
 
 by_topic = pytest.mark.parametrize("topic", topics.TOPICS, ids=lambda t: t.name)
 by_query = pytest.mark.parametrize("query", queries.QUERIES, ids=lambda q: q.name)
@@ -95,14 +96,22 @@ def test_garbage_is_malformed_and_nothing_else(garbage):
             decode(topic, b"\xc1" + garbage)
 
 
-@given(cut=st.integers(min_value=0, max_value=10**6), flip=st.integers(min_value=0, max_value=255))
-def test_a_damaged_message_decodes_or_is_a_protocol_error(cut, flip):
-    topic = topics.MASTER_STATE
-    whole = bytearray(encode(topic, messages.MasterState()))
-    whole[cut % len(whole)] ^= flip
-    for payload in (bytes(whole), bytes(whole[: cut % len(whole)])):
+@by_topic
+@given(at=st.integers(min_value=0, max_value=10**6), flip=st.integers(min_value=0, max_value=255))
+def test_a_damaged_message_decodes_or_is_a_protocol_error(topic, at, flip):
+    whole = bytearray(encode(topic, filled(topic.type)))
+    whole[at % len(whole)] ^= flip
+    for payload in (bytes(whole), bytes(whole[: at % len(whole)])):
         with contextlib.suppress(ProtocolError):
-            assert isinstance(decode(topic, payload), messages.MasterState)
+            assert isinstance(decode(topic, payload), topic.type)
+
+
+@by_topic
+def test_a_name_that_is_no_text_is_malformed(topic, fill):
+    whole = encode(topic, fill(topic.type))
+    field = whole.index(b"\xa5robot") + 6
+    with pytest.raises(MalformedMessage):
+        decode(topic, whole[:field] + b"\xa1\xff" + whole[field + 1 + (whole[field] & 31) :])
 
 
 def test_a_master_without_rotation_is_one_that_does_not_turn():

@@ -79,6 +79,8 @@ def test_epochs_are_reserved_anew_when_less_than_half_of_them_are_left(path):
         b'{"latched": "no"}',
         b'{"latched": false, "who": 1}',
         b"\xff\xfe",
+        b'{"by": "\xe3"}',
+        b"[" * 100_000,
         b'{"epoch_bound": -1}',
     ],
 )
