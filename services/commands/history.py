@@ -17,7 +17,7 @@ from services.commands.model_process import ModelProcess, model_process
 from services.commands.settings import configuration as configured
 from services.commands.terminal import Terminal
 from services.process.exit_codes import Exit
-from services.process.lines import one_line
+from services.process.lines import readable
 from services.station.page.entries import Row, rows_of
 
 _ABOUT = """\
@@ -99,13 +99,8 @@ def _table(rows: tuple[Row, ...]) -> Table:
         table.add_column(heading)
     for row in rows:
         words = (str(row.id), _what(row), row.who or "-", _when(row.at), _moved(row), _in_use(row))
-        table.add_row(*(Text(_readable(word)) for word in words), style="" if row.in_use else "dim")
+        table.add_row(*(Text(readable(word)) for word in words), style="" if row.in_use else "dim")
     return table
-
-
-def _readable(word: str) -> str:
-    """Names and times are what somebody's program has sent: they are printed, and do nothing else."""
-    return "".join(letter for letter in one_line(word) if letter.isprintable())
 
 
 def _what(row: Row) -> str:

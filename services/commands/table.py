@@ -14,6 +14,7 @@ COMMANDS: tuple[Command, ...] = (
     Command("device", "services.commands.device.command", "input devices: there, live, calibrated", needs="master"),
     Command("top", "services.commands.top", "the live processes of a network", needs="process"),
     Command("stop", "services.commands.stop", "emergency stop of a robot, or its release", needs="process"),
+    Command("log", "services.commands.log", "what a robot has written down; is it as it was?", needs="process"),
     Command("replay", "services.commands.replay", "open a recording in Rerun", needs="viewer"),
     Command("certs", "services.commands.certs", "certificates: who may join a network, and what for", needs="process"),
     Command("topics", "services.commands.topics", "print the table of topics and queries", needs="process"),

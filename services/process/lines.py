@@ -19,6 +19,11 @@ def one_line(text: str) -> str:
     return _shortened(" ".join(_shortened(word, LONGEST_WORD) for word in text.split()), LONGEST_LINE)
 
 
+def readable(text: str) -> str:
+    """What somebody's program has sent, in one line that is printed and does nothing else at a terminal."""
+    return "".join(letter for letter in one_line(text) if letter.isprintable())
+
+
 def _shortened(text: str, most: int) -> str:
     if len(text) <= most:
         return text

@@ -29,6 +29,7 @@ from services.bus.predictions import Predictions
 from services.bus.server import Server
 from services.process.lines import one_line
 from services.robot.control import Control
+from services.robot.evidence import Evidence
 from services.robot.refusal import Refusal
 
 log = logging.getLogger(__name__)
@@ -46,12 +47,14 @@ class Requests:
     Args:
         bus: to answer on.
         control: that carries it out.
+        evidence: that it was.
         proven: the network shows who somebody is.
     """
 
-    def __init__(self, bus: Bus, control: Control, *, proven: bool) -> None:
+    def __init__(self, bus: Bus, control: Control, evidence: Evidence, *, proven: bool) -> None:
         self.refused = 0
         self._control = control
+        self._evidence = evidence
         self._proven = proven
         self._predictions = Predictions(bus)
         self._acquire = bus.serve(queries.ACQUIRE)
@@ -85,11 +88,16 @@ class Requests:
 
     def _executed(self, request: Execute, asker: str) -> EpisodeStarted:
         self._control.lease.check_sender(request.epoch, asker)
-        return EpisodeStarted(self._control.execute(request, self._predictions.find(request.prediction)))
+        predicted = self._predictions.find(request.prediction)
+        started = EpisodeStarted(self._control.execute(request, predicted))
+        self._evidence.set_in_motion(predicted)
+        return started
 
     def _teleoperated(self, request: Teleoperate, asker: str) -> EpisodeStarted:
         self._control.lease.check_sender(request.epoch, asker)
-        return EpisodeStarted(self._control.teleoperate(request))
+        started = EpisodeStarted(self._control.teleoperate(request))
+        self._evidence.set_in_motion(None)
+        return started
 
     def _revoked(self, request: RevokeAuthority, asker: str) -> Accepted:
         if self._proven and request.by != person(asker):
@@ -117,6 +125,7 @@ class Requests:
             reply: Rep | Refused
             try:
                 reply = answer(call.request, call.asker)
+                self._evidence.commanded(call.request, call.asker)
             except Refusal as refusal:
                 reply = self._refuse(refusal.reason, lasting=refusal.lasting)
             except Exception as error:

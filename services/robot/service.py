@@ -13,6 +13,7 @@ from protocol import topics
 from protocol.messages import Figure, MasterState, Mode, Phase
 from services.bus.bus import Bus
 from services.bus.subscription import Received
+from services.evidence.ledger import Ledger, Unkept, ledger_file
 from services.process.clock import Clock
 from services.process.config import Configuration
 from services.process.endpoint import parse
@@ -20,6 +21,7 @@ from services.process.lines import one_line
 from services.robot.assembly import kinematics_of, simulated_arm
 from services.robot.backends.backend import CONTROL_PERIOD
 from services.robot.control import Control
+from services.robot.evidence import Evidence, began
 from services.robot.memory import Memory, safety_file
 from services.robot.requests import Requests
 from services.robot.safety import Watchdog
@@ -45,14 +47,17 @@ def build(bus: Bus, clock: Clock, configuration: Configuration, memory: Memory |
         bus: to hear, answer and report on.
         clock: of the process.
         configuration: of the whole system.
-        memory: where stop and epochs outlive the process; the robot's file by default.
+        memory: where stop and epochs outlive the process; by default the robot's file, and then there is the robot's
+            evidence log, too.
 
     Raises:
         SimError: there is no such scene or variant, or the robot's description is not installed.
         StartImpossible: the arm cannot reach the scene's start.
         FolderUnusable: there is no folder for the robot's file.
     """
-    memory = safety_file(configuration.name) if memory is None else memory
+    ledger: Ledger = Unkept()
+    if memory is None:
+        memory, ledger = safety_file(configuration.name), ledger_file(configuration.name)
     section = configuration.robot
     description = prepare()
     scene = scene_named(section.scene)
@@ -74,7 +79,8 @@ def build(bus: Bus, clock: Clock, configuration: Configuration, memory: Memory |
         memory=memory,
         utc=lambda: datetime.now(UTC),
     )
-    return RobotService(bus, clock, control, kinematics, proven=parse(configuration.connect).secure)
+    ledger.add(began(configuration))
+    return RobotService(bus, clock, control, kinematics, ledger, proven=parse(configuration.connect).secure)
 
 
 class RobotService:
@@ -85,13 +91,21 @@ class RobotService:
         clock: when a command has been given.
         control: that decides.
         kinematics: whose durations are reported.
+        ledger: where everything is written down that somebody may have to answer for.
         proven: the network shows who somebody is.
     """
 
     rate_hz = 1.0 / CONTROL_PERIOD
 
     def __init__(
-        self, bus: Bus, clock: Clock, control: Control, kinematics: TimedKinematics, *, proven: bool = False
+        self,
+        bus: Bus,
+        clock: Clock,
+        control: Control,
+        kinematics: TimedKinematics,
+        ledger: Ledger,
+        *,
+        proven: bool = False,
     ) -> None:
         self._bus = bus
         self._clock = clock
@@ -103,7 +117,9 @@ class RobotService:
         self._renewal = bus.subscribe(topics.AUTHORITY_RENEWAL)
         self._request = bus.subscribe(topics.AUTHORITY_REQUEST)
         self._emergency_stop = bus.subscribe(topics.EMERGENCY_STOP)
-        self._requests = Requests(bus, control, proven=proven)
+        self._ledger = ledger
+        self._evidence = Evidence(ledger, control)
+        self._requests = Requests(bus, control, self._evidence, proven=proven)
         self._applied: Received[MasterState] | None = None
         self._applied_latency = -1.0
         self._given_ns = 0
@@ -123,6 +139,7 @@ class RobotService:
         tick = self._control.tick(now_ns, sample, self._given, self._samples.way_s(sample))
         self._measure(tick, sample)
         self._tell_who_commands()
+        self._evidence.look()
         applied = self._applied.message.sequence if self._applied is not None else 0
         self._states.publish(now_ns, tick, applied, self._applied_latency)
 
@@ -148,6 +165,7 @@ class RobotService:
             Figure("clamped", float(self._clamped), "periods"),
             Figure("refused", float(self._requests.refused), "requests"),
             Figure("late", float(self._samples.late), "samples"),
+            Figure("evidence_unwritten", float(self._ledger.unwritten), "events"),
         )
         self._latencies.clear()
         self._kinematics.steps_ns.clear()
@@ -157,6 +175,7 @@ class RobotService:
     def close(self) -> None:
         """Finish writing what has to outlive the process."""
         self._control.memory.close()
+        self._ledger.close()
 
     def _hear(self) -> None:
         for press in self._emergency_stop.take():

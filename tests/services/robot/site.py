@@ -10,6 +10,7 @@ from protocol import messages, queries, topics
 from protocol.messages import Mode
 from protocol.queries import EpisodeStarted
 from services.bus.arrays import motion_to_wire
+from services.evidence.ledger import Unkept
 from services.robot.assembly import kinematics_of, simulated_arm
 from services.robot.control import Control
 from services.robot.memory import Volatile
@@ -64,7 +65,7 @@ class Later(Executor):
 class Site(Operated):
     """See the module."""
 
-    def __init__(self, memory=None, *, master_gain=1.0, kinematics=None, morning=MORNING):
+    def __init__(self, memory=None, *, ledger=None, master_gain=1.0, kinematics=None, morning=MORNING):
         self.morning = morning
 
         def build(bus, clock):
@@ -79,7 +80,7 @@ class Site(Operated):
                 memory=memory or Volatile(),
                 utc=self.utc,
             )
-            return RobotService(bus, clock, self.control, timed)
+            return RobotService(bus, clock, self.control, timed, ledger or Unkept())
 
         super().__init__(build)
         self.states = self.operator.subscribe(topics.ROBOT_STATE)
