@@ -56,6 +56,21 @@ def test_it_can_be_opened_under_an_address_of_version_6():
         page.close()
 
 
+def test_what_is_small_does_not_wait_until_what_came_before_it_was_acknowledged():
+    station = StationSection(port=free_port())
+    page = Page(station, "robot1", SystemClock(), NOTHING)
+    page.start()
+    try:
+        with socket.create_connection(("127.0.0.1", station.port), timeout=10.0) as browser:
+            browser.sendall(b"GET /assets/retouch.svg HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n")
+            assert browser.recv(65_536).startswith(b"HTTP/1.1 200")
+            (connection,) = page._server.server_state.connections
+            accepted = connection.transport.get_extra_info("socket")
+            assert accepted.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
+    finally:
+        page.close()
+
+
 def test_it_ends_quietly_while_a_browser_that_said_goodbye_still_holds_its_connection(tmp_path):
     certificate, key = self_signed(tmp_path, "page")
     station = StationSection(port=free_port(), certificate=str(certificate), key=str(key))
