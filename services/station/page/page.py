@@ -142,8 +142,8 @@ class Page:
             listener = socket.create_server((host, port), family=family(host))
         except OSError as error:
             raise PortInUse(PAGE, host, port, SETTING, error.strerror or "") from None
-        # Every connection has it from here. asyncio sets it only on sockets that were made by the protocol's number: else
-        # what follows upon something small waits until that was acknowledged, which browsers put off for 40 ms.
+        # Every connection has it from here; asyncio sets it only on sockets that were made by the protocol's number.
+        # What follows upon something small waits otherwise until that was acknowledged, which is put off for 40 ms.
         listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         return listener
 

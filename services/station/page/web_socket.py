@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import asyncio
+import contextlib
+import socket
+
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 
 
@@ -13,7 +17,16 @@ class WebSocketProtocol(WebSocketsSansIOProtocol):
     middle: other tabs are not told, and what was to be waited for is not.
     """
 
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """A browser has come."""
+        super().connection_made(transport)
+        self._socket = transport.get_extra_info("socket")
+
     def shutdown(self) -> None:
         """The server ends."""
         if not self.transport.is_closing():
             super().shutdown()
+            return
+        # A transport over TLS that is closing cannot be aborted any more.
+        with contextlib.suppress(OSError):
+            self._socket.shutdown(socket.SHUT_RDWR)
