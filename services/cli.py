@@ -28,10 +28,8 @@ examples:
   retouch up                                  everything on this machine, and a page in the browser
   retouch up --operator anna                  the same; what anna does carries her name
   retouch up --headless --once                the same with a scripted operator; says what happened
-  retouch up --listen tls/0.0.0.0:7447 --only robot,camera,perception,model
-                                              the robot's side, for operators on other machines
-  retouch up --connect tls/ROBOT:7447 --only master,viewer,station
-                                              the operator's side
+  retouch up --site --config network.toml     the robot's side of a network, as the file says
+  retouch up --desk --config network.toml     the operator's side
   retouch stop                                emergency stop of the robot
   retouch teach --waypoints reach.csv --object 0.85,0.05,0.55
                                               teach a running model a motion that you wrote down

@@ -9,7 +9,7 @@ import msgspec
 
 from protocol.topics import checked_name
 from services.certificates.credentials import check_secured, is_open, present
-from services.process.addresses import EVERYWHERE, in_url
+from services.commands.sides import placed, reachable
 from services.process.config import Configuration, load
 from services.process.master_devices import Scripted
 from services.process.processes import PROCESSES
@@ -39,10 +39,13 @@ def configuration(arguments: Namespace) -> Configuration:
         ConfigurationError: the file cannot be used.
         ProtocolError: the robot's or operator's name cannot stand in a message.
         SimError: there is no such scene, or it has no such variant.
+        UnusableSetting: a side of the network is to be started, and the file does not say where the other one is.
         Unsecured: an endpoint is open to others, and nobody said that it may be.
     """
     given = {flag: value for flag, value in vars(arguments).items() if value is not None}
     result = load(arguments.config) if "config" in given else Configuration()
+    if "side" in given:
+        result = placed(result, given["side"]).configuration
     changes: dict[str, object] = {key: given[flag] for flag, key in _FLAGS.items() if flag in given}
     if "listen" in given and "connect" not in given:
         changes["connect"] = reachable(given["listen"])
@@ -70,10 +73,3 @@ def configuration(arguments: Namespace) -> Configuration:
     if is_open(result):
         log.warning(OPEN)
     return result
-
-
-def reachable(listen: str) -> str:
-    """The endpoint by which this machine reaches its own router that listens on all addresses."""
-    for everywhere, own in EVERYWHERE.items():
-        listen = listen.replace(f"/{in_url(everywhere)}:", f"/{in_url(own)}:")
-    return listen

@@ -145,6 +145,30 @@ class ViewerSection(Section, frozen=True):
     folder: str = "runs"
 
 
+class SiteSection(Section, frozen=True):
+    """A robot's site, as `deploy/site` starts it: robot, camera, perception, model.
+
+    Attributes:
+        listen: where desks reach its router; empty where it joins another one instead of having one.
+        join: another router that its own joins, one that both sides can dial, say; empty for none.
+    """
+
+    listen: str = "tls/0.0.0.0:7447"
+    join: str = ""
+
+
+class DeskSection(Section, frozen=True):
+    """An operator's desk, as `deploy/desk` starts it: master, viewer, station.
+
+    Attributes:
+        connect: where the site's router is reached, or the one that both sides dial.
+        router: it has a router of its own, so that nothing crosses a thin link twice.
+    """
+
+    connect: str = ""
+    router: bool = False
+
+
 class Configuration(Section, frozen=True):
     """Everything that can be set.
 
@@ -165,6 +189,8 @@ class Configuration(Section, frozen=True):
     tls: str = ""
     insecure: bool = False
     seed: Annotated[int, msgspec.Meta(ge=0)] = 0
+    site: SiteSection = SiteSection()
+    desk: DeskSection = DeskSection()
     robot: RobotSection = RobotSection()
     camera: CameraSection = CameraSection()
     perception: PerceptionSection = PerceptionSection()
@@ -175,8 +201,9 @@ class Configuration(Section, frozen=True):
 
     def __post_init__(self) -> None:
         """Judge the endpoints before anybody waits for them; raises BadEndpoint."""
-        endpoint.parse(self.connect)
-        endpoint.parse(self.listen)
+        for text in (self.connect, self.listen, self.site.listen, self.site.join, self.desk.connect):
+            if text:
+                endpoint.parse(text)
 
 
 def load(path: Path) -> Configuration:

@@ -7,6 +7,7 @@ import logging
 import socket
 import threading
 from pathlib import Path
+from typing import Any
 
 import zenoh
 
@@ -14,7 +15,7 @@ from services.bus.reach import Silence, open_timeout_ms, probe
 from services.bus.zenoh.dialling import Opened
 from services.bus.zenoh.readmission import Readmission
 from services.bus.zenoh.redialling import Redialling
-from services.bus.zenoh.transport import LEASE_MS, REDIAL_MS, configuration, leave, reason
+from services.bus.zenoh.transport import LEASE_MS, REDIAL_MS, configuration, leave, reason, settings
 from services.certificates.credentials import Credentials
 from services.process.endpoint import Endpoint, parse
 from services.process.exceptions import BusError, EndpointInUse, ServiceError
@@ -127,6 +128,14 @@ class Uplink:
         )
         self._router.open_again(opened.pace_ms)
         return False
+
+
+def router_settings(listen: str, connect: str | None = None, credentials: Credentials | None = None) -> dict[str, Any]:
+    """What such a router is opened with, as the official zenohd reads it in a file; raises as `open_router`."""
+    parse(listen)
+    trip = probe(parse(connect)) if connect else 0.0
+    pace_ms = open_timeout_ms(0.0 if isinstance(trip, Silence) else trip)
+    return settings("router", connect, listen, pace_ms, credentials=credentials)
 
 
 def open_router(listen: str, connect: str | None = None, credentials: Credentials | None = None) -> Router:

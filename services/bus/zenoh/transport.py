@@ -46,6 +46,20 @@ def configuration(
     within_ms: int = -1,
     credentials: Credentials | None = None,
 ) -> zenoh.Config:
+    """The same as `settings`, as a session takes it."""
+    made = settings(mode, connect, listen, pace_ms, within_ms=within_ms, credentials=credentials)
+    return zenoh.Config.from_json5(json.dumps(made))
+
+
+def settings(
+    mode: str,
+    connect: str | None,
+    listen: str | None,
+    pace_ms: int,
+    *,
+    within_ms: int = -1,
+    credentials: Credentials | None = None,
+) -> dict[str, Any]:
     """No discovery: a network is what was named. Links that die are noticed and dialled again within a second.
 
     Args:
@@ -82,7 +96,7 @@ def configuration(
     if credentials is not None and listen and parse(listen).secure:
         subjects = [(one.common_name, one.subject) for one in credentials.register().valid()]
         config |= {"access_control": access_control(subjects), **quotas(subjects)}
-    return zenoh.Config.from_json5(json.dumps(config))
+    return config
 
 
 def _lanes(mode: str, connect: str) -> list[str]:

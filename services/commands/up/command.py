@@ -7,6 +7,7 @@ from pathlib import Path
 
 from services.commands.arguments import add_network, add_scene
 from services.commands.settings import configuration
+from services.commands.sides import Side
 from services.commands.up.launch import Launch, launch
 from services.process.processes import PROCESS_NAMES
 
@@ -30,6 +31,21 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="an empty model is shown its first motion by its operator",
     )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write what happened")
+    side = parser.add_mutually_exclusive_group()
+    side.add_argument(
+        "--site",
+        dest="side",
+        action="store_const",
+        const=Side.SITE,
+        help="the robot's side of a network, as the file's [site] says: " + ", ".join(Side.SITE.processes),
+    )
+    side.add_argument(
+        "--desk",
+        dest="side",
+        action="store_const",
+        const=Side.DESK,
+        help="the operator's side, as the file's [desk] says: " + ", ".join(Side.DESK.processes),
+    )
     parser.add_argument("--listen", metavar="ENDPOINT", help="where other machines may join (default: this one only)")
     parser.add_argument("--only", metavar="A,B", help=f"start only some of: {', '.join(PROCESS_NAMES)}")
     parser.add_argument("--no-browser", action="store_true", help="do not open the page")
@@ -38,4 +54,4 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """See `Action`."""
     settings = configuration(arguments)
-    return launch(settings, Launch.from_arguments(arguments))
+    return launch(settings, Launch.from_arguments(arguments, settings))

@@ -15,6 +15,7 @@ from typing import Self
 
 import msgspec
 
+from services.commands.sides import placed
 from services.commands.terminal import Terminal
 from services.commands.up.child import Child, Job
 from services.commands.up.network import Page
@@ -43,6 +44,7 @@ class Launch:
     Attributes:
         processes: which to start.
         router: whether to start a router, rather than join one.
+        upstream: endpoint of another router that it joins; empty for none.
         headless: a scripted operator teaches.
         once: end when the loop has closed.
         fresh: start from an empty model, kept in the run's folder.
@@ -54,6 +56,7 @@ class Launch:
 
     processes: tuple[str, ...] = PROCESS_NAMES
     router: bool = True
+    upstream: str = ""
     headless: bool = False
     once: bool = False
     fresh: bool = False
@@ -63,14 +66,16 @@ class Launch:
     browser: bool = True
 
     @classmethod
-    def from_arguments(cls, arguments: Namespace) -> Self:
-        """From the command line.
+    def from_arguments(cls, arguments: Namespace, configuration: Configuration) -> Self:
+        """From the command line, and what the configuration says of the side of the network that is started.
 
         Raises:
             CommandFailed: --only names a process that does not exist, or the report cannot be written.
         """
         named = arguments.only is not None
-        names = tuple(name.strip() for name in arguments.only.split(",")) if named else PROCESS_NAMES
+        side = arguments.side
+        every = PROCESS_NAMES if side is None else side.processes
+        names = tuple(name.strip() for name in arguments.only.split(",")) if named else every
         for name in names:
             if name not in PROCESS_NAMES:
                 raise CommandFailed(f"--only: unknown process {name!r}; there are {', '.join(PROCESS_NAMES)}")
@@ -81,9 +86,11 @@ class Launch:
         if arguments.json is not None and arguments.json.exists() and not arguments.json.is_file():
             raise CommandFailed(f"--json: {arguments.json} is a device or pipe; name a file")
         page = not arguments.headless and "station" in names
+        at = placed(configuration, side) if side is not None else None
         return cls(
             processes=names,
-            router=arguments.connect is None,
+            router=arguments.connect is None and (at is None or at.router),
+            upstream=at.upstream if at is not None else "",
             headless=arguments.headless,
             once=arguments.once,
             fresh=arguments.fresh,
@@ -197,7 +204,8 @@ def _for_run(configuration: Configuration, folder: Path, options: Launch) -> Con
 
 def _jobs(options: Launch, resolved: Path) -> list[Job]:
     configured = ("--config", str(resolved))
-    jobs = [Job(ROUTER, (ROUTER, *configured))] if options.router else []
+    joined = ("--connect", options.upstream) if options.upstream else ()
+    jobs = [Job(ROUTER, (ROUTER, *configured, *joined))] if options.router else []
     jobs += [Job(name, (name, *configured)) for name in options.processes]
     if "model" in options.processes and not options.untaught:
         jobs.append(Job(TEACHER, (TEACHER, *configured), restart=False))

@@ -20,6 +20,7 @@ from services.process.clock import SystemClock
 from services.process.config import Configuration
 from services.process.exceptions import BusError
 from services.process.exit_codes import Exit
+from services.process.manager import Manager
 
 POLL_S = 0.1
 STOP_S = 2.0
@@ -60,6 +61,7 @@ class Supervisor:
         self._page = page
         self._watch: Watch | None = None
         self._credentials = credentials(configuration, configuration.connect)
+        self._manager = Manager()
 
     def run(self, stop: threading.Event) -> End | None:
         """Poll until the end.
@@ -83,6 +85,7 @@ class Supervisor:
                 self._write_report(over.line)
                 return over
             teaching = self._listen()
+            self._manager.alive(clock.now_ns())
             if self._ends and teaching is not None and teaching.finished:
                 return self._finished(teaching)
             stop.wait(POLL_S)
@@ -92,6 +95,7 @@ class Supervisor:
 
     def stop(self) -> None:
         """Stop every process; the ones that do not obey are killed."""
+        self._manager.stopping()
         if self._watch is not None:
             self._watch.close()
         # The router goes last: a process that leaves the network cleanly needs it.
@@ -106,6 +110,7 @@ class Supervisor:
     def _listen(self) -> TeachingState | None:
         if self._watch is None:
             return None
+        self._manager.ready()
         self._watch.update()
         self._narrator.tell(self._watch)
         self._voice.table(status_table(self._children, self._watch.beats))

@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from services.cli import parser
-from services.commands.settings import configuration, reachable
+from services.commands.settings import configuration
+from services.commands.sides import reachable
 from services.commands.up.launch import TEACHER, Launch, _jobs, check_ports
 from services.process.config import Configuration, StationSection, ViewerSection
 from services.process.exceptions import CommandFailed, EndpointInUse, PortInUse
@@ -21,7 +22,8 @@ def arguments(*words):
 
 
 def launch(*words):
-    return Launch.from_arguments(arguments(*words))
+    given = arguments(*words)
+    return Launch.from_arguments(given, configuration(given))
 
 
 def test_everything_and_a_page_is_the_default():
@@ -29,7 +31,7 @@ def test_everything_and_a_page_is_the_default():
 
 
 def test_a_network_that_is_named_is_joined():
-    assert not launch("--connect", "tcp/192.0.2.1:7447").router
+    assert not launch("--connect", "tls/192.0.2.1:7447").router
 
 
 @pytest.mark.parametrize("words", [("--headless",), ("--no-browser",), ("--only", "robot,camera")])
