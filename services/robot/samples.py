@@ -15,6 +15,7 @@ from services.bus.identity import same_clock
 from services.bus.round_trips import RoundTrips
 from services.bus.subscription import Received
 from services.process.config import LONGEST_SILENCE_S
+from services.robot.playout import Playout
 
 
 class Samples:
@@ -34,13 +35,22 @@ class Samples:
         self._newest: Received[MasterState] | None = None
         self._sender = 0
         self._trips = RoundTrips()
+        self._playout = Playout()
 
-    def take(self, covers: Callable[[str, int, str], bool], let_go: Callable[[], None]) -> Received[MasterState] | None:
-        """The newest that counts; those of any other holder, epoch or person do not.
+    @property
+    def delay_s(self) -> float:
+        """By how much later than the fastest could be a hand's motion is played out [s]."""
+        return self._playout.delay_ns / 1e9
+
+    def take(
+        self, covers: Callable[[str, int, str], bool], let_go: Callable[[], None], now_ns: int
+    ) -> Received[MasterState] | None:
+        """What counts now, as the hand did it; samples of any other holder, epoch or person do not.
 
         Args:
             covers: whether what a process sends for a holder under an epoch counts now.
             let_go: called where a hand was off the master, however late that is heard.
+            now_ns: the time [ns].
         """
         for received in self._master.take():
             if not covers(received.message.holder, received.message.epoch, received.message.process):
@@ -52,9 +62,14 @@ class Samples:
                 self.late += 1
             else:
                 self._newest = received
+                if not same_clock(received.message.publisher, self._own):
+                    self._playout.hear(received, round(1e9 * self.way_s(received)))
         if (old := self._newest) is not None and not covers(old.message.holder, old.message.epoch, old.message.process):
             self._newest = None
-        return self._newest
+        if self._newest is None:
+            self._playout.clear()
+            return None
+        return self._playout.play(self._newest, now_ns)
 
     def way_s(self, received: Received[MasterState] | None) -> float:
         """How long a sample took to come [s]; 0 where that is not known."""

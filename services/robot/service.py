@@ -133,7 +133,7 @@ class RobotService:
         self._first_ns = now_ns if self._first_ns is None else self._first_ns
         self._hear()
         self._requests.answer(now_ns)
-        sample = self._samples.take(self._control.lease.covers, self._control.let_go)
+        sample = self._samples.take(self._control.lease.covers, self._control.let_go, now_ns)
         if sample is not None:
             self._synchronisation.heard(now_ns, sample.received_ns)
         tick = self._control.tick(now_ns, sample, self._given, self._samples.way_s(sample))
@@ -165,6 +165,7 @@ class RobotService:
             Figure("clamped", float(self._clamped), "periods"),
             Figure("refused", float(self._requests.refused), "requests"),
             Figure("late", float(self._samples.late), "samples"),
+            Figure("playout", 1e3 * self._samples.delay_s, "ms"),
             Figure("evidence_unwritten", float(self._ledger.unwritten), "events"),
         )
         self._latencies.clear()

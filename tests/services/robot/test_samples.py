@@ -33,7 +33,7 @@ class Far:
         echoed = now - round((there_s + back_s) * 1e9) - HELD_NS
         state = MasterState(engaged=engaged, echoed_ns=echoed, echo_held_ns=HELD_NS)
         self._network.deliver(MASTER_STATE, self._master.pack(MASTER_STATE, state, stamp))
-        return self.samples.take(lambda holder, epoch, process: True, self._let_go)
+        return self.samples.take(lambda holder, epoch, process: True, self._let_go, self.clock.now_ns())
 
     def _let_go(self):
         self.let_go += 1
