@@ -218,11 +218,12 @@ class ZenohBus:
         )
 
     def _publisher(self, opened: Opened, topic: Topic[Any]) -> zenoh.Publisher:
-        publisher = opened.publishers.get(topic.name)
+        key = topic.key(self._robot, self._process)  # the ways to several robots share a session
+        publisher = opened.publishers.get(key)
         if publisher is None:
             transport = MANNERS[topic.qos]
-            publisher = opened.publishers[topic.name] = opened.session.declare_publisher(
-                topic.key(self._robot, self._process),
+            publisher = opened.publishers[key] = opened.session.declare_publisher(
+                key,
                 encoding=encoding(topic.schema),
                 priority=transport.priority,
                 congestion_control=transport.congestion_control,

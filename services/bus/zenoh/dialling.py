@@ -26,7 +26,7 @@ class Opened:
         pace_ms: how long each of its attempts to open the link again may take [ms].
         router: at the other end of the link; none where that was lost at once.
         lost: set once the link was lost, whether or not Zenoh has found it again since.
-        publishers: that were declared on it, by what they are called; empty at first.
+        publishers: that were declared on it, by their keys; empty at first.
         declared: whatever else was; some of it lasts only as long as it is kept.
     """
 
