@@ -13,8 +13,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from protocol.exceptions import InvalidName
+from protocol.names import checked_name, process_name
 from protocol.queries import QUERIES, REVOKE, Query
-from protocol.topics import TOPICS, VERSION, Topic, checked_name, process_name
+from protocol.topics import TOPICS, VERSION, Topic
 
 ANY = "*"
 """Every robot, or every process, in a key expression."""

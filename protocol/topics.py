@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property, lru_cache
 from typing import Any, Generic, TypeVar
 
 from protocol import messages
-from protocol.exceptions import InvalidName
+from protocol.names import checked_name, is_name, role
 
 M = TypeVar("M", bound=messages.Message)
 
 VERSION = "@v1"
 """The verbatim chunk keeps versions apart: no wildcard of one version matches another."""
-
-_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
 
 
 class QoS(Enum):
@@ -50,6 +47,7 @@ class Topic(Generic[M]):
         about: one line for people.
         kept: messages that a receiver keeps until it takes them; 1 where only the newest counts.
         readers: the robot's own processes that read it, by their roles; people's processes may read everything.
+        outdated: a sample that comes late counts for nothing, of a topic that is no event and no stop.
     """
 
     name: str
@@ -61,6 +59,7 @@ class Topic(Generic[M]):
     about: str
     kept: int = 1
     readers: tuple[str, ...] = ()
+    outdated: bool = True
 
     @cached_property
     def schema(self) -> str:
@@ -70,7 +69,7 @@ class Topic(Generic[M]):
     @cached_property
     def stale_after_ns(self) -> int | None:
         """Age at which a sample counts as lost: ten periods, at least 100 ms; events and stops never."""
-        if self.qos in (QoS.EVENT, QoS.SAFETY):
+        if self.qos in (QoS.EVENT, QoS.SAFETY) or not self.outdated:
             return None
         return int(max(0.1, 10.0 / self.rate_hz) * 1e9)
 
@@ -87,33 +86,7 @@ class Topic(Generic[M]):
 
 @lru_cache(maxsize=1024)  # asked of every message, about few names; bounded, since a stranger may invent more
 def _publishes(publisher: str, process: str) -> bool:
-    return _NAME.fullmatch(process) is not None and publisher in ("any", role(process))
-
-
-def role(process: str) -> str:
-    """What a process is by its name: the part before the first "-", behind which its operator or number stands."""
-    return process.partition("-")[0]
-
-
-def process_name(role: str, operator: str) -> str:
-    """The name of an operator's process: it says whose it is, so that two can be there at once."""
-    return f"{role}-{operator}"
-
-
-def person(process: str) -> str:
-    """Whose a process is by its name; empty where it is no operator's, or one of an operator who gave no name."""
-    return process.partition("-")[2]
-
-
-def checked_name(name: str) -> str:
-    """The name itself.
-
-    Raises:
-        InvalidName: it cannot stand in a key expression.
-    """
-    if not _NAME.fullmatch(name):
-        raise InvalidName(name)
-    return name
+    return is_name(process) and publisher in ("any", role(process))
 
 
 OPERATOR_INPUT = Topic(  # kept: between two steps of the master another station must not hide its own
@@ -269,6 +242,28 @@ RECORDING = Topic(
 HEARTBEAT = Topic(
     "health/heartbeat", messages.Heartbeat, 2.0, QoS.STATE, "any", 81_920, "a process about itself", kept=256
 )
+PROBE = Topic(
+    "health/probe",
+    messages.Probe,
+    100.0,
+    QoS.REALTIME,
+    "cli",
+    1_024,
+    "a diagnosis asks the way, as control travels",
+    kept=512,
+    outdated=False,
+)
+LOAD = Topic(
+    "health/load",
+    messages.Probe,
+    15.0,
+    QoS.PICTURE,
+    "cli",
+    8_192,
+    "the same, as pictures travel",
+    kept=512,
+    outdated=False,
+)
 
 TOPICS: tuple[Topic[Any], ...] = (
     OPERATOR_INPUT,
@@ -295,4 +290,6 @@ TOPICS: tuple[Topic[Any], ...] = (
     ATTENDANCE,
     RECORDING,
     HEARTBEAT,
+    PROBE,
+    LOAD,
 )

@@ -34,6 +34,7 @@ examples:
   retouch teach --waypoints reach.csv --object 0.85,0.05,0.55
                                               teach a running model a motion that you wrote down
   retouch top                                 what lives on the network, with rates, ages and drops
+  retouch doctor tls/ROBOT:7447               what is wrong between this machine and a robot's, and what to do
   retouch reproduce                           the thesis' analyses, made again: one report
   retouch map --teach                         where a model succeeds, before and after one correction: a picture
 

@@ -16,7 +16,7 @@ from protocol.messages.authority import (
 )
 from protocol.messages.camera import MOST_POINTS, POINT_BYTES, CameraImage, PictureQueue, PointCloud
 from protocol.messages.command import Controller, MasterState, OperatorInput, Trouble, Yaw
-from protocol.messages.health import Figure, Heartbeat, TopicFigures
+from protocol.messages.health import Figure, Heartbeat, Probe, TopicFigures
 from protocol.messages.model import MOST_WAYPOINTS, Method, ModelState, Origin, Prediction, Purpose, Way
 from protocol.messages.safety import EmergencyStop, SafetyState
 from protocol.messages.state import (
@@ -102,6 +102,7 @@ __all__ = [
     "PointCloud",
     "Pose",
     "Prediction",
+    "Probe",
     "Purpose",
     "Quaternion",
     "Real",

@@ -60,6 +60,8 @@ class Heartbeat(Message, frozen=True, kw_only=True):
         memory: resident [byte].
         topics: what it receives.
         figures: what it measured besides.
+        utc_ms: the time of day by its machine's clock, since 1970 [ms]; 0 where it is not told.
+        software: which release of this software it runs; empty where it is not told.
     """
 
     process: Name
@@ -75,3 +77,17 @@ class Heartbeat(Message, frozen=True, kw_only=True):
     memory: Count
     topics: Annotated[tuple[TopicFigures, ...], msgspec.Meta(max_length=64)] = ()
     figures: Annotated[tuple[Figure, ...], msgspec.Meta(max_length=64)] = ()
+    utc_ms: Count = 0
+    software: Name = ""
+
+
+class Probe(Message, frozen=True, kw_only=True):
+    """A message that is sent to be heard by its own sender, who learns of the way from it.
+
+    Attributes:
+        number: counts what was sent in one examination, from 0.
+        padding: of no meaning: as large as the message is to be.
+    """
+
+    number: Count = 0
+    padding: Annotated[bytes, msgspec.Meta(max_length=6_144)] = b""

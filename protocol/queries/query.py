@@ -7,7 +7,8 @@ from typing import Generic, TypeVar
 
 import msgspec
 
-from protocol.topics import VERSION, checked_name
+from protocol.names import checked_name
+from protocol.topics import VERSION
 
 Req = TypeVar("Req", bound=msgspec.Struct)
 Rep = TypeVar("Rep", bound=msgspec.Struct)

@@ -104,7 +104,7 @@ DESCRIBE = Query(
     "model",
     20_480,
     "the model as it lies on disk",
-    askers=("station", "teach", "history"),
+    askers=("station", "teach", "history", "cli"),
     looks=True,
 )
 

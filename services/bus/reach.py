@@ -8,7 +8,8 @@ import os
 import selectors
 import socket
 import time
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
 from typing import cast
 
 from services.process.endpoint import OVER_TCP, Endpoint
@@ -49,9 +50,11 @@ class Silence:
 
     Attributes:
         reason: as the system says.
+        code: the same as a number of `errno`; 0 where it has none.
     """
 
     reason: str
+    code: int = field(default=0, compare=False)
 
 
 def probe(endpoint: Endpoint) -> float | Silence:
@@ -63,24 +66,46 @@ def probe(endpoint: Endpoint) -> float | Silence:
     Raises:
         BadEndpoint: no such host is known.
     """
+    found = places(endpoint)
+    if isinstance(found, Silence):
+        return found
+    if endpoint.protocol == "tls":
+        return UNMEASURED_S
+    return _nearest(found, _shortest) if endpoint.protocol in OVER_TCP else 0.0
+
+
+def knock(endpoint: Endpoint) -> float | Silence:
+    """As `probe`, asked once of a listener with TLS too, which takes nobody else for 0.1 s then: not for repetition."""
+    if endpoint.protocol != "tls":
+        return probe(endpoint)
+    found = places(endpoint)
+    return found if isinstance(found, Silence) else _nearest(found, _race)
+
+
+def places(endpoint: Endpoint) -> Sequence[_Place] | Silence:
+    """Where its host is, or why nobody can be asked that.
+
+    Raises:
+        BadEndpoint: no such host is known.
+    """
     try:
-        places = socket.getaddrinfo(endpoint.host, endpoint.port, type=socket.SOCK_STREAM)
+        return socket.getaddrinfo(endpoint.host, endpoint.port, type=socket.SOCK_STREAM)
     except (socket.gaierror, UnicodeError) as error:
         if isinstance(error, socket.gaierror) and error.errno == socket.EAI_AGAIN:
             return Silence("no name server answers")
         right = f"{endpoint.protocol}/192.0.2.1:{endpoint.port}"
         raise BadEndpoint(endpoint.text, f"the host {endpoint.host!r} is not known here", right) from None
-    if endpoint.protocol == "tls":
-        return UNMEASURED_S
-    if endpoint.protocol not in OVER_TCP:
-        return 0.0
-    reason = ""
-    for place in places:
+
+
+def _nearest(found: Iterable[_Place], measured: Callable[[_Place], float]) -> float | Silence:
+    """The trip to the first place where somebody listens [s]."""
+    silence = Silence("")
+    for place in found:
         try:
-            return _shortest(place)
+            return measured(place)
         except OSError as error:
-            reason = (error.strerror or "no answer").lower()
-    return Silence(reason)
+            silence = Silence((error.strerror or "no answer").lower(), error.errno or 0)
+    return silence
 
 
 def _shortest(place: _Place) -> float:

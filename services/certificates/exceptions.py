@@ -51,6 +51,7 @@ class CertificateMissing(CertificateError):
     def __init__(self, folder: Path, wanted: tuple[str, ...], remedy: str) -> None:
         self.folder = folder
         self.wanted = wanted
+        self.remedy = remedy
         super().__init__(f"{folder} holds no certificate for {' or '.join(wanted)}: {remedy}")
 
 

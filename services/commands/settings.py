@@ -7,7 +7,7 @@ from argparse import Namespace
 
 import msgspec
 
-from protocol.topics import checked_name
+from protocol.names import checked_name
 from services.certificates.credentials import check_secured, is_open, present
 from services.commands.sides import placed, reachable
 from services.process.config import Configuration, load

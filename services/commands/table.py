@@ -13,6 +13,7 @@ COMMANDS: tuple[Command, ...] = (
     Command("echo", "services.commands.echo", "print what passes on a key expression", needs="process"),
     Command("device", "services.commands.device.command", "input devices: there, live, calibrated", needs="master"),
     Command("top", "services.commands.top", "the live processes of a network", needs="process"),
+    Command("doctor", "services.commands.doctor.command", "what is wrong between two machines", needs="process"),
     Command("stop", "services.commands.stop", "emergency stop of a robot, or its release", needs="process"),
     Command("log", "services.commands.log", "what a robot has written down; is it as it was?", needs="process"),
     Command("replay", "services.commands.replay", "open a recording in Rerun", needs="viewer"),

@@ -12,7 +12,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Protocol
 
-from protocol.topics import checked_name
+from protocol.names import checked_name
 from services.evidence.entry import LONGEST, ORIGIN, Entry, read, written
 from services.evidence.events import Event, Repaired
 from services.process.files import state_folder

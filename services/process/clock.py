@@ -25,6 +25,11 @@ CLOCK = getattr(time, "CLOCK_BOOTTIME", time.CLOCK_MONOTONIC)
 """The one that goes on while the machine sleeps: after it, other machines' stamps compare as before. Linux has it."""
 
 
+def utc_ms() -> int:
+    """The time of day by this machine, since 1970 [ms]: for people and certificates; no age is judged by it."""
+    return time.clock_gettime_ns(time.CLOCK_REALTIME) // 1_000_000
+
+
 class SystemClock:
     """The machine's clock since its start, its sleep included; all processes of a machine share it."""
 

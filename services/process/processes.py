@@ -30,7 +30,7 @@ class Process:
     def named(self, operator: str) -> str:
         """Its name on the network: that of an operator's process says whose it is, so that two can be there at once."""
         # Imported here: whoever only asks for help does not wait for the protocol.
-        from protocol.topics import process_name  # noqa: PLC0415
+        from protocol.names import process_name  # noqa: PLC0415
 
         named = self.at_operator and operator != NOBODY_IN_PARTICULAR
         return process_name(self.name, operator) if named else self.name

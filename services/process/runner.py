@@ -20,9 +20,10 @@ from typing import Protocol, runtime_checkable
 from protocol.messages import Figure, Heartbeat
 from protocol.topics import HEARTBEAT
 from services.bus.bus import Bus
-from services.process.clock import Clock
+from services.process.clock import Clock, utc_ms
 from services.process.ending import ENDING, end_within
 from services.process.exit_codes import Exit
+from services.process.release import release
 
 log = logging.getLogger(__name__)
 
@@ -189,7 +190,7 @@ def run(service: Service, bus: Bus, clock: Clock, process: str, stop: threading.
     # What was made at the start stays: looking through all of it again for garbage would take several control periods.
     gc.collect()
     gc.freeze()
-    ticks = TickStatistics(service.rate_hz)
+    ticks, software = TickStatistics(service.rate_hz), release()
     paced = service if isinstance(service, Paced) else None
     prompt = service if isinstance(service, Prompt) else None
     due = clock.now_ns()
@@ -203,7 +204,7 @@ def run(service: Service, bus: Bus, clock: Clock, process: str, stop: threading.
             ended = clock.now_ns()
             ticks.tick(due, started, ended)
             if ended >= heartbeat_due:
-                bus.publish(HEARTBEAT, _heartbeat(service, bus, process, ticks))
+                bus.publish(HEARTBEAT, _heartbeat(service, bus, process, ticks, software))
                 for fault in bus.faults():
                     log.warning("dropped: %s", fault)
                 heartbeat_due = ended + round(1e9 / HEARTBEAT.rate_hz)
@@ -220,7 +221,7 @@ def run(service: Service, bus: Bus, clock: Clock, process: str, stop: threading.
         service.close()
 
 
-def _heartbeat(service: Service, bus: Bus, process: str, ticks: TickStatistics) -> Heartbeat:
+def _heartbeat(service: Service, bus: Bus, process: str, ticks: TickStatistics, software: str) -> Heartbeat:
     period_p50, period_p99, step_p99 = ticks.take_quantiles()
     return Heartbeat(
         process=process,
@@ -236,4 +237,6 @@ def _heartbeat(service: Service, bus: Bus, process: str, ticks: TickStatistics) 
         memory=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024,
         topics=bus.figures(),
         figures=service.figures(),
+        utc_ms=utc_ms(),
+        software=software,
     )

@@ -6,7 +6,7 @@ from collections import deque
 from dataclasses import dataclass, replace
 
 from protocol.messages import SILENCE_GIVES_S, AuthorityRequest
-from protocol.topics import person
+from protocol.names import person
 
 UNSAID_NS = 1_000_000_000
 """Whoever has not said for so long that it asks does not ask any more."""

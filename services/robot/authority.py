@@ -1,8 +1,8 @@
 """Who may command: a lease with an epoch that fences off whoever held it before."""
 
 from protocol.messages import SHORTEST_REASON, AuthorityEvent, AuthorityRequest
+from protocol.names import person
 from protocol.queries import AnswerRequest, ReleaseAuthority, RevokeAuthority
-from protocol.topics import person
 from services.process.config import LONGEST_LEASE_S
 from services.robot.asking import Asking
 from services.robot.refusal import Refusal

@@ -10,7 +10,7 @@ from typing import Protocol
 import msgspec
 
 from protocol.messages import Count, Name, Text
-from protocol.topics import checked_name
+from protocol.names import checked_name
 from services.process.files import state_folder, write_whole
 from services.robot.latch import Latch
 

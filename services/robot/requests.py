@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from protocol import queries
+from protocol.names import person
 from protocol.queries import (
     Accepted,
     AnswerRequest,
@@ -23,7 +24,6 @@ from protocol.queries import (
     RevokeAuthority,
     Teleoperate,
 )
-from protocol.topics import person
 from services.bus.bus import Bus, Rep, Req
 from services.bus.predictions import Predictions
 from services.bus.server import Server

@@ -6,9 +6,10 @@ from pathlib import Path
 import pytest
 
 from protocol.exceptions import InvalidName
+from protocol.names import checked_name
 from protocol.queries import QUERIES
 from protocol.table import query_table, topic_table
-from protocol.topics import TOPICS, checked_name
+from protocol.topics import TOPICS
 
 CLASSES = {"cmd", "state", "model", "cam", "safety", "authority", "health"}
 README = Path(__file__).resolve().parents[2] / "README.md"

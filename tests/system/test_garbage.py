@@ -12,7 +12,6 @@ import pytest
 from protocol import messages, queries, topics
 from protocol.codec import decode_reply, encode
 from protocol.messages import Array, Phase, Purpose
-from protocol.topics import TOPICS
 from services.bus.identity import new_publisher
 from services.bus.outbox import Outbox
 from services.process.clock import SystemClock
@@ -31,6 +30,9 @@ EPISODE_S = 60.0
 MARK = "mark"
 STILL_RAD = 1e-3
 
+
+TOPICS = tuple(topic for topic in topics.TOPICS if topic not in (topics.PROBE, topics.LOAD))
+"""But for those that only who sends them hears: no process of these does."""
 
 SOURCE_OF_ANY = "robot"
 """Under whose name a stranger sends what any process may publish."""

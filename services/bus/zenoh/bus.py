@@ -14,9 +14,10 @@ import zenoh
 from protocol.codec import decode_reply, encode_request
 from protocol.exceptions import InvalidName, ProtocolError
 from protocol.messages import Message, TopicFigures
+from protocol.names import checked_name
 from protocol.placement import announcement, check_announced
 from protocol.queries import Query
-from protocol.topics import SAFETY_STATE, VERSION, QoS, Topic, checked_name
+from protocol.topics import SAFETY_STATE, VERSION, QoS, Topic
 from services.bus.bus import Failed, Pending
 from services.bus.clocks import Clocks
 from services.bus.identity import new_publisher

@@ -5,7 +5,7 @@ from __future__ import annotations
 from rich.table import Table
 
 from protocol.messages import Heartbeat
-from protocol.topics import role
+from protocol.names import role
 from services.commands.up.child import Child
 
 

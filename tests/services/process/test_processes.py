@@ -2,7 +2,7 @@
 
 import pytest
 
-from protocol.topics import role
+from protocol.names import role
 from services.process.processes import PROCESSES, process
 
 

@@ -8,8 +8,9 @@ import pytest
 
 from protocol import topics
 from services.bus.memory import MemoryNetwork
-from services.process.clock import ManualClock
+from services.process.clock import ManualClock, utc_ms
 from services.process.ending import ENDING
+from services.process.release import release
 from services.process.runner import TickStatistics, interruptible, leave_on_signals, run, stop_on_signals
 
 MS = 1_000_000
@@ -60,6 +61,15 @@ def ran(durations_ms):
 def test_ticks_come_at_whole_periods_whatever_the_steps_take():
     service, _ = ran([3, 9, 1, 5])
     assert service.started_ms == [0, 10, 20, 30]
+
+
+def test_a_heartbeat_tells_the_time_of_day_and_the_release():
+    """By which another machine sees that a clock is wrong, or that something else runs here."""
+    before_ms = utc_ms()
+    _, beats = ran([3])
+    beat = beats.latest().message
+    assert before_ms <= beat.utc_ms <= utc_ms()
+    assert beat.software == release()
 
 
 def test_a_long_step_skips_ticks_and_keeps_the_phase():

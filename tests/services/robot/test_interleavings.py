@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 import pytest
 
 from protocol.messages import AuthorityEvent, AuthorityRequest
+from protocol.names import process_name
 from protocol.queries import AnswerRequest, ReleaseAuthority, RevokeAuthority
-from protocol.topics import process_name
 from services.robot import asking
 from services.robot.authority import NOBODY, Lease
 from services.robot.refusal import Refusal
