@@ -4,8 +4,11 @@ import random
 import secrets
 
 import msgpack
+import msgspec
+import numpy as np
 
 from protocol import topics
+from protocol.messages import Array
 from services.bus.identity import boot_identity
 from services.process.clock import SystemClock
 
@@ -107,3 +110,13 @@ def _with_reals(value, number):
             return [_with_reals(inner, number) for inner in value]
         case _:
             return value
+
+
+def nonsense(*shape):
+    """An array that the codec lets pass and that holds no number."""
+    return Array("<f8", shape, np.full(shape, np.nan).tobytes())
+
+
+def hollow(motion):
+    """A motion that holds no number."""
+    return msgspec.structs.replace(motion, positions=nonsense(*motion.positions.shape))

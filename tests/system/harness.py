@@ -32,13 +32,7 @@ MARK = "RETOUCH_SYSTEM_TEST"
 
 EVERYBODY = {"router", *PROCESS_NAMES}
 
-STATES = (
-    topics.ROBOT_STATE,
-    topics.TEACHING_STATE,
-    topics.AUTHORITY_STATE,
-    topics.SAFETY_STATE,
-    topics.MODEL_STATE,
-)
+STATES = (topics.ROBOT_STATE, topics.TEACHING_STATE, topics.AUTHORITY_STATE, topics.SAFETY_STATE, topics.MODEL_STATE)
 """What a witness hears, of processes on this machine."""
 
 

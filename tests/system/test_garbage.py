@@ -227,7 +227,7 @@ def test_a_command_without_authority_is_refused(network, unmoved):
         (queries.UNDO, queries.Undo()),
         (
             queries.ADD_DEMONSTRATION,
-            queries.AddDemonstration(Purpose.UPDATE, hollow(predicted.motion), (0.7, 0.0, 0.5), "x"),
+            queries.AddDemonstration(Purpose.UPDATE, garbage.hollow(predicted.motion), (0.7, 0.0, 0.5), "x"),
         ),
     ):
         outcome = network.witness.ask(query, request)
@@ -238,16 +238,6 @@ def test_a_command_without_authority_is_refused(network, unmoved):
 def prediction_of(samples):
     """The prediction that was executed."""
     return msgspec.msgpack.decode(samples[topics.PREDICTION.name], type=messages.Prediction)
-
-
-def nonsense(*shape):
-    """An array that the codec lets pass and that holds no number."""
-    return Array("<f8", shape, np.full(shape, np.nan).tobytes())
-
-
-def hollow(motion):
-    """A motion that holds no number."""
-    return msgspec.structs.replace(motion, positions=nonsense(*motion.positions.shape))
 
 
 def test_sound_messages_with_senseless_content_stop_nobody(network, unmoved):
@@ -267,7 +257,7 @@ def test_sound_messages_with_senseless_content_stop_nobody(network, unmoved):
         Array("<f8", (0,), b""),
         Array("<f8", (3, 5), bytes(120)),
         Array("|u1", (2, 3), bytes(6)),
-        nonsense(2, 3),
+        garbage.nonsense(2, 3),
     )
     bytes_of_no_picture = (b"", b"\xff\xd8\xff", b"no picture" * 100, image.data[: len(image.data) // 2])
     senseless = [
@@ -277,9 +267,12 @@ def test_sound_messages_with_senseless_content_stop_nobody(network, unmoved):
         *((topics.WRIST_IMAGE, replace(image, data=data, camera="wrist")) for data in bytes_of_no_picture),
         (topics.HEAD_IMAGE, replace(image, intrinsics=(0.0, 0.0, 0.0, 0.0))),
         (topics.HEAD_IMAGE, replace(image, width=2**53, height=0, camera="/../..")),
-        (topics.PREDICTION, replace(prediction, motion=hollow(motion))),
+        (topics.PREDICTION, replace(prediction, motion=garbage.hollow(motion))),
         (topics.EXECUTION, replace(execution, prediction=2**53, progress=-1e9)),
-        (topics.EPISODE_RESULT, replace(result, request=0, prediction=0, commanded=hollow(motion), reason="x" * 4096)),
+        (
+            topics.EPISODE_RESULT,
+            replace(result, request=0, prediction=0, commanded=garbage.hollow(motion), reason="x" * 4096),
+        ),
         (topics.SCENE_STATE, replace(scene, name="nowhere", variant="none", variants=(), boxes=())),
         (topics.SCENE_STATE, replace(scene, ellipsoid_radii=(0.0, -1.0, 1e9), object_size=(-1.0, 0.0, 1e9))),
         (topics.ROBOT_STATE, replace(robot, joint_names=("a",), q=(), qd=(1e9,), hold_reason="\0\x1b[2J\n")),

@@ -1,8 +1,6 @@
 import math
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from protocol.messages import AuthorityEvent, AuthorityRequest
 from protocol.queries import AnswerRequest, ReleaseAuthority, RevokeAuthority
@@ -11,18 +9,6 @@ from services.robot.authority import NOBODY, Lease
 from services.robot.refusal import Refusal
 
 SECOND = 1_000_000_000
-NAMES = st.sampled_from(["ann", "bob"])
-ACTIONS = st.lists(
-    st.one_of(
-        st.tuples(st.just("acquire"), NAMES, st.booleans()),
-        st.tuples(st.just("release"), NAMES, st.booleans()),
-        st.tuples(st.just("renew"), NAMES, st.booleans()),
-        st.tuples(st.just("revoke"), NAMES, st.booleans()),
-        st.tuples(st.just("ask"), NAMES, st.booleans()),
-        st.tuples(st.just("answer"), NAMES, st.booleans()),
-        st.tuples(st.just("wait"), NAMES, st.booleans()),
-    )
-)
 
 
 def test_another_holder_is_refused_by_name_while_the_lease_lives():
@@ -255,46 +241,6 @@ def test_each_change_says_how_it_came_and_who_had_it_before():
         ("acquired", "ann", "", ""),
         ("stopped", "eve", "ann", ""),
     ]
-
-
-def carry_out(lease, what, number):
-    """One of the things that may happen to a lease."""
-    action, name, flag = what
-    now = number * SECOND // 2
-    question = lease.asking.question
-    match action:
-        case "acquire":
-            lease.acquire(name, now, take_over=flag, reason="it burns")
-        case "release":
-            lease.release(ReleaseAuthority(name, lease.epoch))
-        case "renew":
-            lease.renew(name, lease.epoch, "station", now)
-        case "revoke":
-            lease.revoke(RevokeAuthority(name, "it burns"))
-        case "ask":
-            lease.ask(AuthorityRequest(holder=name, number=number), now)
-        case "answer":
-            lease.answer(AnswerRequest(name, lease.epoch, question.number if question else 0, flag), now)
-        case "wait":
-            lease.expire(now)
-
-
-@given(ACTIONS)
-def test_every_change_raises_the_epoch_and_no_epoch_commands_twice(actions):
-    lease, owner = Lease(1.0, epoch=7), {}
-    for number, what in enumerate(actions, 1):
-        holder, epoch, asked = lease.holder, lease.epoch, lease.asking.question
-        try:
-            carry_out(lease, what, number)
-        except Refusal:
-            assert lease.holder != holder or lease.epoch == epoch
-        assert lease.epoch >= epoch
-        if lease.holder != holder:
-            assert lease.epoch > epoch
-            assert lease.asking.question is None
-        if lease.holder != NOBODY:
-            assert owner.setdefault(lease.epoch, lease.holder) == lease.holder
-        assert asked is None or asked.holder != holder, "nobody asks for what is their own"
 
 
 def test_another_persons_processes_cannot_use_an_authority_whose_epoch_they_have_read():

@@ -112,3 +112,10 @@ class Site:
         for _ in range(round(seconds * self.service.rate_hz)):
             self.other.publish(topics.OBJECT_POSE, ObjectPose(pose=POSE, tag=1, pictures=9))
             self.run(1.0 / self.service.rate_hz)
+
+
+def spied(target, name, monkeypatch):
+    """What is given to a function from now on."""
+    given, function = [], getattr(target, name)
+    monkeypatch.setattr(target, name, lambda *values: (given.append(values), function(*values))[1])
+    return given
