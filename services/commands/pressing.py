@@ -17,6 +17,9 @@ Req = TypeVar("Req", bound=msgspec.Struct)
 
 ANSWER_S = 1.0
 
+LOOK_NS = 1_500_000_000
+"""Every robot that is there has been heard by then."""
+
 
 class Press:
     """Presses until the robot says that it has latched and that it was measured to stand.
@@ -31,6 +34,11 @@ class Press:
         self._safety = bus.subscribe(topics.SAFETY_STATE)
         self._pressed = EmergencyStop(pressed=True, by=operator, reason="retouch stop")
 
+    @property
+    def heard(self) -> bool:
+        """The robot has said something since."""
+        return self._safety.latest() is not None
+
     def step(self, now_ns: int) -> str:
         """Press once more, where it is not confirmed; what is waited for, empty once it is."""
         safety = self._safety.fresh(now_ns)
@@ -40,6 +48,42 @@ class Press:
         if safety is None:
             return "it is not heard"
         return "it has latched, but it still moves" if safety.emergency_stop else "it has not latched"
+
+
+class PressAll:
+    """Presses the stop of every robot that is heard on the network, until each says that it stands.
+
+    Attributes:
+        stopped: robots that said so.
+
+    Args:
+        bus: to one of them, which may be there or not.
+        robot: its name.
+        operator: who presses.
+    """
+
+    def __init__(self, bus: Bus, robot: str, operator: str) -> None:
+        self.stopped: frozenset[str] = frozenset()
+        self._bus = bus
+        self._own = robot
+        self._operator = operator
+        self._presses = {robot: Press(bus, operator)}
+        self._began_ns: int | None = None
+
+    def step(self, now_ns: int) -> str:
+        """Press where it is not confirmed; what is waited for, empty once every robot stands."""
+        self._began_ns = now_ns if self._began_ns is None else self._began_ns
+        for robot in self._bus.neighbours() - self._presses.keys():
+            self._presses[robot] = Press(self._bus.neighbour(robot), self._operator)
+        waits_for = {robot: press.step(now_ns) for robot, press in sorted(self._presses.items())}
+        if not self._presses[self._own].heard:  # nobody said that it is there
+            del waits_for[self._own]
+        self.stopped = frozenset(robot for robot, why in waits_for.items() if not why)
+        if not waits_for:
+            return "no robot is heard"
+        if now_ns - self._began_ns < LOOK_NS:
+            return "others may be there"
+        return "; ".join(f"{robot}: {why}" for robot, why in waits_for.items() if why)
 
 
 class _Request(Generic[Req]):

@@ -14,7 +14,7 @@ from protocol.messages import LONGEST_REASON, SHORTEST_REASON
 from services.bus.zenoh import Lanes, ZenohBus, open_session
 from services.certificates.credentials import TOOL, credentials
 from services.commands.arguments import add_network, within
-from services.commands.pressing import Press, Release, Revoke, story
+from services.commands.pressing import Press, PressAll, Release, Revoke, story
 from services.commands.settings import configuration as configured
 from services.process.clock import SystemClock
 from services.process.config import Configuration
@@ -41,6 +41,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.description = _ABOUT
     add_network(parser)
     instead = parser.add_mutually_exclusive_group()
+    instead.add_argument("--all", action="store_true", help="every robot on the network; names who did not stop")
     instead.add_argument("--release", action="store_true", help="release the stop instead")
     instead.add_argument(
         "--revoke",
@@ -60,6 +61,8 @@ def run(arguments: Namespace) -> int:
     """See `Action`."""
     if arguments.revoke is not None:
         revoke(configured(arguments), arguments.revoke, arguments.timeout)
+    elif arguments.all:
+        stop_all(configured(arguments), arguments.timeout)
     else:
         (release if arguments.release else stop)(configured(arguments), arguments.timeout)
     return 0
@@ -73,11 +76,19 @@ def stop(configuration: Configuration, timeout_s: float = TIMEOUT_S) -> None:
         NotConfirmed: the robot did not say so in time.
         KeyboardInterrupt: somebody ended it before.
     """
-    robot = configuration.name
-    attempt = _Attempt("stop", robot, timeout_s, "use its own emergency stop")
+    attempt = _Attempt("stop", _named(configuration), timeout_s, "use its own emergency stop")
     with attempt.bus(configuration) as bus:
         attempt.until(Press(bus, configuration.operator).step)
-    log.info("robot %s has stopped and stands", robot)
+    log.info("%s has stopped and stands", _named(configuration))
+
+
+def stop_all(configuration: Configuration, timeout_s: float = TIMEOUT_S) -> None:
+    """Press every robot's until all that are heard say that they have latched and stand; raises as `stop`."""
+    attempt = _Attempt("stop", "all robots", timeout_s, "use the emergency stop of those that are named")
+    with attempt.bus(configuration) as bus:
+        press = PressAll(bus, configuration.name, configuration.operator)
+        attempt.until(press.step)
+    log.info("all robots that are heard have stopped and stand: %s", ", ".join(sorted(press.stopped)))
 
 
 def release(configuration: Configuration, timeout_s: float = TIMEOUT_S) -> None:
@@ -90,7 +101,7 @@ def release(configuration: Configuration, timeout_s: float = TIMEOUT_S) -> None:
         KeyboardInterrupt: somebody ended it before.
     """
     remedy = "what is stopped stays so; release it again once the robot can be reached"
-    attempt = _Attempt("release", configuration.name, timeout_s, remedy)
+    attempt = _Attempt("release", _named(configuration), timeout_s, remedy)
     with attempt.bus(configuration) as bus:
         released = Release(bus, configuration.operator)
         attempt.until(released.step)
@@ -110,7 +121,7 @@ def revoke(configuration: Configuration, reason: str, timeout_s: float = TIMEOUT
     if not SHORTEST_REASON <= len(reason.strip()) <= LONGEST_REASON:
         raise CommandFailed(f"--revoke: give a reason of {SHORTEST_REASON} to {LONGEST_REASON} characters")
     remedy = "stop the robot with 'retouch stop'"
-    attempt = _Attempt("revocation", configuration.name, timeout_s, remedy)
+    attempt = _Attempt("revocation", _named(configuration), timeout_s, remedy)
     with attempt.bus(configuration, revokes=True) as bus:
         revoked = Revoke(bus, configuration.operator, reason.strip())
         attempt.until(revoked.step)
@@ -121,19 +132,23 @@ def revoke(configuration: Configuration, reason: str, timeout_s: float = TIMEOUT
     )
 
 
+def _named(configuration: Configuration) -> str:
+    return f"robot {configuration.name}"
+
+
 class _Attempt:
     """Something that goes on until the robot confirms it.
 
     Args:
         what: is to be confirmed.
-        robot: by which.
+        whom: who has to confirm it.
         timeout_s: gives up after it [s].
         remedy: what to do where nothing confirmed it.
     """
 
-    def __init__(self, what: str, robot: str, timeout_s: float, remedy: str) -> None:
+    def __init__(self, what: str, whom: str, timeout_s: float, remedy: str) -> None:
         self._what = what
-        self._robot = robot
+        self._whom = whom
         self._timeout_s = timeout_s
         self._remedy = remedy
         self._began = time.monotonic()
@@ -148,9 +163,9 @@ class _Attempt:
             session = open_session(configuration.connect, self._timeout_s, self._interrupted, self._tell, shown)
         except RouterUnreachable as error:
             reason = f"no router at {error.endpoint}: {error.reason}"
-            raise NotConfirmed(self._what, self._robot, self._timeout_s, reason, self._remedy) from None
+            raise NotConfirmed(self._what, self._whom, self._timeout_s, reason, self._remedy) from None
         name = shown.process(TOOL) if shown is not None else f"{TOOL}-{os.getpid()}"
-        bus = ZenohBus(Lanes(session), self._robot, name, SystemClock())
+        bus = ZenohBus(Lanes(session), configuration.name, name, SystemClock())
         try:
             yield bus
         finally:
@@ -162,13 +177,13 @@ class _Attempt:
         while waits_for := step(clock.now_ns()):
             now = time.monotonic()
             if now - self._began > self._timeout_s:
-                raise NotConfirmed(self._what, self._robot, self._timeout_s, waits_for, self._remedy)
+                raise NotConfirmed(self._what, self._whom, self._timeout_s, waits_for, self._remedy)
             if now - told > TELL_S:
                 told = now
                 self._tell(waits_for)
             if self._interrupted.wait(REPEAT_S):
-                log.error("interrupted; %s of robot %s was NOT confirmed: %s", self._what, self._robot, waits_for)
+                log.error("interrupted; %s of %s was NOT confirmed: %s", self._what, self._whom, waits_for)
                 raise KeyboardInterrupt
 
     def _tell(self, waits_for: str) -> None:
-        log.warning("%s of robot %s NOT confirmed yet: %s", self._what, self._robot, waits_for)
+        log.warning("%s of %s NOT confirmed yet: %s", self._what, self._whom, waits_for)

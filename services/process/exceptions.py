@@ -198,11 +198,11 @@ class LimitReached(EnvironmentFault):
 class NotConfirmed(EnvironmentFault):
     """A robot did not confirm its stop, or the stop's release."""
 
-    def __init__(self, what: str, robot: str, within_s: float, reason: str, remedy: str) -> None:
+    def __init__(self, what: str, whom: str, within_s: float, reason: str, remedy: str) -> None:
         self.what = what
-        self.robot = robot
+        self.whom = whom
         self.reason = reason
-        super().__init__(f"robot {robot!r} did not confirm the {what} in {within_s:g} s: {reason}; {remedy}")
+        super().__init__(f"{whom} did not confirm the {what} in {within_s:g} s: {reason}; {remedy}")
 
 
 class NoAnswer(EnvironmentFault):

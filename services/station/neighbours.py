@@ -11,6 +11,7 @@ from protocol import topics
 from protocol.messages import Light, SafetyState
 from services.bus.bus import Bus
 from services.station.company import Company
+from services.station.press import STOP, STOP_OTHER, Press
 from services.station.stop import StopButton
 
 NEIGHBOURS_KEPT = 8
@@ -84,6 +85,16 @@ class Neighbours:
         """Stop one of them; one that was never heard of cannot be stopped from here."""
         if robot in self._ears:
             self._ears[robot].stop.press(now_ns, by)
+
+    def hear(self, press: Press, by: str, now_ns: int) -> None:
+        """A button was pressed here; a stop is meant for every robot that its operator commands, wherever they do."""
+        if press.action == STOP_OTHER:
+            self.press_stop(press.argument, now_ns, by)
+        elif press.action == STOP:
+            for ear in self._ears.values():
+                authority = ear.authority.latest()
+                if authority is not None and by and authority.message.operator == by:
+                    ear.stop.press(now_ns, by)
 
     def step(self, now_ns: int) -> None:
         """Say the stops on that are not confirmed, and listen to who has come."""

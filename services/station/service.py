@@ -31,7 +31,7 @@ from services.station.history import HistoryReader
 from services.station.live_view.stage import Stage
 from services.station.neighbours import Neighbours
 from services.station.page.view import PageView
-from services.station.press import REVOKE, STOP, STOP_OTHER, Press
+from services.station.press import REVOKE, STOP, Press
 from services.station.settings import settings
 from services.station.stop import StopButton
 from services.station.words.table import speech
@@ -179,10 +179,11 @@ class StationService:
         if Action.RELEASE_STOP.value in actions:
             self._stop.let_go(now_ns)
         for press in pressed:
+            by = press.by or self._settings.operator
             if press.action == STOP:
-                self._stop.press(now_ns, press.by or self._settings.operator)
-            elif press.action == STOP_OTHER and self._neighbours is not None:
-                self._neighbours.press_stop(press.argument, now_ns, press.by or self._settings.operator)
+                self._stop.press(now_ns, by)
+            if self._neighbours is not None:
+                self._neighbours.hear(press, by, now_ns)
         self._stop.step(now_ns)
         if self._neighbours is not None:
             self._neighbours.step(now_ns)

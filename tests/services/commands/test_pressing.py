@@ -6,7 +6,7 @@ from protocol import queries, topics
 from protocol.messages import AuthorityState, SafetyState
 from services.bus.bus import Failed
 from services.bus.memory import MemoryNetwork
-from services.commands.pressing import Press, Release, Revoke, story
+from services.commands.pressing import LOOK_NS, Press, PressAll, Release, Revoke, story
 from services.process.clock import ManualClock
 from services.process.exceptions import CommandFailed
 
@@ -64,6 +64,57 @@ def test_a_state_of_before_the_outage_confirms_nothing(world):
     world.clock.advance(10.0)
     assert world.step(press) == "it is not heard"
     assert len(world.presses.take()) == 1
+
+
+class Two(World):
+    """Another robot beside it, the garage's."""
+
+    def __init__(self):
+        super().__init__()
+        network, other = MemoryNetwork(self.clock), MemoryNetwork(self.clock, "garage")
+        network.join(other)
+        self.bus = network.bus("cli-1")
+        self._robot, self._other = network.bus("robot"), other.bus("robot")
+        self.press = PressAll(self.bus, network.robot, "anna")
+
+    def of_the_garage(self, **state):
+        self._other.publish(topics.SAFETY_STATE, SafetyState(**state))
+
+
+def test_all_robots_are_pressed_and_whoever_did_not_stop_is_named():
+    two = Two()
+    two.step(two.press)
+    two.clock.advance(LOOK_NS / 1e9)
+    two.says(emergency_stop=True, standing=True)
+    two.of_the_garage(emergency_stop=True, standing=False)
+    assert two.step(two.press) == "garage: it has latched, but it still moves"
+    assert two.press.stopped == {"robot1"}
+    two.says(emergency_stop=True, standing=True)
+    two.of_the_garage(emergency_stop=True, standing=True)
+    assert two.step(two.press) == ""
+    assert two.press.stopped == {"garage", "robot1"}
+
+
+def test_of_all_robots_one_that_is_not_there_is_not_waited_for():
+    two = Two()
+    two.step(two.press)
+    two.clock.advance(LOOK_NS / 1e9)
+    two.of_the_garage(emergency_stop=True, standing=True)
+    assert two.step(two.press) == ""
+    assert two.press.stopped == {"garage"}
+
+
+def test_all_robots_is_nobody_where_none_is_heard(world):
+    press = PressAll(world.bus, "robot1", "anna")
+    world.step(press)
+    world.clock.advance(LOOK_NS / 1e9)
+    assert world.step(press) == "no robot is heard"
+
+
+def test_others_may_be_there_until_everybody_has_been_heard(world):
+    press = PressAll(world.bus, "robot1", "anna")
+    world.says(emergency_stop=True, standing=True)
+    assert world.step(press) == "others may be there"
 
 
 def test_a_release_whose_answer_was_lost_is_the_same_request_again(world):

@@ -7,6 +7,7 @@ from protocol.messages import Attendance, AuthorityState, Light, SafetyState, Te
 from services.bus.memory import MemoryNetwork
 from services.process.clock import ManualClock
 from services.station.neighbours import NEIGHBOURS_KEPT, Neighbour, Neighbours
+from services.station.press import Press
 
 PERIOD_S = 0.02
 LATCHED = SafetyState(emergency_stop=True, by="eve", standing=True)
@@ -55,6 +56,16 @@ def test_its_light_its_commander_and_its_page_are_seen():
     (seen,) = site.seen()
     assert (seen.light, seen.commander, seen.page) == (Light.GREEN, "bob", "http://127.0.0.1:8081/")
     assert seen.safety is not None
+
+
+@pytest.mark.parametrize(("commander", "stops"), [("ann", True), ("bob", False), ("", False)])
+def test_one_press_stops_whatever_its_operator_commands_and_nobody_else_s(commander, stops):
+    site = Site()
+    authority = AuthorityState(operator=commander, holder="station-2", epoch=1, expires_in=1.0)
+    site.robot.publish(topics.AUTHORITY_STATE, authority)
+    site.run(PERIOD_S)
+    site.neighbours.hear(Press("stop"), "ann", site.clock.now_ns())
+    assert bool(site.run(0.2)) == stops
 
 
 def test_its_stop_is_said_to_it_alone_until_it_stands():
