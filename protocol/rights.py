@@ -1,8 +1,8 @@
 """Who may publish, read, ask and answer what, by the name in a certificate: derived from topics and queries.
 
 A certificate is called `KIND.NAME`: that of one of a robot's processes names the robot (`camera.kitchen`), a person's
-the person (`operator.anna`), whose processes may speak to every robot, a router's its site. What is not granted here is
-denied.
+the person (`operator.anna`), whose processes may speak to every robot, a router's its site. A page's (`page.desk`) lets
+browsers know it, and joins no network. What is not granted here is denied.
 """
 
 from __future__ import annotations
@@ -45,6 +45,7 @@ class Kind:
         commands: it may move robots and teach them.
         revokes: it may end the authority of whoever commands.
         routes: it passes on whatever there is.
+        page: it vouches for a page to browsers, and has no place on a network.
     """
 
     name: str
@@ -53,6 +54,12 @@ class Kind:
     commands: bool = False
     revokes: bool = False
     routes: bool = False
+    page: bool = False
+
+    @property
+    def dialled(self) -> bool:
+        """Whether others reach it under hosts' names, which its certificate has to say."""
+        return self.routes or self.page
 
 
 _AT_THE_DESK = ("station", "viewer", "cli", "history")
@@ -66,9 +73,10 @@ KINDS: tuple[Kind, ...] = (
     Kind("operator", ("master", *_AT_THE_DESK, "teach"), person=True, commands=True),
     Kind("observer", _AT_THE_DESK, person=True),
     Kind("supervisor", _AT_THE_DESK, person=True, revokes=True),
+    Kind("page", (), page=True),
 )
 
-SITE = tuple(kind.name for kind in KINDS if not kind.person)
+SITE = tuple(kind.name for kind in KINDS if not kind.person and not kind.page)
 """What one robot's site needs."""
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ipaddress
+import re
 from collections.abc import Sequence
 from datetime import datetime, timedelta
 from pathlib import Path
@@ -34,6 +35,8 @@ SKEW = timedelta(minutes=5)
 
 _OWN_HOSTS = ("localhost", "127.0.0.1", "::1")
 _PRIVATE = 0o600
+
+_HOST = re.compile(r"(\*\.)?[A-Za-z0-9_]([A-Za-z0-9_.-]{0,251}[A-Za-z0-9_])?")
 
 
 class Authority:
@@ -71,7 +74,7 @@ class Authority:
         Args:
             name: whom it is for, `KIND.NAME`.
             days: how long it lasts.
-            hosts: names and addresses under which a router is reached.
+            hosts: names and addresses under which a router, or a page, is reached.
             to: the folder of the machine that it is for; by default the authority's own.
 
         Raises:
@@ -82,6 +85,11 @@ class Authority:
         before = self._register.find(name)
         if before is not None and before.revoked is None:
             raise CannotIssue(name, f"it has a certificate until {before.until:%Y-%m-%d %H:%M} UTC: renew or revoke it")
+        wrong = next((host for host in hosts if not _is_host(host)), None)
+        if wrong is not None:
+            raise CannotIssue(name, f"--host {wrong!r} is neither a host's name nor an address, such as desk.lan")
+        if whose.kind.page and not hosts:
+            raise CannotIssue(name, "say with --host under which name or address browsers of others open the page")
         generation = before.generation + 1 if before is not None else 0
         return self._make(whose, generation, days, tuple(hosts), to)
 
@@ -126,11 +134,14 @@ class Authority:
         return issued
 
     def _signed(self, issued: Issued, key: ec.EllipticCurvePrivateKey) -> x509.Certificate:
-        usages = [ExtendedKeyUsageOID.CLIENT_AUTH]
+        kind = issued.subject.kind
+        usages = [] if kind.page else [ExtendedKeyUsageOID.CLIENT_AUTH]
         builder = _builder(issued.common_name, self._root.subject, key, issued.until)
-        if issued.subject.kind.routes:  # nobody else can pass for a router
+        if kind.dialled:  # nobody else can pass for a router or a page
             usages.append(ExtendedKeyUsageOID.SERVER_AUTH)
-            names = [_general_name(host) for host in dict.fromkeys((*_OWN_HOSTS, *issued.hosts))]
+            # A page vouches for what it was told alone: with more of them its key would be worth more to a thief.
+            hosts = issued.hosts if kind.page else (*_OWN_HOSTS, *issued.hosts)
+            names = [_general_name(host) for host in dict.fromkeys(hosts)]
             builder = builder.add_extension(x509.SubjectAlternativeName(names), critical=False)
         return (
             builder.add_extension(x509.BasicConstraints(ca=False, path_length=None), critical=True)
@@ -203,6 +214,14 @@ def _general_name(host: str) -> x509.GeneralName:
         return x509.IPAddress(ipaddress.ip_address(host))
     except ValueError:
         return x509.DNSName(host)
+
+
+def _is_host(text: str) -> bool:
+    try:
+        ipaddress.ip_address(text)
+    except ValueError:
+        return _HOST.fullmatch(text) is not None
+    return True
 
 
 def _private_key(path: Path) -> ec.EllipticCurvePrivateKey:

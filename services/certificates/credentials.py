@@ -93,7 +93,7 @@ def present(configuration: Configuration) -> str:
     """Who is here: the only person that the folder has a certificate for, where nobody says so."""
     if configuration.operator != NOBODY_IN_PARTICULAR or not parse(configuration.connect).secure:
         return configuration.operator
-    people = {one.name for one in _there(folder(configuration.tls)) if one.kind.person}
+    people = {one.name for one in subjects_in(folder(configuration.tls)) if one.kind.person}
     return people.pop() if len(people) == 1 else configuration.operator
 
 
@@ -117,7 +117,7 @@ def credentials(
     if not endpoint.secure:
         return None
     where = folder(configuration.tls)
-    there = _there(where)
+    there = subjects_in(where)
     wanted = _wanted(configuration, role, there, revokes=revokes)
     found = next((one for one in wanted if one in there), None)
     if found is None:
@@ -150,7 +150,8 @@ def _remedy(endpoint: Endpoint, where: Path, there: Iterable[Subject], role: str
     return "issue it with 'retouch certs issue' where the authority is, and copy it here"
 
 
-def _there(where: Path) -> tuple[Subject, ...]:
+def subjects_in(where: Path) -> tuple[Subject, ...]:
+    """For whom a folder holds certificates."""
     found = []
     for file in sorted(where.glob("*.*.pem")):
         try:

@@ -54,9 +54,12 @@ class Register(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         """The newest certificate of the name."""
         return next((one for one in self.issued if one.name == name), None)
 
-    def valid(self) -> tuple[Issued, ...]:
-        """All that were not revoked; whoever comes with an expired one is turned away by the handshake."""
-        return tuple(one for one in self.issued if one.revoked is None)
+    def admitted(self) -> tuple[Issued, ...]:
+        """Whom routers let in: all that were not revoked, but for pages.
+
+        Whoever comes with an expired one is turned away by the handshake.
+        """
+        return tuple(one for one in self.issued if one.revoked is None and not one.subject.kind.page)
 
     def noting(self, issued: Issued) -> Register:
         """The register with the newest certificate of a name."""

@@ -20,15 +20,19 @@ from services.commands.arguments import add_debug, whole
 _ABOUT = f"""\
 A certificate says who somebody is. Its name is KIND.NAME: {", ".join(SITE)} of a
 robot, {", ".join(kind.name for kind in KINDS if kind.person)} for a person; site.ROBOT is all that a robot's
-site needs. The authority's folder stays where it is; what --to names is copied to
-the machine that it is for, as its ~/.config/retouch/certs.
+site needs, page.NAME what a page needs that browsers of others open. The authority's
+folder stays where it is; what --to names is copied to the machine that it is for, as
+its ~/.config/retouch/certs.
 
   retouch certs init
   retouch certs issue operator.anna --to anna
+  retouch certs issue page.desk --host desk.lan --to anna
   retouch certs issue site.kitchen --host 192.0.2.1 --to kitchen
 """
 
 _SITE = "site"
+
+_DIALLED = tuple(f"{kind.name}." for kind in KINDS if kind.dialled)
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -39,7 +43,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     _part(parts, "init", "make an authority; one that is there stays")
     issue = _part(parts, "issue", "make the first certificates of these names", named=True)
     issue.add_argument(
-        "--host", action="append", default=[], metavar="H", help="name or address at which a router is reached"
+        "--host", action="append", default=[], metavar="H", help="name or address at which a router or page is reached"
     )
     renew = _part(parts, "renew", "make new ones in their place, used from the next connection on", named=True)
     for part in (issue, renew):
@@ -70,7 +74,7 @@ def run(arguments: Namespace) -> int:
         case "issue":
             authority = Authority(where)
             for name in _all(arguments.names):
-                hosts = arguments.host if name.startswith("router.") else ()
+                hosts = arguments.host if name.startswith(_DIALLED) else ()
                 _made(authority.issue(name, arguments.days, hosts, arguments.to), arguments.to or where)
         case "renew":
             authority = Authority(where)
@@ -112,13 +116,13 @@ def _row(one: Issued, at: datetime) -> str:
     else:
         state = f"{(one.until - at) / timedelta(days=1):.1f} days left"
     kind = one.subject.kind
-    use = "routes" if kind.routes else " ".join(kind.roles)
+    use = "routes" if kind.routes else "serves a page" if kind.page else " ".join(kind.roles)
     where = f"  at {' '.join(one.hosts)}" if one.hosts else ""
     return f"{one.name:<24}  until {one.until:%Y-%m-%d %H:%M} UTC, {state:<28}  {use}{where}"
 
 
 def _rules(where: Path) -> dict[str, Any]:
-    subjects = [(one.common_name, one.subject) for one in register.load(where).valid()]
+    subjects = [(one.common_name, one.subject) for one in register.load(where).admitted()]
     return {"access_control": access_control(subjects), **quotas(subjects)}
 
 

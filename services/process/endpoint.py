@@ -6,6 +6,7 @@ import re
 from dataclasses import dataclass
 from ipaddress import ip_address
 
+from services.process.addresses import is_loopback
 from services.process.exceptions import BadEndpoint
 
 PROTOCOLS = ("tcp", "tls", "quic", "udp", "ws")
@@ -44,7 +45,7 @@ class Endpoint:
     @property
     def is_loopback(self) -> bool:
         """Whether it is on this machine, and no network leads there."""
-        return self.host == "localhost" or (self.is_address and ip_address(self.host).is_loopback)
+        return is_loopback(self.host)
 
     @property
     def datagrams(self) -> str:

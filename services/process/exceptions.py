@@ -31,6 +31,7 @@ ServiceError
 ├── ViewerError              (services.viewer.exceptions)
 │   ├── WebFilesMissing      the Rerun SDK did not give its web viewer's files (an EnvironmentFault too)
 │   └── CannotReplay         a recording that cannot be opened
+├── NoLog                    an evidence log that is not there (services.evidence.exceptions)
 ├── CertificateError         (services.certificates.exceptions)
 │   ├── NoAuthority          a folder that holds no certificate authority
 │   ├── AuthorityThere       one that holds one already

@@ -18,6 +18,7 @@ from services.bus.arrays import vector3
 from services.bus.bus import Bus, Pending
 from services.bus.identity import new_number
 from services.certificates.credentials import is_open
+from services.certificates.page import is_plain
 from services.process.clock import Clock
 from services.process.config import Configuration
 from services.process.exceptions import UnusableSetting
@@ -54,6 +55,7 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> StationServic
 
     Raises:
         UnusableSetting: there are no words in the language, or the certificate cannot be used.
+        Unsecured: others reach the page, and it has no certificate.
         PortInUse: the page cannot be served.
     """
     section = configuration.station
@@ -62,19 +64,15 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> StationServic
     except LookupError as error:
         raise UnusableSetting("[station] language", str(error)) from None
     page = None if section.scripted else _open_page(configuration, clock)
-    told = is_open(configuration)
+    told = is_open(configuration) or (page is not None and is_plain(configuration))
     return StationService(bus, settings(section, configuration.operator), page, configuration.seed, open_network=told)
 
 
 def _open_page(configuration: Configuration, clock: Clock) -> Page:
     # A scripted station starts without the page's packages, which take a second to load.
-    from services.station.live_view.description import describe  # noqa: PLC0415
-    from services.station.page.page import Page  # noqa: PLC0415
+    from services.station.opening import open_page  # noqa: PLC0415
 
-    described = describe(configuration.robot.scene)
-    page = Page(configuration.station, configuration.name, clock, described, configuration.operator)
-    page.start()
-    return page
+    return open_page(configuration, clock)
 
 
 class StationService:

@@ -13,6 +13,7 @@ from tests.system.harness import START_S
 SITE = ("router", "robot", "camera", "perception", "model")
 NAMES = (
     *(f"{kind}.kitchen" for kind in SITE),
+    "page.desk",
     *("router.garage", "robot.garage", "operator.anna", "operator.bob", "observer.carl", "supervisor.sue"),
 )
 
@@ -28,7 +29,7 @@ class Identities:
         self.folder = folder / "own"
         self.authority = make_authority(self.folder)
         for name in NAMES:
-            self.authority.issue(name)
+            self.authority.issue(name, hosts=("127.0.0.1",))
         self._foreign = folder / "foreign"
         foreign = make_authority(self._foreign)
         for name in ("robot.kitchen", "router.kitchen", "operator.anna"):

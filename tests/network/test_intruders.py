@@ -109,6 +109,10 @@ def test_an_expired_certificate_lets_nobody_in(endpoint, identities, monkeypatch
     turned_away(endpoint, identities.expired(monkeypatch))
 
 
+def test_a_pages_certificate_lets_nobody_in(endpoint, identities):
+    turned_away(endpoint, identities.of("page.desk"))
+
+
 def test_nobody_takes_a_foreign_router_for_a_true_one(identities):
     endpoint = f"tls/127.0.0.1:{free_port()}"
     router = open_router(endpoint, None, identities.foreign("router.kitchen"))

@@ -62,7 +62,7 @@ class Readmission(threading.Thread):
     def _read(self) -> set[str] | None:
         """Whom it lets in; None where that cannot be read now, and what was read last counts."""
         try:
-            return {one.common_name for one in self._credentials.register().valid()}
+            return {one.common_name for one in self._credentials.register().admitted()}
         except (CertificateError, OSError) as error:
             log.warning("%s; whom this router lets in stays as it was", error)
             return None

@@ -94,7 +94,7 @@ def settings(
         config["transport"]["link"]["tls"] = _mutual(credentials)
         config["connect"]["retry"] |= {"period_init_ms": SECURE_REDIAL_MS, "period_max_ms": SECURE_REDIAL_MS}
     if credentials is not None and listen and parse(listen).secure:
-        subjects = [(one.common_name, one.subject) for one in credentials.register().valid()]
+        subjects = [(one.common_name, one.subject) for one in credentials.register().admitted()]
         config |= {"access_control": access_control(subjects), **quotas(subjects)}
     return config
 

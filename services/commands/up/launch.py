@@ -15,6 +15,7 @@ from typing import Self
 
 import msgspec
 
+from services.certificates.page import secured
 from services.commands.sides import placed
 from services.commands.terminal import Terminal
 from services.commands.up.child import Child, Job
@@ -109,6 +110,7 @@ def launch(configuration: Configuration, options: Launch) -> int:
     """
     started = time.monotonic()
     stop = stop_on_signals()
+    page = Page(secured(configuration), opens=options.browser) if options.page else None
     _await_ports(configuration, options)
     folder = _run_folder(Path(configuration.viewer.folder))
     configuration = _for_run(configuration, folder, options)
@@ -130,7 +132,7 @@ def launch(configuration: Configuration, options: Launch) -> int:
         started=started,
         report=options.json,
         ends=options.once or options.headless,
-        page=Page(configuration.station, opens=options.browser) if options.page else None,
+        page=page,
     )
     try:
         end = supervisor.run(stop)

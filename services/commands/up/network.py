@@ -13,8 +13,9 @@ from protocol import topics
 from protocol.messages import Attempt, Heartbeat, TeachingState
 from services.bus.subscription import Subscription
 from services.bus.zenoh import ZenohBus
+from services.certificates.page import address
 from services.commands.up.report import attempt_line
-from services.process.addresses import EVERYWHERE, in_url
+from services.process.addresses import EVERYWHERE
 from services.process.config import StationSection
 from services.process.repeats import Repeats
 
@@ -107,12 +108,12 @@ class Page:
     """The operator's page, told and opened once it is there.
 
     Args:
-        section: says where it is served.
+        section: says where it is served, and under which certificate.
         opens: in a browser of this machine, where there is one.
     """
 
     def __init__(self, section: StationSection, *, opens: bool) -> None:
-        self.url = f"{section.scheme}://{in_url(EVERYWHERE.get(section.host, section.host))}:{section.port}/"
+        self.url = address(section, EVERYWHERE.get(section.host, section.host))
         self._opens = opens
         self._told = False
 

@@ -1,7 +1,8 @@
-"""The certificate under which the page is served over HTTPS, judged before anybody waits for the page."""
+"""The certificate under which the page is served over HTTPS: judged before it is, renewed while it is."""
 
 from __future__ import annotations
 
+import logging
 import ssl
 from pathlib import Path
 
@@ -9,6 +10,8 @@ from services.process.config import StationSection
 from services.process.exceptions import UnusableSetting
 
 CERTIFICATE, KEY = "[station] certificate", "[station] key"
+
+log = logging.getLogger(__name__)
 
 
 def check(station: StationSection) -> None:
@@ -29,6 +32,42 @@ def check(station: StationSection) -> None:
     except ssl.SSLError as error:
         where = station.key or station.certificate
         raise UnusableSetting(CERTIFICATE, f"{station.certificate} and the key in {where}: {_fault(error)}") from None
+
+
+class Renewal:
+    """Shows browsers a certificate that was renewed on the disk, from the next connection on.
+
+    Args:
+        station: names its files.
+        context: under which the page is served.
+    """
+
+    def __init__(self, station: StationSection, context: ssl.SSLContext) -> None:
+        self._station = station
+        self._context = context
+        self._files = [Path(name) for name in (station.certificate, station.key) if name]
+        self._known = self._stamps()
+
+    def look(self) -> None:
+        """Where the files have changed, and can be used, use them."""
+        stamps = self._stamps()
+        if stamps == self._known:
+            return
+        self._known = stamps
+        try:
+            check(self._station)
+        except UnusableSetting as error:
+            log.warning("%s; the page goes on with the certificate that it had", error)
+            return
+        self._context.load_cert_chain(self._station.certificate, self._station.key or None)
+        log.info("the page's certificate was renewed")
+
+    def _stamps(self) -> list[tuple[int, int]]:
+        """Change with the files."""
+        try:
+            return [(found.st_mtime_ns, found.st_ino) for found in (file.stat() for file in self._files)]
+        except OSError:
+            return []
 
 
 def _check_readable(setting: str, file: Path) -> None:

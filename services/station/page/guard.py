@@ -8,7 +8,7 @@ from starlette.datastructures import Headers, MutableHeaders
 from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from services.process.addresses import LOOPBACK_NAMES
+from services.process.addresses import LOOPBACK_NAMES, is_loopback
 
 CONTENT_POLICY = "; ".join(
     (
@@ -33,7 +33,7 @@ class Guard:
 
     def __init__(self, app: ASGIApp, host: str) -> None:
         self._app = app
-        self._names = LOOPBACK_NAMES if host in LOOPBACK_NAMES else None
+        self._names = LOOPBACK_NAMES | {host} if is_loopback(host) else None
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve, or refuse, one request or connection."""

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import asyncio
+import contextlib
 import logging
 import platform
 import socket
 import threading
+from collections.abc import AsyncIterator
 
 import msgspec
 import uvicorn
@@ -15,14 +18,15 @@ from starlette.responses import HTMLResponse
 from starlette.routing import Route, WebSocketRoute
 
 from protocol.messages import Attendance, Figure, OperatorInput
-from services.process.addresses import EVERYWHERE, family, in_url
+from services.certificates.page import address
+from services.process.addresses import family, in_url
 from services.process.clock import Clock
 from services.process.config import StationSection
 from services.process.exceptions import PortInUse
 from services.station.live_view.description import Description
 from services.station.live_view.files import Files
 from services.station.page.asset_files import asset_files
-from services.station.page.certificate import check
+from services.station.page.certificate import Renewal, check
 from services.station.page.controls import is_confirmed
 from services.station.page.document import document, version
 from services.station.page.effects import Effects
@@ -41,6 +45,9 @@ PAGE, SETTING = "the operator's page", "[station] port"
 START_WITHIN_S = 60.0
 STOP_POLITELY_S = 0.7
 STOP_AT_ONCE_S = 0.3
+
+LOOK_S = 1.0
+"""Between two looks at the certificate's files."""
 
 
 class Page:
@@ -65,10 +72,10 @@ class Page:
         self._board = Board(clock)
         self.effects = Effects()
         """What entries of the history change, as far as a tab wants to see it."""
-        host = platform.node() if station.host in EVERYWHERE else station.host
-        self._address = f"http://{in_url(host)}:{station.port}/"
+        self._address = address(station, platform.node())
         self._desk = Desk(operator)
         self._link = Link(self._desk, self._board, clock, version(), description.joints)
+        self._renewal: Renewal | None = None
         self._server: uvicorn.Server | None = None
         self._thread: threading.Thread | None = None
 
@@ -161,12 +168,12 @@ class Page:
             Route("/history/{version:int}/{entry:int}", self.effects.serve),
             Route("/assets/{path:path}", self._assets.serve),
         ]
-        app = Starlette(routes=routes)
-        return uvicorn.Config(
+        app = Starlette(routes=routes, lifespan=self._looking)
+        configuration = uvicorn.Config(
             Guard(app, self._station.host),
             log_config=None,
             access_log=False,
-            lifespan="off",
+            lifespan="on",
             loop="asyncio",
             http="h11",
             ws=WebSocketProtocol,
@@ -176,6 +183,24 @@ class Page:
             ssl_certfile=self._station.certificate or None,
             ssl_keyfile=self._station.key or None,
         )
+        configuration.load()
+        if configuration.ssl is not None:
+            self._renewal = Renewal(self._station, configuration.ssl)
+        return configuration
+
+    @contextlib.asynccontextmanager
+    async def _looking(self, app: Starlette) -> AsyncIterator[None]:
+        """While it is served: look at what may change on the disk."""
+        del app
+        looking = asyncio.create_task(self._look())
+        yield
+        looking.cancel()
+
+    async def _look(self) -> None:
+        while True:
+            await asyncio.sleep(LOOK_S)
+            if self._renewal is not None:
+                self._renewal.look()
 
     @staticmethod
     def _serve(server: uvicorn.Server, listener: socket.socket) -> None:

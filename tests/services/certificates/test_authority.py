@@ -89,10 +89,10 @@ def test_a_renewed_certificate_has_the_same_name_and_hosts_and_another_key(autho
 def test_after_a_revocation_the_name_in_the_certificate_is_another_one(authority):
     authority.issue("operator.anna")
     authority.revoke("operator.anna")
-    assert authority.register.valid() == ()
+    assert authority.register.admitted() == ()
     authority.issue("operator.anna")
     assert common_name(authority.folder / "operator.anna.pem") == "operator.anna~1"
-    (valid,) = authority.register.valid()
+    (valid,) = authority.register.admitted()
     assert (valid.common_name, str(valid.subject)) == ("operator.anna~1", "operator.anna")
 
 

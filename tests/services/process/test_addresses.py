@@ -4,7 +4,7 @@ import socket
 
 import pytest
 
-from services.process.addresses import EVERYWHERE, LOOPBACK_NAMES, family, in_url
+from services.process.addresses import EVERYWHERE, LOOPBACK_NAMES, family, in_url, is_loopback
 
 
 @pytest.mark.parametrize(
@@ -22,3 +22,13 @@ def test_an_address_of_version_6_stands_in_brackets_and_has_a_family_of_its_own(
 def test_whoever_listens_everywhere_is_reached_on_loopback():
     assert set(EVERYWHERE.values()) <= LOOPBACK_NAMES
     assert all(family(everywhere) is family(own) for everywhere, own in EVERYWHERE.items())
+
+
+@pytest.mark.parametrize("host", [*LOOPBACK_NAMES, "127.0.0.2"])
+def test_what_only_this_machine_reaches(host):
+    assert is_loopback(host)
+
+
+@pytest.mark.parametrize("host", [*EVERYWHERE, "192.0.2.1", "2001:db8::7", "desk.lan", "localhost.example", ""])
+def test_what_others_may_reach(host):
+    assert not is_loopback(host)

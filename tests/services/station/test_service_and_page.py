@@ -69,7 +69,7 @@ def test_a_person_s_station_opens_its_page_and_a_script_s_has_none(scripted, mon
         def start(self):
             started.append(self)
 
-    monkeypatch.setattr("services.station.page.page.Page", Served)
+    monkeypatch.setattr("services.station.opening.Page", Served)
     clock = ManualClock()
     section = StationSection(scripted=scripted)
     station = service.build(MemoryNetwork(clock).bus(), clock, Configuration(station=section))

@@ -1,10 +1,13 @@
 """A certificate is judged before the page is served, and what is wrong with it is one line."""
 
+import shutil
+import ssl
+
 import pytest
 
 from services.process.config import StationSection
 from services.process.exceptions import UnusableSetting
-from services.station.page.certificate import check
+from services.station.page.certificate import Renewal, check
 from tests.services.station.page.self_signed import self_signed
 
 
@@ -45,3 +48,41 @@ def test_a_file_of_another_kind_is_said_to_be_none(tmp_path):
 
 def test_a_key_alone_is_of_no_use():
     assert fault(key="key.pem").startswith("[station] key: key.pem is of no use alone")
+
+
+class Shown(ssl.SSLContext):
+    """What a page is served under; counts how often it is given a certificate."""
+
+    times = 0
+
+    def load_cert_chain(self, *arguments, **options):
+        super().load_cert_chain(*arguments, **options)
+        self.times += 1
+
+
+def test_one_that_is_renewed_on_the_disk_is_shown_and_one_that_is_spoilt_is_not(tmp_path, caplog):
+    names = ("one", "two")
+    (certificate, key), (newer, its_key) = (self_signed(tmp_path, name) for name in names)
+    context = Shown(ssl.PROTOCOL_TLS_SERVER)
+    renewal = Renewal(StationSection(certificate=str(certificate), key=str(key)), context)
+    renewal.look()
+    assert context.times == 0
+    newer.replace(certificate)
+    renewal.look()
+    assert context.times == 0
+    assert "goes on with the certificate that it had" in caplog.text
+    its_key.replace(key)
+    renewal.look()
+    renewal.look()
+    assert context.times == 1
+
+
+def test_a_certificate_that_is_gone_for_a_while_stays_as_it_was(tmp_path):
+    certificate, key = self_signed(tmp_path, "one")
+    context = Shown(ssl.PROTOCOL_TLS_SERVER)
+    renewal = Renewal(StationSection(certificate=str(certificate), key=str(key)), context)
+    shutil.move(certificate, tmp_path / "away.pem")
+    renewal.look()
+    shutil.move(tmp_path / "away.pem", certificate)
+    renewal.look()
+    assert context.times == 1

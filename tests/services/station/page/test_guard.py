@@ -37,6 +37,11 @@ def test_a_page_on_loopback_is_served_under_no_other_name(host):
     assert ask(host) == 403
 
 
+def test_another_address_of_this_machine_alone_is_no_way_in_for_foreign_names_either():
+    assert b"content-security-policy" in ask("127.0.0.2:8080", listening="127.0.0.2")
+    assert ask("evil.example:8080", listening="127.0.0.2") == 403
+
+
 @pytest.mark.parametrize("host", ["192.168.1.5:8080", "desk.example", "[fe80::1]:8080"])
 def test_a_page_that_listens_on_every_address_is_served_under_any_name(host):
     assert b"content-security-policy" in ask(host, listening="0.0.0.0")

@@ -2,10 +2,12 @@
 
 import socket
 import ssl
+import urllib.parse
 import urllib.request
 
 import pytest
 
+from services.certificates.authority import make_authority
 from services.process.clock import SystemClock
 from services.process.config import StationSection
 from services.station.live_view.description import described
@@ -13,6 +15,7 @@ from services.station.page.page import Page
 from sim.tasks.scene import Eye
 from tests.ports import free_port
 from tests.services.station.page.self_signed import self_signed
+from tests.system.harness import eventually
 
 UPGRADE = b"\r\n".join(
     (
@@ -28,6 +31,8 @@ UPGRADE = b"\r\n".join(
     )
 )
 """RFC 6455, section 1.3."""
+
+WITHIN_S = 20.0
 
 GOODBYE = b"\x88\x82\x00\x00\x00\x00\x03\xe9"
 """A masked close frame, "going away"; section 5.5.1."""
@@ -86,3 +91,36 @@ def test_it_ends_quietly_while_a_browser_that_said_goodbye_still_holds_its_conne
             if received.endswith(GOING):
                 break
         page.close()  # what its thread cannot cope with fails this test, by pytest's own rule
+
+
+@pytest.fixture
+def authority(tmp_path):
+    made = make_authority(tmp_path / "certs")
+    made.issue("page.desk", hosts=("127.0.0.1",))
+    return made
+
+
+def serial(page, root):
+    """Of the certificate that a browser is shown which trusts the authority, and looks at the host's name."""
+    context = ssl.create_default_context(cafile=root)
+    address = urllib.parse.urlsplit(page.url)
+    with (
+        socket.create_connection((address.hostname, address.port), timeout=10.0) as plain,
+        context.wrap_socket(plain, server_hostname=address.hostname) as secured,
+    ):
+        return int(secured.getpeercert()["serialNumber"], 16)
+
+
+def test_a_browser_that_trusts_the_authority_trusts_the_page_and_sees_a_renewed_certificate(authority):
+    station = StationSection(port=free_port(), certificate=str(authority.folder / "page.desk.pem"))
+    page = Page(station, "robot1", SystemClock(), NOTHING)
+    page.start()
+    try:
+        root = authority.folder / "ca.pem"
+        assert urllib.request.urlopen(page.url, timeout=10.0, context=ssl.create_default_context(cafile=root))
+        assert page.attendance().page == f"{page.url}/"
+        first = serial(page, root)
+        authority.renew("page.desk")
+        eventually(lambda: serial(page, root) != first, WITHIN_S, "the new one is shown")
+    finally:
+        page.close()
