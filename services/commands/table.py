@@ -18,6 +18,7 @@ COMMANDS: tuple[Command, ...] = (
     Command("log", "services.commands.log", "what a robot has written down; is it as it was?", needs="process"),
     Command("replay", "services.commands.replay", "open a recording in Rerun", needs="viewer"),
     Command("certs", "services.commands.certs", "certificates: who may join a network, and what for", needs="process"),
+    Command("accounts", "services.commands.accounts", "who may log in at the page, as what", needs="station"),
     Command("topics", "services.commands.topics", "print the table of topics and queries", needs="process"),
     Command("reproduce", "services.commands.reproduce", "the thesis' analyses made again: one report", needs="study"),
     Command("map", "services.commands.map", "where a model succeeds, before and after a correction", needs="study"),

@@ -90,8 +90,10 @@ class StationSection(Section, frozen=True):
     Attributes:
         host: address that the page listens on.
         port: of the page.
-        certificate: file of the page's TLS certificate, PEM, with those that vouch for it; empty for plain HTTP.
+        certificate: file of the page's TLS certificate, PEM, with those that vouch for it; empty for plain HTTP, and
+            where others reach the page for one of this machine's certificates.
         key: file of the certificate's private key, PEM; empty where it stands in the certificate's file.
+        login: when the page asks who is there: "auto" where others than this machine reach it, "always", or "never".
         language: in which the page speaks: the name of one of its tables of words.
         refinements_allowed: attempts at one update.
         updates_allowed: updates of one run.
@@ -112,6 +114,7 @@ class StationSection(Section, frozen=True):
     port: Port = 8080
     certificate: str = ""
     key: str = ""
+    login: Annotated[str, msgspec.Meta(pattern="^(auto|always|never)$")] = "auto"
     language: str = "en"
     refinements_allowed: Annotated[int, msgspec.Meta(ge=1)] = 10
     updates_allowed: Annotated[int, msgspec.Meta(ge=1)] = 8

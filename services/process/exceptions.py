@@ -31,7 +31,6 @@ ServiceError
 ├── ViewerError              (services.viewer.exceptions)
 │   ├── WebFilesMissing      the Rerun SDK did not give its web viewer's files (an EnvironmentFault too)
 │   └── CannotReplay         a recording that cannot be opened
-├── NoLog                    an evidence log that is not there (services.evidence.exceptions)
 ├── CertificateError         (services.certificates.exceptions)
 │   ├── NoAuthority          a folder that holds no certificate authority
 │   ├── AuthorityThere       one that holds one already
@@ -39,6 +38,14 @@ ServiceError
 │   ├── Unreadable           a file of the folder that holds something else
 │   ├── CertificateMissing   a process without a certificate
 │   └── Unsecured            an endpoint that is open to others
+├── NoLog                    an evidence log that is not there (services.evidence.exceptions)
+├── AccountError             (services.accounts.exceptions)
+│   ├── AccountsUnreadable   a file of accounts that holds something else
+│   ├── NameUnusable         a text that is no person's name
+│   ├── AccountThere         somebody of the name has an account already
+│   ├── NoSuchAccount        nobody of the name has one
+│   ├── PasswordUnusable     one that is too short or too long, or differs from the one before
+│   └── LoginImpossible      a page at which nobody can log in, or nobody has to where others reach it
 └── StudyError               (services.reproduction.exceptions)
     ├── UnknownAnalysis      a name that no analysis has
     ├── CannotKeep           a folder that results cannot be kept in (an EnvironmentFault too)

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 
 from protocol.messages import Role
+from services.accounts.account import is_name
 from services.station.words.table import say
-
-_NAME = re.compile(r"[^\W_][\w .'-]{0,39}")
 
 _ROLES = {role.value: role for role in Role}
 
@@ -48,7 +46,7 @@ def identify(name: str, role: str, operator: str) -> Identity:
     faults = []
     if known is None:
         faults.append(say("who.no_role", role=repr(role), roles=", ".join(_ROLES)))
-    if given and not _NAME.fullmatch(given):
+    if given and not is_name(given):
         faults.append(say("who.no_name", name=repr(given)))
         given = ""
     return Identity(given or (operator if chosen is Role.OPERATOR else ""), chosen, " ".join(faults))
