@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from services.accounts.exceptions import LoginImpossible
 from services.accounts.file import accounts_path, load
+from services.certificates.page import is_plain
 from services.process.addresses import is_loopback
 from services.process.config import Configuration
 
@@ -12,6 +13,11 @@ ALWAYS, NEVER = "always", "never"
 SETTING = "[station] login"
 
 _REMEDY = "make them with 'retouch accounts add NAME'"
+
+
+def page_is_open(configuration: Configuration) -> bool:
+    """Whether others reach the page, and read on the way what passes or need no account; raises as these do."""
+    return is_plain(configuration) or not (is_loopback(configuration.station.host) or asks(configuration))
 
 
 def asks(configuration: Configuration) -> bool:

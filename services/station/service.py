@@ -14,11 +14,11 @@ import numpy as np
 from protocol import messages, topics
 from protocol.keys import STEERING
 from protocol.messages import Figure, OperatorInput
+from services.accounts.policy import page_is_open
 from services.bus.arrays import vector3
 from services.bus.bus import Bus, Pending
 from services.bus.identity import new_number
 from services.certificates.credentials import is_open
-from services.certificates.page import is_plain
 from services.process.clock import Clock
 from services.process.config import Configuration
 from services.process.exceptions import UnusableSetting
@@ -56,6 +56,7 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> StationServic
     Raises:
         UnusableSetting: there are no words in the language, or the certificate cannot be used.
         Unsecured: others reach the page, and it has no certificate.
+        AccountError: they reach it, and nobody has an account.
         PortInUse: the page cannot be served.
     """
     section = configuration.station
@@ -64,7 +65,7 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> StationServic
     except LookupError as error:
         raise UnusableSetting("[station] language", str(error)) from None
     page = None if section.scripted else _open_page(configuration, clock)
-    told = is_open(configuration) or (page is not None and is_plain(configuration))
+    told = is_open(configuration) or (page is not None and page_is_open(configuration))
     return StationService(bus, settings(section, configuration.operator), page, configuration.seed, open_network=told)
 
 

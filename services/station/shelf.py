@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 
-KEPT = "public, max-age=31536000, immutable"
+KEPT = "private, max-age=31536000, immutable"
 """For a file whose address changes with its content: browsers keep it for good."""
 
 ASKED_FOR = "no-cache"

@@ -132,6 +132,20 @@ def open_tab(request, browser, window, station):
 
 
 @pytest.fixture(scope="session")
+def axe():
+    """A function that says what axe-core finds in a page as it is."""
+    found = pytest.importorskip("axe_playwright_python")
+    source = (Path(found.__file__).parent / "axe.min.js").read_text(encoding="utf-8")
+
+    def find(page):
+        if not page.evaluate("'axe' in window"):
+            page.evaluate(source)
+        return page.evaluate(scripts.VIOLATIONS)
+
+    return find
+
+
+@pytest.fixture(scope="session")
 def looked_at(window):
     """The tab that tests share which only look, by whether it draws; none while another test has the station."""
     del window  # it is closed after the tabs in it

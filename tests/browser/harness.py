@@ -24,6 +24,7 @@ from services.process.clock import SystemClock
 from services.process.config import StationSection
 from services.station.live_view.description import describe
 from services.station.live_view.drawing import Criteria, Curve, Drawing, Going, Kick
+from services.station.page.login.judge import Judge
 from services.station.page.page import Page
 from services.station.page.view import PageView, Picture
 from sim.robots.description import CONTROLLED_JOINTS
@@ -188,13 +189,14 @@ def swinging(robot, time_s):
 
 
 @contextlib.contextmanager
-def served(**section: Any) -> Iterator[tuple[Page, Feed]]:
+def served(*, judge: Judge | None = None, **section: Any) -> Iterator[tuple[Page, Feed]]:
     """A page that is served, and its feed.
 
     Args:
+        judge: of passwords; None where nobody has to log in.
         section: of the station's configuration.
     """
-    page = Page(StationSection(**section), "robot1", SystemClock(), described())
+    page = Page(StationSection(**section), "robot1", SystemClock(), described(), judge=judge)
     page.start()
     feed = Feed(page, working_view())
     feed.start()

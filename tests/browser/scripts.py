@@ -29,3 +29,7 @@ TOLD = """() => ({
     now: Math.round(performance.now()),
 })"""
 """What a tab knows of presses: whether it has a link, what it told its person was not done, what was pointed at."""
+
+VIOLATIONS = """async () => (await axe.run({ resultTypes: ["violations"] })).violations.map(
+    ({ id, nodes }) => `${id}: ${nodes.map(({ target, any }) => `${target} ${any.map((a) => a.message)}`)}`)"""
+"""What axe-core, once it is loaded, finds."""

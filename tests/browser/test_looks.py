@@ -13,6 +13,10 @@ import numpy as np
 import pytest
 from states import states
 
+from services.accounts.file import AccountsFile
+from services.station.page.login.judge import Judge
+from tests.ports import free_port
+
 pytestmark = pytest.mark.browser
 
 STATES = states()
@@ -33,6 +37,7 @@ REGIONS = {
 
 PICTURE = (1280, 720)
 PICTURES = Path(__file__).parents[2] / "deploy" / "pictures" / "states"
+LOGIN = "login.jpg"
 QUALITY = 60
 SQUARE, NOTICED, AT_MOST = 16, 24, 0.03
 """Pictures are compared by squares of so many pixels, which differ by so much of 255; and of how many may."""
@@ -132,6 +137,28 @@ def test_every_state_looks_as_it_is_pictured(request, viewed, station, tmp_path,
         marks = cv2.resize(differs.astype(np.uint8) * 255, PICTURE, interpolation=cv2.INTER_NEAREST)
         cv2.imwrite(str(shown), cv2.vconcat([then, now, cv2.cvtColor(marks, cv2.COLOR_GRAY2BGR)]))
         pytest.fail(f"{differs.mean():.1%} of the page looks otherwise: as it was, as it is, and where in {shown}")
+
+
+@pytest.fixture
+def way_in(window, tmp_path):
+    """The log-in, of a page where nobody has an account."""
+    from harness import served
+
+    judge = Judge(AccountsFile(tmp_path / "accounts.json"), lambda *_: False)
+    with served(judge=judge, port=free_port()) as (page, _):
+        tab = window.new_page()
+        tab.set_viewport_size({"width": PICTURE[0], "height": PICTURE[1]})
+        tab.goto(page.url)
+        yield tab
+        tab.close()
+
+
+def test_the_log_in_looks_as_it_is_pictured(request, way_in, tmp_path):
+    folder = request.config.getoption("--pictures", default=None)
+    shown = tmp_path / LOGIN if folder is None else Path(folder) / LOGIN
+    way_in.screenshot(path=shown, type="jpeg", quality=QUALITY)
+    now, then = (cv2.imread(str(picture)) for picture in (shown, PICTURES / LOGIN))
+    assert difference(now, then, dict.fromkeys(("x", "y", "width", "height"), 0)).mean() <= AT_MOST, shown
 
 
 def draw(tab, feed, view, scenery):

@@ -93,6 +93,23 @@ def test_a_wrong_configuration_is_named_with_file_and_key(tmp_path, content, wor
     assert not (tmp_path / "runs").exists(), "nothing half-made is left"
 
 
+@pytest.mark.parametrize("command", [("up", "--no-browser"), ("station",)], ids=["up", "station"])
+def test_a_page_that_others_would_reach_unasked_is_not_opened(tmp_path, router, command):
+    path = configured(tmp_path, free_endpoint(), station='host = "0.0.0.0"\n')
+    environment = {"XDG_CONFIG_HOME": str(tmp_path / "config")}
+    arguments = (*command, "--config", path, *(("--connect", router) if command == ("station",) else ()))
+
+    def refused():
+        return complaint(*arguments, folder=tmp_path, environment=environment)
+
+    assert "'retouch accounts add NAME'" in refused()
+    typed = "<<< 'correct horse'"
+    with Command("accounts", "add", "anna", folder=tmp_path, environment=environment, shell=typed) as add:
+        assert add.ended(WITHIN_S) == Exit.DONE, add.tail()
+    assert "'retouch certs issue page.NAME --host HOST" in refused()
+    assert not (tmp_path / "runs").exists(), "nothing half-made is left"
+
+
 @pytest.mark.sim
 def test_an_unknown_scene_ends_the_start(tmp_path):
     configuration = configured(tmp_path, free_endpoint())

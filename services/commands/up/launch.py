@@ -15,6 +15,7 @@ from typing import Self
 
 import msgspec
 
+from services.accounts.policy import asks
 from services.certificates.page import secured
 from services.commands.sides import placed
 from services.commands.terminal import Terminal
@@ -110,7 +111,7 @@ def launch(configuration: Configuration, options: Launch) -> int:
     """
     started = time.monotonic()
     stop = stop_on_signals()
-    page = Page(secured(configuration), opens=options.browser) if options.page else None
+    page = _page(configuration, options)
     _await_ports(configuration, options)
     folder = _run_folder(Path(configuration.viewer.folder))
     configuration = _for_run(configuration, folder, options)
@@ -145,6 +146,14 @@ def launch(configuration: Configuration, options: Launch) -> int:
         with contextlib.suppress(OSError):
             sys.stderr.write(f"retouch: {end.line}\n")
     return end.code
+
+
+def _page(configuration: Configuration, options: Launch) -> Page | None:
+    """The page that belongs to the run; what forbids to open it is said before anything is started."""
+    if not options.page:
+        return None
+    asks(configuration)
+    return Page(secured(configuration), opens=options.browser)
 
 
 def _await_ports(configuration: Configuration, options: Launch) -> None:

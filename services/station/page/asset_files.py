@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
-from services.station.shelf import ASKED_FOR, Shelf, file
+from services.station.shelf import ASKED_FOR, File, Shelf, file
 
 ASSETS = Path(__file__).parent / "assets"
 ADDRESS = "/assets"
@@ -36,8 +37,12 @@ _SHEETS = (
 )
 """In order: what comes later counts more."""
 
-_STYLE = "station.css"
-STYLE_ADDRESS = f"{ADDRESS}/{_STYLE}"
+_LOGIN_SHEETS = ("base", "light", "login", "contrast")
+"""Those of the log-in, which shows nothing of the station."""
+
+_STYLE, _LOGIN_STYLE = "station.css", "login.css"
+STYLE_ADDRESS, LOGIN_STYLE_ADDRESS = f"{ADDRESS}/{_STYLE}", f"{ADDRESS}/{_LOGIN_STYLE}"
+ICON_ADDRESS, SYMBOLS_ADDRESS = f"{ADDRESS}/retouch.svg", f"{ADDRESS}/symbols.svg"
 
 
 def _address(path: Path) -> str:
@@ -49,7 +54,11 @@ SCRIPT_ADDRESSES = tuple(f"{ADDRESS}/{_address(path)}" for path in sorted(ASSETS
 
 def asset_files() -> Shelf:
     """All of them, by their addresses below /assets/, as they are on the disk now."""
-    style = "\n".join((ASSETS / "css" / f"{name}.css").read_text(encoding="utf-8") for name in _SHEETS)
     others = {path: _KINDS[path.suffix] for path in ASSETS.rglob("*") if path.suffix in _KINDS}
     files = {_address(path): file(kind, path.read_bytes()) for path, kind in others.items()}
-    return Shelf({**files, _STYLE: file("text/css", style.encode())}, ASKED_FOR)
+    return Shelf({**files, _STYLE: _style(_SHEETS), _LOGIN_STYLE: _style(_LOGIN_SHEETS)}, ASKED_FOR)
+
+
+def _style(sheets: Sequence[str]) -> File:
+    style = "\n".join((ASSETS / "css" / f"{name}.css").read_text(encoding="utf-8") for name in sheets)
+    return file("text/css", style.encode())

@@ -141,7 +141,7 @@ def _people(group: str) -> str:
 
 
 def _role(role: Role) -> str:
-    return f'<option value="{role.value}">{_say(f"who.{role.value}")}</option>'
+    return f'<option value="{role.value}" data-value="role-{role.value}">{_say(f"who.{role.value}")}</option>'
 
 
 def _camera(name: str) -> str:

@@ -15,11 +15,15 @@ CONTENT_POLICY = "; ".join(
         "default-src 'self'",
         "connect-src 'self' ws: wss:",  # not every browser counts the own server's WebSocket as 'self'
         "frame-ancestors 'none'",
+        "form-action 'self'",
         "object-src 'none'",
         "base-uri 'none'",
     )
 )
 """The page asks nobody but its own server, and is nobody's part."""
+
+_LOOKS = frozenset(("GET", "HEAD"))
+"""What changes nothing, whichever page it comes from."""
 
 
 class Guard:
@@ -40,7 +44,8 @@ class Guard:
         if scope["type"] not in {"http", "websocket"}:
             await self._app(scope, receive, send)
             return
-        if not self._welcome(Headers(scope=scope), scope["type"] == "websocket"):
+        acts = scope["type"] == "websocket" or scope["method"] not in _LOOKS
+        if not self._welcome(Headers(scope=scope), acts):
             refusal = PlainTextResponse("Open the page under the address that it is served on.", status_code=403)
             await refusal(scope, receive, send)
             return
@@ -50,16 +55,17 @@ class Guard:
                 headers = MutableHeaders(scope=message)
                 headers["Content-Security-Policy"] = CONTENT_POLICY
                 headers["X-Content-Type-Options"] = "nosniff"
-                headers["Referrer-Policy"] = "no-referrer"
+                # Nothing goes to others; with less than this a browser sends a form without its origin.
+                headers["Referrer-Policy"] = "same-origin"
             await send(message)
 
         await self._app(scope, receive, send_with_headers)
 
-    def _welcome(self, headers: Headers, websocket: bool) -> bool:
+    def _welcome(self, headers: Headers, acts: bool) -> bool:
         host = headers.get("host", "")
         try:
             if self._names is not None and urlsplit(f"//{host}").hostname not in self._names:
                 return False
-            return not websocket or urlsplit(headers.get("origin", "")).netloc == host
+            return not acts or urlsplit(headers.get("origin", "")).netloc == host
         except ValueError:  # what no browser sends: brackets around no address
             return False

@@ -11,9 +11,12 @@ import logging
 import threading
 from collections import deque
 
+import msgspec
+
 from protocol.exceptions import ProtocolError
 from protocol.keys import STEERING
 from protocol.messages import SHORTEST_REASON, Attendance, OperatorInput, Person, Role, TakeOver
+from services.accounts.account import Account
 from services.process.lines import one_line
 from services.station.page.identity import SOMEBODY, identify
 from services.station.page.presses import Presses
@@ -74,8 +77,24 @@ class Desk:
             if self._seat.leave(tab, now_ns):
                 self._empty()
 
-    def receive(self, tab: int, payload: str | bytes, now_ns: int) -> Hello | Held | Pressed | None:
-        """Read and keep a message; None, and counted, where it was none."""
+    def dismiss(self, tab: int, now_ns: int) -> None:
+        """Whoever was at a tab may no more: what is held there counts at once as let go, and its seat is free."""
+        with self._lock:
+            self._tabs.pop(tab, None)
+            if self._seat.get_up(tab):
+                self._sit(now_ns)
+
+    def receive(
+        self, tab: int, payload: str | bytes, now_ns: int, account: Account | None = None
+    ) -> Hello | Held | Pressed | None:
+        """Read and keep a message; None, and counted, where it was none.
+
+        Args:
+            tab: that says it.
+            payload: as it came.
+            now_ns: when.
+            account: of whoever is there; None where nobody has to log in.
+        """
         try:
             message = read(payload)
         except ProtocolError:
@@ -86,11 +105,11 @@ class Desk:
             self._expire(now_ns)
             match message:
                 case Hello():
-                    self._enter(tab, message, now_ns)
+                    self._enter(tab, message, now_ns, account)
                 case Held():
                     self._hold(tab, message, now_ns)
                 case Pressed():
-                    self._press(tab, message, now_ns)
+                    self._press(tab, message, now_ns, account)
         return message
 
     def take_input(self, now_ns: int) -> OperatorInput:
@@ -156,8 +175,10 @@ class Desk:
                 lost=self._taken if known is not None and known.hello.seat == self._lost and not armed else None,
             )
 
-    def _enter(self, tab: int, message: Hello, now_ns: int) -> None:
-        identity = identify(message.name, message.role, self._operator)
+    def _enter(self, tab: int, message: Hello, now_ns: int, account: Account | None) -> None:
+        identity = identify(message.name, message.role, self._operator, account)
+        if account is not None:  # who logs in at somebody else's tab does not find that one's seat
+            message = msgspec.structs.replace(message, seat=f"{account.name}/{message.seat}")
         self._tabs[tab] = Tab(message, identity)
         if identity.role is not Role.OPERATOR:
             if self._seat.get_up(tab):
@@ -212,20 +233,20 @@ class Desk:
         elif STEERING.isdisjoint(message.keys):
             self._let_go = False
 
-    def _press(self, tab: int, message: Pressed, now_ns: int) -> None:
+    def _press(self, tab: int, message: Pressed, now_ns: int, account: Account | None) -> None:
         known = self._tabs.get(tab)
         if known is not None and not self._presses.is_new(known.hello.load, message.number):
             return
-        accepted = self._pass_on(tab, known, message, now_ns)
+        accepted = self._pass_on(tab, known, message, now_ns, account)
         if known is not None:
             self._presses.settle(known.hello.load, message.number, accepted)
 
-    def _pass_on(self, tab: int, known: Tab | None, message: Pressed, now_ns: int) -> bool:
+    def _pass_on(self, tab: int, known: Tab | None, message: Pressed, now_ns: int, account: Account | None) -> bool:
         """Whether the press counts: a stop does at any time, from any tab, before it has said who it is as well."""
         if message.action in STOPS:
             self._stop_pressed |= message.action == STOP
             self.call.set()
-            by = known.identity.name if known is not None else ""
+            by = known.identity.name if known is not None else account.name if account is not None else ""
             return self._presses.add(Press(message.action, message.argument, by))
         if known is None or not known.has_sent_in_time(message, now_ns):
             self.late += 1

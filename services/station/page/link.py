@@ -17,7 +17,9 @@ from services.station.live_view.drawing import Point, has_moved, packed
 from services.station.page.glance import Glances
 from services.station.page.input import Desk
 from services.station.page.layout import own
-from services.station.page.said import Held
+from services.station.page.login.door import NOT_LOGGED_IN, SESSION
+from services.station.page.login.sessions import Session
+from services.station.page.said import Held, Pressed
 from services.station.page.values import Sent, Values
 from services.station.page.view import Board, Picture
 
@@ -38,6 +40,9 @@ HEAD, WRIST, MOMENT, CLOUD = range(4)
 
 TABS_AT_MOST = 8
 TRY_AGAIN_LATER = 1013
+
+GOODBYE_S = 1.0
+"""For so long a tab is told that it is turned away [s]."""
 
 
 class _News(msgspec.Struct, frozen=True):
@@ -73,15 +78,19 @@ class _Tab:
     Args:
         number: no other tab of this process has it.
         socket: accepted.
+        session: of whoever is there; None where nobody has to log in.
 
     Attributes:
+        dismissed: set where the session has ended.
         wants_cloud: it shows the point cloud.
         heard: the tab's clock when it sent its newest state [ms], and ours when that came [ns].
     """
 
-    def __init__(self, number: int, socket: WebSocket) -> None:
+    def __init__(self, number: int, socket: WebSocket, session: Session | None) -> None:
         self.number = number
         self.socket = socket
+        self.session = session
+        self.dismissed = asyncio.Event()
         self.drawn = (0, 0, 0, 0)
         self.wants_cloud = False
         self.heard = (0.0, 0)
@@ -130,7 +139,12 @@ class Link:
         self._clock = clock
         self._version = version
         self._numbers = itertools.count(1)
-        self.tabs = 0
+        self._tabs: set[_Tab] = set()
+
+    @property
+    def tabs(self) -> int:
+        """How many are open."""
+        return len(self._tabs)
 
     async def serve(self, socket: WebSocket) -> None:
         """Serve one tab until it goes."""
@@ -138,21 +152,40 @@ class Link:
         if self.tabs >= TABS_AT_MOST:
             await socket.close(TRY_AGAIN_LATER, f"{TABS_AT_MOST} tabs are open already")
             return
-        tab = _Tab(next(self._numbers), socket)
-        self.tabs += 1
+        tab = _Tab(next(self._numbers), socket, socket.scope.get(SESSION))
+        self._tabs.add(tab)
         sender = asyncio.create_task(self._send(tab))
+        receiver = asyncio.create_task(self._receive(tab))
+        dismissed = asyncio.create_task(tab.dismissed.wait())
         try:
-            await self._receive(tab)
+            await asyncio.wait((receiver, dismissed), return_when=asyncio.FIRST_COMPLETED)
         finally:
             self._desk.leave(tab.number, self._clock.now_ns())
-            self.tabs -= 1
-            sender.cancel()
+            self._tabs.discard(tab)
+            for task in (sender, receiver, dismissed):
+                task.cancel()
+        if tab.dismissed.is_set():
+            await _turn_away(socket)
+        else:
+            receiver.result()
+
+    def dismiss(self, session: Session) -> None:
+        """A session has ended: nothing of its tabs counts from now on, and they are told."""
+        for tab in self._tabs:
+            if tab.session is session:
+                self._desk.dismiss(tab.number, self._clock.now_ns())
+                tab.dismissed.set()
 
     async def _receive(self, tab: _Tab) -> None:
+        session = tab.session
         while (frame := await tab.socket.receive())["type"] != "websocket.disconnect":
+            if session is not None and session.ended:
+                return
             payload = frame.get("text") or frame.get("bytes") or b""
             now_ns = self._clock.now_ns()
-            message = self._desk.receive(tab.number, payload, now_ns)
+            message = self._desk.receive(tab.number, payload, now_ns, session.account if session is not None else None)
+            if session is not None and (isinstance(message, Pressed) or (isinstance(message, Held) and message.keys)):
+                session.used_ns = now_ns
             if isinstance(message, Held):
                 tab.drawn, tab.wants_cloud = message.drawn, message.cloud
                 tab.heard = (message.stamp_ms, now_ns)
@@ -193,6 +226,13 @@ class Link:
             tab.history.news({"listed": shown.view.history}),
         )
         return msgspec.json.encode(news).decode()
+
+
+async def _turn_away(socket: WebSocket) -> None:
+    """Tell a tab that its person is not logged in any more; one that takes nothing is not waited for."""
+    with contextlib.suppress(WebSocketDisconnect, RuntimeError, TimeoutError):
+        async with asyncio.timeout(GOODBYE_S):
+            await socket.close(NOT_LOGGED_IN)
 
 
 def _is_another(period_ns: int, now_ns: int, before_ns: int) -> bool:

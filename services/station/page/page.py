@@ -33,6 +33,10 @@ from services.station.page.effects import Effects
 from services.station.page.guard import Guard
 from services.station.page.input import Desk
 from services.station.page.link import Link
+from services.station.page.login.cookie import Cookie
+from services.station.page.login.door import Door
+from services.station.page.login.judge import Judge
+from services.station.page.login.login import Login
 from services.station.page.view import Board, PageView
 from services.station.page.web_socket import WebSocketProtocol
 from services.station.press import Press
@@ -47,7 +51,7 @@ STOP_POLITELY_S = 0.7
 STOP_AT_ONCE_S = 0.3
 
 LOOK_S = 1.0
-"""Between two looks at the certificate's files."""
+"""Between two looks at the files of certificate and accounts."""
 
 
 class Page:
@@ -59,10 +63,18 @@ class Page:
         clock: that input and data age by.
         description: of what the live view shows.
         operator: name of an operator who gives none.
+        judge: of the passwords of whoever comes; None where everybody may.
     """
 
     def __init__(
-        self, station: StationSection, robot: str, clock: Clock, description: Description, operator: str = ""
+        self,
+        station: StationSection,
+        robot: str,
+        clock: Clock,
+        description: Description,
+        operator: str = "",
+        *,
+        judge: Judge | None = None,
     ) -> None:
         self._station = station
         self._clock = clock
@@ -75,6 +87,10 @@ class Page:
         self._address = address(station, platform.node())
         self._desk = Desk(operator)
         self._link = Link(self._desk, self._board, clock, version(), description.joints)
+        self._login: Login | None = None
+        if judge is not None:
+            self._login = Login(robot, judge, clock, Cookie(station.port, secure=bool(station.certificate)))
+            self._login.sessions.on_end = self._link.dismiss
         self._renewal: Renewal | None = None
         self._server: uvicorn.Server | None = None
         self._thread: threading.Thread | None = None
@@ -142,6 +158,8 @@ class Page:
         self._thread.join(STOP_POLITELY_S)
         self._server.force_exit = True
         self._thread.join(STOP_AT_ONCE_S)
+        if self._login is not None:
+            self._login.close()
 
     def _listen(self) -> socket.socket:
         host, port = self._station.host, self._station.port
@@ -168,9 +186,11 @@ class Page:
             Route("/history/{version:int}/{entry:int}", self.effects.serve),
             Route("/assets/{path:path}", self._assets.serve),
         ]
-        app = Starlette(routes=routes, lifespan=self._looking)
+        login = self._login
+        app = Starlette(routes=routes if login is None else [*login.routes, *routes], lifespan=self._looking)
         configuration = uvicorn.Config(
-            Guard(app, self._station.host),
+            Guard(app if login is None else Door(app, login), self._station.host),
+            proxy_headers=False,  # whoever comes is who comes, whatever they say of others
             log_config=None,
             access_log=False,
             lifespan="on",
@@ -201,6 +221,8 @@ class Page:
             await asyncio.sleep(LOOK_S)
             if self._renewal is not None:
                 self._renewal.look()
+            if self._login is not None:
+                await self._login.look()
 
     @staticmethod
     def _serve(server: uvicorn.Server, listener: socket.socket) -> None:

@@ -20,12 +20,25 @@ def people(shown: Shown, standing: Standing) -> Values:
         "who-others": _others(shown.view, standing),
         "who-you": say(f"who.as_{standing.identity.role.value}", name=_named(standing.identity.name)),
         "who-fault": standing.identity.fault,
+        "who@data-role": standing.identity.role.value,
+        **_account(standing.identity.account),
     }
     named = {group: ", ".join(names) for group, names in _groups(shown.view).items()}
     for group in GROUPS:
         values[f"people-{group}"] = named[group]
         values[f"people-{group}-row@hidden"] = not named[group]
     return values
+
+
+def _account(most: Role | None) -> Values:
+    """What somebody may say of themselves: who has logged in is who they are, and no more than their account says."""
+    allowed = set(Role) if most is None else {most, Role.OBSERVER}
+    return {
+        "who-form@data-account": "" if most is None else most.value,
+        "who-say": say("who.say" if most is None else "who.change"),
+        "log-out@hidden": most is None,
+        **{f"role-{role.value}@hidden": role not in allowed for role in Role},
+    }
 
 
 def _groups(view: PageView) -> dict[str, list[str]]:

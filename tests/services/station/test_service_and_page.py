@@ -63,7 +63,7 @@ def test_a_person_s_station_opens_its_page_and_a_script_s_has_none(scripted, mon
     started = []
 
     class Served(Tab):
-        def __init__(self, *_):
+        def __init__(self, *_, **__):
             super().__init__()
 
         def start(self):

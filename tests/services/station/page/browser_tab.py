@@ -11,8 +11,9 @@ PERIOD_MS = 20
 class BrowserTab:
     """A tab of a desk."""
 
-    def __init__(self, desk, tab=1, now_ms=1_000, *, token=None, load=None, name="", role=""):
+    def __init__(self, desk, tab=1, now_ms=1_000, *, token=None, load=None, name="", role="", account=None):
         self.desk = desk
+        self.account = account
         self.tab = tab
         self.now_ms = now_ms
         self.sequence = 0
@@ -26,7 +27,7 @@ class BrowserTab:
         self.send(Hello(self.token, self.load, name, role))
 
     def send(self, message):
-        self.desk.receive(self.tab, msgspec.json.encode(message), self.now_ms * MS)
+        self.desk.receive(self.tab, msgspec.json.encode(message), self.now_ms * MS, self.account)
 
     def hold(self, *keys, focused=True, visible=True, controllers=(), later_ms=PERIOD_MS, stamp_ms=None):
         self.now_ms += later_ms

@@ -7,7 +7,7 @@ import pytest
 from services.station.page.guard import Guard
 
 
-def ask(host, *, listening="127.0.0.1", kind="http", origin=None):
+def ask(host, *, listening="127.0.0.1", kind="http", origin=None, method="GET"):
     """What the server answers: "served", or the status of a refusal."""
     heard, said = [], []
 
@@ -23,6 +23,8 @@ def ask(host, *, listening="127.0.0.1", kind="http", origin=None):
 
     headers = [(b"host", host.encode())] + ([(b"origin", origin.encode())] if origin else [])
     scope = {"type": kind, "path": "/assets/a.js", "headers": headers}
+    if kind == "http":
+        scope["method"] = method
     asyncio.run(Guard(app, listening)(scope, receive, send))
     return dict(said[0]["headers"]) if heard else said[0].get("status", 403)
 
@@ -52,6 +54,19 @@ def test_the_link_is_opened_from_the_page_s_own_origin_only():
     assert b"content-security-policy" in own
     for origin in ("http://evil.example", "http://desk:9090", "http://[::1", "http://[desk]", None):
         assert ask("desk:8080", listening="0.0.0.0", kind="websocket", origin=origin) == 403
+
+
+def test_what_changes_something_is_sent_from_the_page_s_own_origin_only():
+    own = ask("desk:8080", listening="0.0.0.0", method="POST", origin="https://desk:8080")
+    assert b"content-security-policy" in own
+    for origin in ("http://evil.example", "http://desk:9090", "null", None):
+        assert ask("desk:8080", listening="0.0.0.0", method="POST", origin=origin) == 403
+
+
+def test_a_form_is_sent_to_the_page_s_own_server_with_its_origin():
+    headers = ask("localhost")
+    assert "form-action 'self'" in headers[b"content-security-policy"].decode()
+    assert headers[b"referrer-policy"] == b"same-origin"
 
 
 def test_no_other_server_and_no_frame_has_a_part_in_the_page():

@@ -1,10 +1,12 @@
 """Who a tab's person says to be: what can be used is, and what cannot is said in one line."""
 
+import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from protocol.messages import Role
+from services.accounts.account import Account
 from services.station.page.identity import Identity, identify
 
 
@@ -31,6 +33,20 @@ def test_a_role_that_does_not_exist_is_refused_in_one_line_and_looks_on():
     identity = identify("bob", "boss", "anna")
     assert (identity.name, identity.role) == ("bob", Role.OBSERVER)
     assert identity.fault == "There is no role 'boss': give operator, observer, supervisor; you look on."
+
+
+ANNA = Account("Anna", Role.OPERATOR, f"$argon2id$v=19$m=65536,t=3,p=1${'A' * 22}${'A' * 43}")
+
+
+@pytest.mark.parametrize("most", list(Role))
+@pytest.mark.parametrize("asked", ["", *(role.value for role in Role), "boss"])
+def test_who_has_logged_in_is_who_the_account_says_and_no_more_whatever_the_tab_says(most, asked):
+    account = msgspec.structs.replace(ANNA, role=most)
+    identity = identify("Eve", asked, "ann", account)
+    assert (identity.name, identity.account) == ("Anna", most)
+    assert identity.role is (Role.OBSERVER if asked == "observer" else most)
+    assert bool(identity.fault) == (asked not in ("", "observer", most.value))
+    assert "\n" not in identity.fault
 
 
 @given(st.text(max_size=64), st.text(max_size=64))

@@ -13,6 +13,14 @@ export class Identity {
     this.name.value = tab.name;
     this.role.value = tab.role || "operator";
     this.form.addEventListener("submit", (event) => this.said(event));
+    this.card.querySelector(".log-out").addEventListener("submit", () => link.leave());
+  }
+
+  // What the station says counts: it knows which roles there are, and what an account allows.
+  follow() {
+    const { role } = this.card.dataset;
+    if (!role || role === this.followed) return;
+    this.followed = this.role.value = role;
   }
 
   said(event) {

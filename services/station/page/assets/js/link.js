@@ -5,6 +5,7 @@ const RETRY_MS = 200;
 const SILENT_MS = 1000;
 const STOOD_STILL_MS = 500;
 const BACKLOG_BYTES = 2048;
+const NOT_LOGGED_IN = 4401;
 
 // For how long a connection may take to come about: short, so that a link that is back is found at once, but a few times
 // as long as the last one took, and the longer the longer the outage, so that a slow way is found at all. Not shorter:
@@ -20,7 +21,7 @@ export class Link {
     this.watched = this.openUntil = performance.now();
     this.opening = CONNECT_MOST_MS;
     this.connect();
-    setInterval(() => this.watch(), WATCH_MS);
+    this.watching = setInterval(() => this.watch(), WATCH_MS);
     window.addEventListener("pagehide", () => this.abandon());
   }
 
@@ -38,7 +39,7 @@ export class Link {
     socket.binaryType = "arraybuffer";
     socket.onopen = () => this.opened();
     socket.onmessage = ({ data }) => this.received(data);
-    socket.onclose = () => this.lost();
+    socket.onclose = ({ code }) => (code === NOT_LOGGED_IN ? this.turnedAway() : this.lost());
     Object.assign(this, { socket, sequence: 0, told: false, since: performance.now() });
   }
 
@@ -65,6 +66,22 @@ export class Link {
   lost() {
     this.since = performance.now();
     this.onSilence();
+  }
+
+  // Somebody logs out: where that leads to is told by its own answer.
+  leave() {
+    this.leaving = true;
+  }
+
+  // Dialling again would help nobody who has to log in first.
+  turnedAway() {
+    this.lost();
+    clearInterval(this.watching);
+    if (this.leaving) return;
+    const address = new URL("/login", location);
+    address.search = location.search;
+    address.searchParams.set("said", "ended");
+    location.replace(address);
   }
 
   abandon() {

@@ -60,7 +60,7 @@ const timeline = new Timeline(
 const history = new History(liveView, (action, argument) => presses.press(action, argument));
 const link = new Link(tab, { onOpen, onNews, onFrame, onSilence });
 presses.link = link;
-new Identity(tab, link);
+const identity = new Identity(tab, link);
 
 setInterval(say, INPUT_PERIOD_MS);
 setInterval(showAges, AGES_PERIOD_MS);
@@ -81,6 +81,7 @@ function onOpen() {
 function onNews(news) {
   presses.settle(news);
   show(news.values);
+  identity.follow();
   actions.arrange();
   waypoints.show();
   devices.follow();
