@@ -6,6 +6,7 @@ each says where it belongs, and the receiver compares.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 import msgspec
@@ -13,7 +14,7 @@ import msgspec
 from protocol.exceptions import Misplaced
 from protocol.messages import Message
 from protocol.queries import Query
-from protocol.topics import Topic
+from protocol.topics import Topic, publishes, source_key
 
 
 def check_message(topic: Topic[Any], robot: str, message: Message, key: str | None = None) -> None:
@@ -28,12 +29,18 @@ def check_message(topic: Topic[Any], robot: str, message: Message, key: str | No
     Raises:
         Misplaced: it names another robot, topic or key, or a process that does not publish this topic.
     """
-    if (message.robot, message.topic) != (robot, topic.name):
-        raise Misplaced(topic.name, f"belongs to {message.topic!r} of robot {message.robot!r}")
-    if not topic.published_by(message.process):
-        raise Misplaced(topic.name, f"comes from {message.process!r}: only the {topic.publisher} publishes it")
-    if key is not None and key != topic.key(robot, message.process):
-        raise Misplaced(topic.name, f"comes from {message.process!r} under the key {key}")
+    _check_place(topic.name, topic.publisher, robot, (message.robot, message.topic, message.process), key)
+
+
+@lru_cache(maxsize=1024)  # of every message the same few; what is misplaced is not remembered, and judged anew
+def _check_place(name: str, publisher: str, robot: str, named: tuple[str, str, str], key: str | None) -> None:
+    named_robot, named_topic, process = named
+    if (named_robot, named_topic) != (robot, name):
+        raise Misplaced(name, f"belongs to {named_topic!r} of robot {named_robot!r}")
+    if not publishes(publisher, process):
+        raise Misplaced(name, f"comes from {process!r}: only the {publisher} publishes it")
+    if key is not None and key != source_key(robot, name, process):
+        raise Misplaced(name, f"comes from {process!r} under the key {key}")
 
 
 def announcement(query: Query[Any, Any], robot: str, type_: type[msgspec.Struct]) -> str:

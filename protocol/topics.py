@@ -75,17 +75,22 @@ class Topic(Generic[M]):
 
     def published_by(self, process: str) -> bool:
         """Whether a process of this name publishes the topic: one of the role that the table names."""
-        return _publishes(self.publisher, process)
+        return publishes(self.publisher, process)
 
     def key(self, robot: str, source: str) -> str:
         """The key expression on which `source` publishes for `robot`."""
-        return (
-            f"retouch/{VERSION}/{checked_name(robot)}/{self.name}/{source if source == '*' else checked_name(source)}"
-        )
+        return source_key(robot, self.name, source)
+
+
+@lru_cache(maxsize=1024)  # asked with every message; bounded as below
+def source_key(robot: str, name: str, source: str) -> str:
+    """See `Topic.key`."""
+    return f"retouch/{VERSION}/{checked_name(robot)}/{name}/{source if source == '*' else checked_name(source)}"
 
 
 @lru_cache(maxsize=1024)  # asked of every message, about few names; bounded, since a stranger may invent more
-def _publishes(publisher: str, process: str) -> bool:
+def publishes(publisher: str, process: str) -> bool:
+    """See `Topic.published_by`."""
     return is_name(process) and publisher in ("any", role(process))
 
 

@@ -20,6 +20,7 @@ from pathlib import Path
 import numpy as np
 
 from services.certificates.authority import make_authority
+from services.process.runner import leave_on_signals
 from tests.bench.support.results import Result, write_json
 from tests.bench.wire.peers import Absent
 from tests.bench.wire.way import CARRIERS, Broken, Way, payload
@@ -134,6 +135,7 @@ def main(arguments=None):
     parser.add_argument("--quick", action="store_true", help="one short round: does it work at all?")
     parser.add_argument("--rounds", type=int, default=5, metavar="N", help="in which all take turns (default: 5)")
     options = parser.parse_args(arguments)
+    leave_on_signals()  # whatever was started goes, too
     if options.json is not None and not options.json.parent.is_dir():
         parser.error(f"--json: the folder {options.json.parent} does not exist")
     if options.rounds < 1:

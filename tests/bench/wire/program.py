@@ -89,20 +89,22 @@ def commands(carrier, settings):
 
 def pictures(carrier, settings):
     """Sends both cameras' pictures while it is asked to."""
-    picture, on = bytes(PICTURE_BYTES), threading.Event()
+    picture, on, sending = bytes(PICTURE_BYTES), threading.Event(), threading.Lock()
     with carrier.sending(settings, "picture") as send:
 
         def film():
             while True:
                 on.wait()
-                for _ in range(CAMERAS):
-                    send(picture)
+                with sending:
+                    for _ in range(CAMERAS if on.is_set() else 0):
+                        send(picture)
                 time.sleep(1.0 / PICTURE_HZ)
 
         threading.Thread(target=film, daemon=True).start()
         print("ready", flush=True)
         for line in sys.stdin:
-            on.set() if line.strip() == "on" else on.clear()
+            with sending:  # once it is off nothing more is sent
+                on.set() if line.strip() == "on" else on.clear()
             print("{}", flush=True)
 
 

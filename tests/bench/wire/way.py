@@ -175,9 +175,9 @@ class Way:
         self._ask(self._camera, "on" if pictures else "off")
         self._ask(self._receiver, "take")
         first_ns, sent = self._ask(self._sender, f"{rate_hz} {seconds} {WARM_S}")
+        self._ask(self._camera, "off")
         time.sleep(SETTLE_S)
         took = self._ask(self._receiver, "take")
-        self._ask(self._camera, "off")
         counted = [(came - sent_ns) / 1e3 for sent_ns, came in took["samples"] if sent_ns >= first_ns]
         return Burst(np.array(counted), sent, took["pictures"])
 
