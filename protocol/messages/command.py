@@ -85,7 +85,7 @@ class MasterState(Message, frozen=True, kw_only=True):
         displacement: from the device's neutral position, in base axes [m].
         velocity: of the displacement [m/s].
         rotation: from the device's neutral orientation, rotation vector in base axes [rad].
-        force: what the device renders to the hand (eq. 14) [N].
+        force: what the device renders to the hand: eq. 14, and the contact force of the robot [N].
         engaged: a hand is on the device and the clutch is closed; displacement and rotation count only then.
         operator: the person whose hand it is, as the station says.
         holder: of the authority under which the master commands.
@@ -99,6 +99,8 @@ class MasterState(Message, frozen=True, kw_only=True):
         echoed_ns: the stamp on the newest robot state that the master had heard, so that the robot knows the round
             trip [ns]; 0 before the first.
         echo_held_ns: how long before this state it had come [ns].
+        contact_energy: that the hand put in against the contact force, since the process started [J], see
+            `lfd.passivity`; negative where the device renders none, and then no contact limits the correction.
     """
 
     displacement: Vector3 = (0.0, 0.0, 0.0)
@@ -116,3 +118,4 @@ class MasterState(Message, frozen=True, kw_only=True):
     yaw: Yaw = 0.0
     echoed_ns: Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)] = 0
     echo_held_ns: Count = 0
+    contact_energy: Annotated[float, msgspec.Meta(ge=-1.0, le=1e9)] = -1.0

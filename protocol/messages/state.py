@@ -80,6 +80,8 @@ class RobotState(Message, frozen=True, kw_only=True):
         applied_sequence: of the last master state that took effect.
         applied_latency: from that sample's stamp to when the arm was handed the command that it shaped [s]; negative
             where the clocks are not comparable.
+        contact_force: of the environment on the robot, low-passed and bounded, base axes [N]; zero where none is known.
+        contact_energy: that contact did to the correction, since the process started [J]; see `lfd.passivity`.
     """
 
     joint_names: Annotated[tuple[Name, ...], msgspec.Meta(max_length=64)] = ()
@@ -99,6 +101,8 @@ class RobotState(Message, frozen=True, kw_only=True):
     clamped: Annotated[tuple[Name, ...], msgspec.Meta(max_length=16)] = ()
     applied_sequence: Count = 0
     applied_latency: Real = -1.0
+    contact_force: Vector3 = (0.0, 0.0, 0.0)
+    contact_energy: Annotated[float, msgspec.Meta(ge=0.0, le=1e9)] = 0.0
 
 
 class WorldState(Message, frozen=True, kw_only=True):

@@ -1,4 +1,4 @@
-"""The force that a hand may feel: eq. 14, within a limit, rising slowly, and nothing once nobody answers for it."""
+"""The force that a hand may feel: eq. 14 and contact, within a limit, rising slowly, and none once nobody answers."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import math
 
 from lfd import haptics
 from protocol.messages import Vector3
+from services.master.contact import ContactForce, room_for
 from services.master.devices.device import ZERO
 from sim.person.stylus import StylusState
 
@@ -48,6 +49,10 @@ class Feedback:
         stiffness: k of eq. 14 [N/m].
         damping: d of eq. 14 [N s/m].
         limit: of the force [N].
+
+    Attributes:
+        gain: share of the force that is rendered now.
+        contact: what is felt of what the robot touches.
     """
 
     def __init__(self, stiffness: float, damping: float, limit: float) -> None:
@@ -55,6 +60,7 @@ class Feedback:
         self._damping = damping
         self._limit = limit
         self.gain = 0.0
+        self.contact = ContactForce()
 
     def restart(self) -> None:
         """Rise from zero again."""
@@ -68,10 +74,15 @@ class Feedback:
             age_s: of the newest that is known of the robot [s].
             dt: since the call before [s].
         """
+        self.contact.move(stylus.position)
         self.gain = min(self.gain + dt / SOFT_START_S, share_of_fresh(age_s))
         if self.gain <= 0.0:
+            self.contact.render(ZERO)
             return ZERO
-        return _times(limited(spring_damper(stylus, self._stiffness, self._damping), self._limit), self.gain)
+        local = _times(limited(spring_damper(stylus, self._stiffness, self._damping), self._limit), self.gain)
+        contact = room_for(self.contact.wanted(stylus.velocity, self.gain, dt), local, self._limit)
+        self.contact.render(contact)
+        return (local[0] + contact[0], local[1] + contact[1], local[2] + contact[2])
 
 
 def share_of_fresh(age_s: float) -> float:

@@ -164,4 +164,5 @@ class MasterService:
             echoed_ns=heard.message.stamp_ns if heard is not None else 0,
             echo_held_ns=max(0, now_ns - heard.received_ns) if heard is not None else 0,
             yaw=sample.yaw,
+            contact_energy=sample.contact_energy,
         )

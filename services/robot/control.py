@@ -20,6 +20,7 @@ from services.robot.arm import Arm
 from services.robot.authority import NOBODY, Lease
 from services.robot.backends.backend import CONTROL_PERIOD
 from services.robot.clutch import Clutch
+from services.robot.contact import ContactPort
 from services.robot.correction import UNCORRECTED, Correction
 from services.robot.episode import EpisodeOutcome
 from services.robot.execution import Execution, look_ahead
@@ -77,6 +78,7 @@ class Control:
         self._hold = Hold()
         self._clutch = Clutch(CONTROL_PERIOD)
         self._coupling = Coupling()
+        self.contact = ContactPort(CONTROL_PERIOD)
         self._master: int | None = None
         self.master_gain = master_gain
         self._place: Array = scene.training_positions[0]
@@ -185,7 +187,10 @@ class Control:
         self.lease.expire(now_ns)
         self._end_another_s()
         reason = self._hold_reason(now_ns, sample, way_s)
-        tick = self.arm.tick(self._wanted(sample, reason), reason, given)
+        refined = self.arm.episode if self.mode is Mode.REFINE else None
+        wanted = self.contact.limited(self._wanted(sample, reason), sample and sample.message, refined)
+        tick = self.arm.tick(wanted, reason, given)
+        self.contact.observe(tick.observation.contact_force)
         self._end(tick.outcome)
         if tick.fault:
             self.press("robot", tick.fault)
@@ -212,6 +217,7 @@ class Control:
     def let_go(self) -> None:
         """The hand was off the master, if only for a moment."""
         self._clutch.let_go()
+        self.contact.let_go()
         self._coupling.decouple()
 
     def phase(self, tick: Tick) -> Phase:

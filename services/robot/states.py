@@ -104,6 +104,8 @@ class States:
             clamped=tick.clamped[:16],
             applied_sequence=applied_sequence,
             applied_latency=applied_latency,
+            contact_force=vector3(self._control.contact.force),
+            contact_energy=self._control.contact.energy_in,
         )
 
     def _authority_state(self, now_ns: int) -> messages.AuthorityState:

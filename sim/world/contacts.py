@@ -22,12 +22,14 @@ class Contact:
     Attributes:
         position: In the base frame, shape (3,) [m].
         force: Magnitude [N].
+        push: The same as a vector, of the environment on the robot, in the base frame, shape (3,) [N].
         robot_geom: Name of the robot's link.
         environment_geom: Name of the box, without its variant.
     """
 
     position: Array
     force: float
+    push: Array
     robot_geom: str
     environment_geom: str
 
@@ -56,10 +58,14 @@ def _contact(model: mujoco.MjModel, data: mujoco.MjData, index: int) -> Contact:
     wrench = np.zeros(6)
     mujoco.mj_contactForce(model, data, index, wrench)
     first, second = data.contact.geom[index]
-    robot, environment = (first, second) if model.geom_contype[first] == ROBOT else (second, first)
+    # In the contact's own axes, as the first geom pushes the second.
+    on_second = wrench[:3] @ data.contact.frame[index].reshape(3, 3)
+    is_first = model.geom_contype[first] == ROBOT
+    robot, environment = (first, second) if is_first else (second, first)
     return Contact(
         position=data.contact.pos[index].copy(),
         force=float(np.linalg.norm(wrench[:3])),
+        push=-on_second if is_first else on_second,
         robot_geom=_link_name(model, robot),
         environment_geom=model.geom(environment).name.partition("/")[2],
     )

@@ -35,6 +35,8 @@ class Observation:
         object_orientation: Scalar first, shape (4,).
         contacts: Of the robot with its environment, at any step of physics in the last control period: of each link
             and box that met the one with the largest force.
+        contact_force: Of the environment on the robot, in the base frame, the mean over the last control period,
+            shape (3,) [N].
     """
 
     time: float
@@ -43,6 +45,7 @@ class Observation:
     object_position: Array
     object_orientation: Array
     contacts: tuple[Contact, ...]
+    contact_force: Array
 
 
 class World:
@@ -95,6 +98,7 @@ class World:
         qpos[self._object] = [*object_position, *NO_ROTATION]
         self._data.ctrl[: len(CONTROLLED_JOINTS)] = qpos[self._q]
         self._data.ctrl[len(CONTROLLED_JOINTS) :] = self.scene.head
+        self._contact_force = np.zeros(3)
         self._look()
 
     def step(self, q_reference: Array, qd_reference: Array) -> None:
@@ -118,6 +122,7 @@ class World:
             self._data.ctrl[: len(CONTROLLED_JOINTS)] = q + pull
             mujoco.mj_step(self._model, self._data)
             found.extend(collisions(self._model, self._data))
+        self._contact_force = sum((contact.push for contact in found), start=np.zeros(3)) / _STEPS
         # mj_step leaves poses and contacts one step behind the joints.
         self._look(found)
 
@@ -131,6 +136,7 @@ class World:
             object_position=pose[:3].copy(),
             object_orientation=pose[3:].copy(),
             contacts=self._contacts,
+            contact_force=self._contact_force,
         )
 
     @property
@@ -147,6 +153,7 @@ class World:
         """
         self._data.qpos[:] = qpos
         self._data.qvel[:] = 0.0
+        self._contact_force = np.zeros(3)
         self._look()
 
     def clearance(self, limit: float = 0.1) -> float:

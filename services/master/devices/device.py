@@ -58,6 +58,7 @@ class Sample:
         trouble: why the device counts for nothing, or what of it.
         trouble_with: the device that the trouble is with.
         yaw: of the axes along which the hand pushes, in base axes [rad].
+        contact_energy: that the hand put in against the contact force [J]; negative where none is rendered.
     """
 
     displacement: Vector3 = ZERO
@@ -69,6 +70,7 @@ class Sample:
     trouble: Trouble = Trouble.NONE
     trouble_with: str = ""
     yaw: float = 0.0
+    contact_energy: float = -1.0
 
 
 class Device(Protocol):

@@ -71,7 +71,7 @@ class ScriptedMaster:
         self._settings = settings
         self._hand = Hand(seed, settings.misjudgement)
         self._rng = np.random.default_rng((seed, 3))
-        feedback = Feedback(settings.stiffness, settings.damping, settings.force_limit)
+        self._feedback = feedback = Feedback(settings.stiffness, settings.damping, settings.force_limit)
         self._loop = HapticLoop(SimulatedStylus(Stylus(), self._hand), feedback, clock.now_ns())
         self._thread = HapticThread(self._loop, clock) if isinstance(clock, SystemClock) else None
         self._gripped: Episode | None = None
@@ -84,6 +84,7 @@ class ScriptedMaster:
         robot, led = moment.refining, moment.teaching
         if moment.robot is not None and led is None:  # who leads feels nothing: there is nothing to depart from
             self._loop.hear(moment.now_ns)
+        self._feedback.contact.hear(robot, robot.master_gain if robot is not None else 1.0)
         if robot is not None:
             self._attend(robot)
             self._hand.observe(moment.now_ns / 1e9, self._seen(robot))
@@ -103,6 +104,7 @@ class ScriptedMaster:
             force=rendered.feedback,
             engaged=self._hand.clutched,
             actions=self._held(moment.now_ns),
+            contact_energy=self._feedback.contact.energy_in,
         )
 
     def figures(self) -> tuple[Figure, ...]:

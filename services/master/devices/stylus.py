@@ -64,12 +64,15 @@ class StylusMaster:
         controller = self._stylus.controller()
         robot = moment.teaching or moment.refining
         present = moment.operator is not None and moment.operator.present
+        refining = moment.refining
+        lever = self._profile.scale * (refining.master_gain if refining is not None else 1.0)
+        self._feedback.contact.hear(refining, lever)
         if robot is None or not present or not coupled(controller, self._profile):
             self._engaged = False
         elif not self._engaged or robot.phase is not Phase.EXECUTE:
             self._take_up(robot, led=moment.teaching is not None)
         else:
-            if moment.refining is not None:
+            if refining is not None:
                 self._loop.hear(moment.now_ns)
             self._read()
         newest = self._loop.newest
@@ -82,6 +85,7 @@ class StylusMaster:
             force=newest.feedback,
             engaged=self._engaged,
             actions=actions(controller, self._profile),
+            contact_energy=self._feedback.contact.energy_in,
         )
 
     def figures(self) -> tuple[Figure, ...]:
@@ -100,9 +104,9 @@ class StylusMaster:
             self._displacement, self._turn = (x, y, z), robot.turn
         scale = self._profile.scale
         x, y, z = self._displacement
+        self._feedback.restart()
         self._stylus.take_up((x / scale, y / scale, z / scale))
         self._turn_before = self._turn
-        self._feedback.restart()
         self._engaged = True
 
     def _read(self) -> None:

@@ -42,6 +42,8 @@ class Observation:
         touch: the strongest at any moment of the period, None where there was none.
         world: all generalised positions of a simulated world, to draw it; empty on hardware.
         condition: the external state that motions depend on here, shape (c,); empty where it is the object's.
+        contact_force: of the environment on the robot, the mean over the period, in the base frame, shape (3,) [N];
+            zero where it is not measured.
     """
 
     time: float
@@ -51,6 +53,7 @@ class Observation:
     touch: Touch | None
     world: Array
     condition: Array = field(default_factory=lambda: np.zeros(0))
+    contact_force: Array = field(default_factory=lambda: np.zeros(3))
 
 
 class Blocked(ServiceError):

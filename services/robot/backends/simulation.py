@@ -67,4 +67,5 @@ class Simulation:
             object_pose=Pose(seen.object_position, seen.object_orientation),
             touch=touch,
             world=self._world.state,
+            contact_force=seen.contact_force,
         )

@@ -59,6 +59,7 @@ def test_it_publishes_at_the_topics_rate_though_nobody_is_there():
     assert desk.service.rate_hz == MASTER_STATE.rate_hz
     state = desk.run(0.1, authority=None, page=False)
     assert (state.sequence, state.engaged, state.epoch, state.device) == (10, False, 0, "keyboard")
+    assert state.contact_energy < 0.0  # keys render no contact
 
 
 def test_a_held_key_moves_the_device_in_the_name_of_who_holds_it():

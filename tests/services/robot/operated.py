@@ -21,7 +21,7 @@ class Operated:
         self.epoch = 0
         self.holder = "ann"
 
-    def run(self, seconds, *, renew=True, master=None, rotation=(0.0, 0.0, 0.0), engaged=True, epoch=None):
+    def run(self, seconds, *, renew=True, master=None, **said):
         """Let time pass: with the operator present or not, with a displacement of the master or without a master."""
         for _ in range(round(seconds * 100)):
             self.clock.advance(0.01)
@@ -29,10 +29,10 @@ class Operated:
                 renewal = messages.AuthorityRenewal(holder=self.holder, epoch=self.epoch)
                 self.operator.publish(topics.AUTHORITY_RENEWAL, renewal)
             if master is not None:
-                self.say(master, rotation=rotation, engaged=engaged, epoch=epoch)
+                self.say(master, **said)
             self.service.step(self.clock.now_ns())
 
-    def say(self, displacement, *, rotation=(0.0, 0.0, 0.0), engaged=True, epoch=None):
+    def say(self, displacement, *, rotation=(0.0, 0.0, 0.0), engaged=True, epoch=None, contact_energy=-1.0):
         """One sample of the master."""
         state = messages.MasterState(
             displacement=displacement,
@@ -40,6 +40,7 @@ class Operated:
             engaged=engaged,
             holder=self.holder,
             epoch=self.epoch if epoch is None else epoch,
+            contact_energy=contact_energy,
         )
         self.operator.publish(topics.MASTER_STATE, state)
 

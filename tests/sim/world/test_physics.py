@@ -68,6 +68,26 @@ def test_a_far_reference_does_not_make_a_blocked_arm_push_hard(description: Robo
     assert 1.0 < max(forces) < 200.0
 
 
+def test_a_table_pushes_the_arm_that_sinks_into_it_up_and_what_is_free_is_not_pushed(
+    description: RobotDescription,
+) -> None:
+    place = scene("table")
+    world = World(place, "clear", description)
+    world.step(place.posture, REST)
+    assert not world.observe().contact_force.any()
+    sinking = np.array([-0.05, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    for tick in range(1, 400):
+        world.step(place.posture + tick * CONTROL_PERIOD * sinking, sinking)
+        seen = world.observe()
+        if seen.contact_force[2] > 1.0:
+            break
+    assert seen.contact_force[2] > 1.0
+    for contact in seen.contacts:
+        assert np.linalg.norm(contact.push) == pytest.approx(contact.force)
+    world.reset(place.training_positions[0])
+    assert not world.observe().contact_force.any()
+
+
 def test_contacts_name_link_and_box(description: RobotDescription) -> None:
     place = scene("table")
     world = World(place, "clear", description)

@@ -192,6 +192,20 @@ def test_it_feels_equation_14_within_the_limit():
     assert TO_BASE @ np.array(desk.driver.force) == pytest.approx((-1.5, 0.0, 0.0), abs=1e-3)
 
 
+def test_it_feels_what_the_robot_touches_within_the_limit_and_tells_what_the_hand_puts_in_against_it():
+    desk = Desk(stiffness=1e-6, damping=1e-6, force_limit=1.5)
+    touching = msgspec.structs.replace(REFINING, contact_force=(-1.0, 0.0, 0.0))
+    felt = desk.run(SOFT_START_S + 0.2, touching)
+    assert felt.force == pytest.approx((-1.0, 0.0, 0.0), abs=1e-3)
+    assert felt.contact_energy == 0.0
+    for _ in range(10):
+        desk.move(0.001, 0.0, 0.0)
+        felt = desk.run(0.01, touching)
+    assert felt.contact_energy == pytest.approx(0.01, rel=0.1)
+    harder = desk.run(0.2, msgspec.structs.replace(touching, contact_force=(-20.0, 0.0, 0.0)))
+    assert harder.force == pytest.approx((-1.5, 0.0, 0.0), abs=1e-3)
+
+
 @pytest.mark.parametrize(
     "ends",
     [
