@@ -65,7 +65,7 @@ def visit(browser, station):
         tab = contexts[-1].new_page()
         tab.add_init_script(f"{scripts.TOURED} {scripts.UNDRAWN}")
         tab.asked, tab.links = [], []
-        tab.on("websocket", tab.links.append)
+        tab.on("websocket", lambda link: tab.links.append(link.url))
         tab.on("request", lambda request: tab.asked.append(request.url))
         tab.goto(f"{station[0].url}{path}")
         return tab
@@ -199,6 +199,20 @@ def test_a_stop_that_nobody_took_as_the_session_ended_is_pressed_once_somebody_h
     presses = []
     eventually(lambda: presses.extend(page.take_presses()) or presses or anna.wait_for_timeout(20))
     assert [(press.action, press.by) for press in presses] == [("stop", "Carl")]
+
+
+def test_who_is_logged_in_here_needs_no_password_on_the_way_from_another_site(anna, station):
+    here = f"{station[0].url}/"
+    other = anna.context.new_page()
+    other.add_init_script(f"{scripts.TOURED} {scripts.UNDRAWN}")
+    other.goto(here.replace("127.0.0.1", "localhost"))
+    expect(other.locator("[name=password]")).to_be_visible()
+    other.evaluate(
+        "(href) => document.body.append(Object.assign(document.createElement('a'), { href, id: 'way' }))", here
+    )
+    other.evaluate("document.getElementById('way').click()")
+    other.wait_for_selector("body[data-link=view-only]")
+    assert other.url == here
 
 
 @pytest.mark.parametrize("scheme", ["dark", "light"])

@@ -8,7 +8,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from starlette.websockets import WebSocket
 
 from services.station.page.asset_files import ICON_ADDRESS, LOGIN_STYLE_ADDRESS, SYMBOLS_ADDRESS
-from services.station.page.login.login import LOGIN, Login, way_in
+from services.station.page.login.login import LOGIN, Login, page_for, way_in
 
 SESSION = "retouch.session"
 """Of a connection's scope: the session of whoever it comes from."""
@@ -50,6 +50,9 @@ class Door:
 
 
 def _refusal(connection: HTTPConnection) -> Response:
-    if connection.url.path == "/":
-        return RedirectResponse(way_in(connection), status_code=303)
-    return PlainTextResponse("Log in first.", status_code=401)
+    if connection.url.path != "/":
+        return PlainTextResponse("Log in first.", status_code=401)
+    if connection.headers.get("sec-fetch-site") == "cross-site":
+        # From the page of a robot elsewhere: a browser shows no cookie then, but does where it asks by itself.
+        return PlainTextResponse("", headers={"Refresh": f"0; url={page_for(connection)}", "Cache-Control": "no-store"})
+    return RedirectResponse(way_in(connection), status_code=303)

@@ -133,7 +133,7 @@ class Login:
         self.sessions.follow(self._judge.accounts)
 
     def _page(self, request: Request, notice: str, status: int = 200, again_s: int = 0, name: str = "") -> Response:
-        shown = name or request.query_params.get("name", "")[:LONGEST_NAME]
+        shown = name or _name(request)
         html = document(self._robot, way_in(request), shown, notice)
         headers = {"Cache-Control": "no-store", **({"Retry-After": str(again_s)} if again_s else {})}
         return HTMLResponse(html, status, headers)
@@ -141,16 +141,24 @@ class Login:
 
 def way_in(connection: HTTPConnection) -> str:
     """Where somebody logs in who came with a name and a role in the address: both go along."""
-    return _address(LOGIN, connection)
+    return _address(LOGIN, connection, {"name": _name(connection)})
+
+
+def page_for(connection: HTTPConnection) -> str:
+    """The page for somebody who came to it in this way."""
+    return _address("/", connection, {"name": _name(connection)})
 
 
 def _to(path: str, connection: HTTPConnection, **more: str) -> RedirectResponse:
     return RedirectResponse(_address(path, connection, more), status_code=303, headers={"Cache-Control": "no-store"})
 
 
-def _address(path: str, connection: HTTPConnection, more: Mapping[str, str] | None = None) -> str:
-    given = connection.query_params
-    role, name = given.get("role", ""), given.get("name", "")[:LONGEST_NAME]
-    kept = {"name": name if path == LOGIN else "", "role": role if role in _ROLES else "", **(more or {})}
+def _name(connection: HTTPConnection) -> str:
+    return connection.query_params.get("name", "")[:LONGEST_NAME]
+
+
+def _address(path: str, connection: HTTPConnection, more: Mapping[str, str]) -> str:
+    role = connection.query_params.get("role", "")
+    kept = {**more, "role": role if role in _ROLES else ""}
     query = urlencode({key: value for key, value in kept.items() if value})
     return f"{path}?{query}" if query else path

@@ -2,6 +2,7 @@
 
 import contextlib
 import http.client
+import socket
 import ssl
 from dataclasses import dataclass
 from http.cookies import SimpleCookie
@@ -29,6 +30,7 @@ ANNA, CARL, EVE = (Account(name, role, DIGEST.format(SALTS[name])) for name, rol
 EVERYBODY = Accounts((ANNA, CARL, EVE))
 PASSWORD = "correct horse"
 TIMEOUT_S = 20.0
+TEXT, CLOSE = 1, 8
 
 
 def is_right(password, account):
@@ -79,6 +81,7 @@ class Browser:
     """
 
     def __init__(self, page, root=None, host=""):
+        self.page = page
         url = urlsplit(page.url)
         self._url = url._replace(netloc=f"{host or url.hostname}:{url.port}")
         self._context = ssl.create_default_context(cafile=root) if root is not None else None
@@ -116,13 +119,33 @@ class Browser:
     def log_out(self):
         return self.ask("POST", "/logout", "")
 
+    def first_frame(self):
+        """The kind of the first frame that comes over the link, of one of HTTPS, too (RFC 6455, section 5.2).
+
+        By hand: no two threads may use one connection over TLS, as the client of `link` does.
+        """
+        host, port = self._url.hostname, self._url.port
+        head = {
+            **{"Host": self._url.netloc, "Origin": self.origin, "Cookie": self.cookie},
+            **{"Connection": "Upgrade", "Upgrade": "websocket"},
+            **{"Sec-WebSocket-Version": "13", "Sec-WebSocket-Key": "dGhlIHNhbXBsZSBub25jZQ=="},
+        }
+        lines = ["GET /link HTTP/1.1", *(f"{name}: {said}" for name, said in head.items()), "", ""]
+        with (
+            socket.create_connection((host, port), timeout=TIMEOUT_S) as plain,
+            self._context.wrap_socket(plain, server_hostname=host) as secured,
+        ):
+            secured.sendall("\r\n".join(lines).encode())
+            received = b""
+            while not (frames := received.partition(b"\r\n\r\n")[2]):
+                received += secured.recv(65_536)
+        return frames[0] & 0x0F
+
     def link(self):
-        """The page's link, as a script opens it."""
+        """The page's link over plain HTTP, as a script opens it."""
         address = f"{self.origin.replace('http', 'ws', 1)}/link"
         headers = {"Cookie": self.cookie} if self.cookies else {}
-        return connect(
-            address, origin=self.origin, additional_headers=headers, ssl=self._context, open_timeout=TIMEOUT_S
-        )
+        return connect(address, origin=self.origin, additional_headers=headers, open_timeout=TIMEOUT_S)
 
 
 class Tab:

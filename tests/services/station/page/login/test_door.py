@@ -32,6 +32,15 @@ def test_without_a_session_there_is_nothing_but_the_log_in(browser):
         assert turned_away(link) == 4401
 
 
+def test_who_comes_from_another_site_s_page_is_let_ask_anew_so_that_the_browser_shows_its_cookie(browser, inside):
+    stranger = Browser(inside.page)
+    came = stranger.ask("GET", "/?role=observer&name=Carl%20B", Sec_Fetch_Site="cross-site")
+    assert (came.status, came.headers["Refresh"]) == (200, "0; url=/?name=Carl+B&role=observer")
+    again = stranger.ask("GET", "/?name=Carl+B&role=observer", Sec_Fetch_Site="same-origin")
+    assert (again.status, again.headers["Location"]) == (303, "/login?name=Carl+B&role=observer")
+    assert stranger.ask("GET", "/view/description.json", Sec_Fetch_Site="cross-site").status == 401
+
+
 @pytest.mark.parametrize("token", ["", "x", "A" * 43, "A" * 5000])
 def test_a_token_that_nobody_was_given_opens_nothing(open_house, browser, token):
     browser.cookies[f"retouch-{open_house.page.url.rpartition(':')[2]}"] = token

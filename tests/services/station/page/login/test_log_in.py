@@ -4,7 +4,7 @@ import re
 import threading
 
 import pytest
-from house import PASSWORD, Browser, Tab, house
+from house import CLOSE, PASSWORD, TEXT, Browser, house
 
 from services.certificates.authority import make_authority
 from services.station.page.login.judge import WAITING_AT_MOST
@@ -50,9 +50,9 @@ def test_over_https_it_goes_nowhere_else(tmp_path):
         assert (morsel["secure"], morsel["httponly"], morsel["samesite"]) == (True, True, "strict")
         assert list(browser.cookies) == [f"__Host-retouch-{opened.page.url.rpartition(':')[2]}"]
         assert browser.ask("GET", "/").status == 200
-        with browser.link() as link:
-            Tab(link)
-            eventually(lambda: opened.page.attendance().people, WITHIN_S, "the tab is there")
+        assert browser.first_frame() == TEXT
+        browser.log_out()
+        assert browser.first_frame() == CLOSE
         assert opened.page.attendance().page.startswith("https://")
 
 
