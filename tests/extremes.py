@@ -95,6 +95,9 @@ robots = st.builds(
     turn=vectors,
     hold_reason=texts,
     applied_latency=reals,
+    applied_way=reals,
+    following_lag=reals,
+    ahead=st.none() | reals,
 )
 worlds = st.builds(
     WorldState, time=reals, qpos=arrays(((), (0,), (3,), (5,), (49,), (7, 7), (1, 1, 1, 1))), object_pose=poses

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import msgspec
 
-from protocol.messages.values import Count, Fraction, Message, Name, Vector3
+from protocol.messages.values import Count, Fraction, Message, Name, Real, Vector3
 
 Reading = Annotated[float, msgspec.Meta(ge=-1e3, le=1e3)]
 Yaw = Annotated[float, msgspec.Meta(ge=-3.1416, le=3.1416)]
@@ -65,6 +65,10 @@ class OperatorInput(Message, frozen=True, kw_only=True):
         yaw: of the person's axes in the base frame [rad]: what s/he sees as forward lies so far to the left of the
             robot's. Devices of the page take it over once everything was let go.
         blind: the newest pictures that the station has are too old to correct by.
+        captured_ns: when the browser read what is held, by the station's clock, as well as round trips tell [ns]; 0
+            where that is not known.
+        drawn: age of the newest picture of a camera when the browser had drawn it, from its capture [s]; negative where
+            that is not known.
     """
 
     operator: Name = ""
@@ -76,6 +80,8 @@ class OperatorInput(Message, frozen=True, kw_only=True):
     controllers: Annotated[tuple[Controller, ...], msgspec.Meta(max_length=4)] = ()
     yaw: Yaw = 0.0
     blind: bool = False
+    captured_ns: Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)] = 0
+    drawn: Real = -1.0
 
 
 class MasterState(Message, frozen=True, kw_only=True):
@@ -101,6 +107,8 @@ class MasterState(Message, frozen=True, kw_only=True):
         echo_held_ns: how long before this state it had come [ns].
         contact_energy: that the hand put in against the contact force, since the process started [J], see
             `lfd.passivity`; negative where the device renders none, and then no contact limits the correction.
+        capture: from when the page read what was held there to the first sample that follows it, of the newest change
+            [s]; negative where that is not known.
     """
 
     displacement: Vector3 = (0.0, 0.0, 0.0)
@@ -119,3 +127,4 @@ class MasterState(Message, frozen=True, kw_only=True):
     echoed_ns: Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)] = 0
     echo_held_ns: Count = 0
     contact_energy: Annotated[float, msgspec.Meta(ge=-1.0, le=1e9)] = -1.0
+    capture: Real = -1.0

@@ -82,6 +82,11 @@ class RobotState(Message, frozen=True, kw_only=True):
             where the clocks are not comparable.
         contact_force: of the environment on the robot, low-passed and bounded, base axes [N]; zero where none is known.
         contact_energy: that contact did to the correction, since the process started [J]; see `lfd.passivity`.
+        applied_way: the part of it before the robot heard of that sample [s]; negative where it is not known.
+        following_lag: from when the arm was handed a command until it was measured to be there, as its motion of the
+            last moment tells [s]; negative where it stood.
+        ahead: by how much the robot's clock is ahead of that of the machine of the master that commands, as round trips
+            tell [s]; None where they do not yet.
     """
 
     joint_names: Annotated[tuple[Name, ...], msgspec.Meta(max_length=64)] = ()
@@ -103,6 +108,9 @@ class RobotState(Message, frozen=True, kw_only=True):
     applied_latency: Real = -1.0
     contact_force: Vector3 = (0.0, 0.0, 0.0)
     contact_energy: Annotated[float, msgspec.Meta(ge=0.0, le=1e9)] = 0.0
+    applied_way: Real = -1.0
+    following_lag: Real = -1.0
+    ahead: Real | None = None
 
 
 class WorldState(Message, frozen=True, kw_only=True):

@@ -60,6 +60,9 @@ class Freshness:
         own: the receiver's identity, by which it knows whose clock it shares.
         rate_hz: of the topic, by which numbers are told that nobody can have come to.
         clocks: of the machines, where several topics are judged by the same ones.
+
+    Attributes:
+        age_ns: of the sample that was judged last [ns]; of another machine's above that of its fastest.
     """
 
     def __init__(self, stale_after_ns: int | None, own: int, rate_hz: float, clocks: Clocks | None = None) -> None:
@@ -67,6 +70,7 @@ class Freshness:
         self._remembered_ns = EVENTS_REMEMBERED_NS if stale_after_ns is None else stale_after_ns
         self._most_a_ns = FASTEST * rate_hz / 1e9
         self._clocks = clocks or Clocks(own)
+        self.age_ns = 0
         self._processes: dict[str, dict[int, _Newest]] = {}
 
     def judge(self, publisher: int, sequence: int, stamp_ns: int, received_ns: int, process: str = "") -> Judgement:
@@ -84,7 +88,7 @@ class Freshness:
         if newest is not None and newest.outdates(sequence, stamp_ns):
             return Judgement.REPEATED
         # What is repeated says nothing about clocks.
-        age = self._clocks.age_ns(publisher, stamp_ns, received_ns)
+        age = self.age_ns = self._clocks.age_ns(publisher, stamp_ns, received_ns)
         if age < -FUTURE_TOLERANCE_NS and (age < -NEAR_NS or self._clocks.shared_with(publisher)):
             return Judgement.FUTURE
         if self._stale_after_ns is not None and age > self._stale_after_ns:

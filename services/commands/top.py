@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import time
 from argparse import ArgumentParser, Namespace
+from dataclasses import astuple
 
+from rich.console import Group
 from rich.live import Live
 from rich.table import Table
+from rich.text import Text
 
 from protocol.codec import decode
 from protocol.exceptions import ProtocolError
-from protocol.messages import Heartbeat
+from protocol.messages import Figure, Heartbeat
+from protocol.names import person, process_name, role
 from protocol.topics import HEARTBEAT, VERSION
+from services.bus.stages import NAMES, Stages, from_figures
 from services.bus.zenoh import Passing, open_session, watch
 from services.certificates.credentials import credentials
 from services.commands.arguments import add_network
@@ -20,6 +25,7 @@ from services.commands.terminal import Terminal
 from services.process.clock import SystemClock
 from services.process.config import Configuration
 from services.process.ending import end_within
+from services.process.lines import readable
 from services.process.runner import stop_on_signals
 
 GONE_AFTER_S = 5.0
@@ -58,6 +64,41 @@ class Beats:
             share = (beat.cpu_s - previous[0].cpu_s) / (now - previous[1])
         self._newest[(robot, beat.process)] = (beat, now, share)
 
+    def shown(self) -> Group:
+        """The processes, and below them what they measure."""
+        return Group(self.table(), self.measured(), *self.paths())
+
+    def paths(self) -> tuple[Text, ...]:
+        """A line for each operator of a robot: how long what the hand does takes, from stage to stage."""
+        lines = []
+        for robot, by_process in self._figures().items():
+            shared = [figure for name, own in by_process.items() if name == "robot" for figure in own]
+            people = {person(name) for name in by_process if role(name) in ("master", "station")}
+            for who in sorted(people):
+                names = (process_name("master", who), process_name("station", who)) if who else ("master", "station")
+                path = from_figures([*shared, *(figure for name in names for figure in by_process.get(name, ()))])
+                lines.append(Text(readable(f"{robot}{f', {who}' if who else ''}: {told(path)}")))
+        return tuple(lines)
+
+    def measured(self) -> Table:
+        """A row a process: what else it measures."""
+        table = Table("robot", "process", "measures", box=None, pad_edge=False)
+        for robot, by_process in self._figures().items():
+            for name, own in by_process.items():
+                each = ", ".join(f"{figure.name} {figure.value:.3g} {figure.unit}".rstrip() for figure in own)
+                if each:
+                    table.add_row(Text(readable(robot)), Text(readable(name)), Text(readable(each)))
+        return table
+
+    def _figures(self) -> dict[str, dict[str, tuple[Figure, ...]]]:
+        """What those measure that are there, by robot and process."""
+        now = self._clock.now_ns() / 1e9
+        found: dict[str, dict[str, tuple[Figure, ...]]] = {}
+        for (robot, name), (beat, seen, _) in sorted(self._newest.items()):
+            if now - seen <= GONE_AFTER_S:
+                found.setdefault(robot, {})[name] = beat.figures
+        return found
+
     def table(self) -> Table:
         """A row a process, a row a topic that it receives."""
         table = Table(title="retouch top", expand=False)
@@ -91,6 +132,15 @@ class Beats:
         return table
 
 
+def told(path: Stages) -> str:
+    """A path's stages in their order, and from hand to eye, as far as they are known."""
+    each = zip(NAMES, astuple(path), strict=True)
+    stages = ", ".join(f"{name} {'?' if value is None else f'{1e3 * value:.0f} ms'}" for name, value in each)
+    if not path.known:
+        return f"from hand to eye nothing is known yet ({stages})"
+    return f"from hand to eye {'' if path.complete else 'at least '}{1e3 * path.total:.0f} ms: {stages}"
+
+
 def _seconds(value: float) -> str:
     return "-" if value < 0 else f"{1e3 * value:.1f} ms"
 
@@ -111,11 +161,11 @@ def top(configuration: Configuration, *, once: bool) -> None:
         watch(session, f"retouch/{VERSION}/*/{HEARTBEAT.name}/*", beats.receive)
         if once:
             stop.wait(2.5 / HEARTBEAT.rate_hz)
-            console.print(beats.table())
+            console.print(beats.shown())
             return
-        with Live(beats.table(), console=console, screen=console.is_terminal) as live:
+        with Live(beats.shown(), console=console, screen=console.is_terminal) as live:
             while not stop.is_set():
                 time.sleep(0.5)
-                live.update(beats.table())
+                live.update(beats.shown())
     finally:
         session.close()

@@ -15,6 +15,7 @@ from collections.abc import Sequence
 from protocol.messages import Figure, MasterState, Trouble
 from protocol.topics import MASTER_STATE, ROBOT_STATE
 from services.bus.bus import Bus
+from services.master.capture import Capture
 from services.master.devices.controllers import Controllers
 from services.master.devices.device import Device, Moment, Sample
 from services.master.devices.hand import Source
@@ -103,6 +104,7 @@ class MasterService:
         self._device = device
         self._seat = seat
         self._robot = bus.subscribe(ROBOT_STATE)
+        self._capture = Capture(bus.identity)
         self._keys: tuple[str, ...] = ()
         self._started_ns: int | None = None
         self._stepped_ns: int
@@ -131,14 +133,15 @@ class MasterService:
             commands=sitting.commands,
         )
         self._stepped_ns = now_ns
+        self._capture.sampled(sitting.operator, now_ns)
         sample = self._device.step(moment)
         if sample is None or moment.robot is None or now_ns - self._started_ns < _LISTEN_NS:
             return
         self._bus.publish(MASTER_STATE, self._state(sample, sitting, now_ns))
 
     def figures(self) -> tuple[Figure, ...]:
-        """What the device measures."""
-        return self._device.figures()
+        """What the device measures, and how long it takes until a sample follows what is done at the page."""
+        return (*self._device.figures(), *self._capture.take_figures())
 
     def close(self) -> None:
         """Let go of the device."""
@@ -165,4 +168,5 @@ class MasterService:
             echo_held_ns=max(0, now_ns - heard.received_ns) if heard is not None else 0,
             yaw=sample.yaw,
             contact_energy=sample.contact_energy,
+            capture=self._capture.newest_s,
         )

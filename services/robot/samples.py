@@ -26,10 +26,12 @@ class Samples:
 
     Attributes:
         late: how many samples were dropped because they had been on their way for too long.
+        newest_way_s: how long the newest sample that was heard had been on its way [s]; None where that is not known.
     """
 
     def __init__(self, bus: Bus) -> None:
         self.late = 0
+        self.newest_way_s: float | None = None
         self._own = bus.identity
         self._master = bus.subscribe(MASTER_STATE)
         self._newest: Received[MasterState] | None = None
@@ -41,6 +43,14 @@ class Samples:
     def delay_s(self) -> float:
         """By how much later than the fastest could be a hand's motion is played out [s]."""
         return self._playout.delay_ns / 1e9
+
+    @property
+    def ahead_s(self) -> float | None:
+        """By how much this clock is ahead of that of the commanding master's machine [s]; None where nobody knows."""
+        if same_clock(self._sender, self._own):
+            return 0.0
+        fastest = self._trips.fastest
+        return -fastest.offset_ns / 1e9 if fastest is not None else None
 
     def take(
         self, covers: Callable[[str, int, str], bool], let_go: Callable[[], None], now_ns: int
@@ -56,6 +66,8 @@ class Samples:
             if not covers(received.message.holder, received.message.epoch, received.message.process):
                 continue
             self._hear(received)
+            way_s = self.age_s(received, received.received_ns)
+            self.newest_way_s = max(0.0, way_s) if way_s is not None else None
             if not received.message.engaged:
                 let_go()
             if self.way_s(received) > LONGEST_SILENCE_S:

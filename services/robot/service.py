@@ -3,16 +3,11 @@
 from __future__ import annotations
 
 import logging
-from collections import deque
 from datetime import UTC, datetime
 
-import numpy as np
-from numpy.typing import NDArray
-
 from protocol import topics
-from protocol.messages import Figure, MasterState, Mode, Phase
+from protocol.messages import Figure
 from services.bus.bus import Bus
-from services.bus.subscription import Received
 from services.evidence.ledger import Ledger, Unkept, ledger_file
 from services.process.clock import Clock
 from services.process.config import Configuration
@@ -21,6 +16,7 @@ from services.process.lines import one_line
 from services.robot.assembly import kinematics_of, simulated_arm
 from services.robot.backends.backend import CONTROL_PERIOD
 from services.robot.control import Control
+from services.robot.delays import Delays, quantiles
 from services.robot.evidence import Evidence, began
 from services.robot.memory import Memory, safety_file
 from services.robot.requests import Requests
@@ -28,16 +24,11 @@ from services.robot.safety import Watchdog
 from services.robot.samples import Samples
 from services.robot.states import States
 from services.robot.synchronisation import Synchronisation
-from services.robot.tick import Tick
 from services.robot.timed_kinematics import TimedKinematics
 from sim.robots.description import prepare
 from sim.tasks import scene as scene_named
 
 log = logging.getLogger(__name__)
-
-Array = NDArray[np.float64]
-
-FIGURES_KEPT = 4096
 
 
 def build(bus: Bus, clock: Clock, configuration: Configuration, memory: Memory | None = None) -> RobotService:
@@ -120,10 +111,8 @@ class RobotService:
         self._ledger = ledger
         self._evidence = Evidence(ledger, control)
         self._requests = Requests(bus, control, self._evidence, proven=proven)
-        self._applied: Received[MasterState] | None = None
-        self._applied_latency = -1.0
+        self._delays = Delays(self._samples)
         self._given_ns = 0
-        self._latencies: deque[float] = deque(maxlen=FIGURES_KEPT)
         self._first_ns: int | None = None
         self._told_epoch = control.lease.epoch
         self._ticks = self._touching = self._clamped = 0
@@ -137,28 +126,24 @@ class RobotService:
         if sample is not None:
             self._synchronisation.heard(now_ns, sample.received_ns)
         tick = self._control.tick(now_ns, sample, self._given, self._samples.way_s(sample))
-        self._measure(tick, sample)
+        self._ticks += 1
+        self._touching += tick.observation.touch is not None
+        self._clamped += bool(tick.clamped)
+        self._delays.see(tick, self._control.mode, sample, self._given_ns)
         self._tell_who_commands()
         self._evidence.look()
-        applied = self._applied.message.sequence if self._applied is not None else 0
-        self._states.publish(now_ns, tick, applied, self._applied_latency)
+        self._states.publish(now_ns, tick, self._delays)
 
     def take_slew_ns(self) -> int:
         """See `Synchronisation`."""
         return self._synchronisation.take_slew_ns()
 
     def figures(self) -> tuple[Figure, ...]:
-        """Since the last call.
-
-        The first two count from the master's stamp on a sample to when the arm was handed the first command that the
-        sample shaped, as well as the clocks can be compared.
-        """
-        latency_p50, latency_p99 = _quantiles(self._latencies)
-        _, inverse_p99 = _quantiles(self._kinematics.steps_ns)
+        """Since the last call."""
+        _, inverse_p99 = quantiles(self._kinematics.steps_ns)
         elapsed = (self._clock.now_ns() - self._first_ns) / 1e9 if self._first_ns is not None else 0.0
         figures = (
-            Figure("sample_to_command_p50", 1e3 * latency_p50, "ms"),
-            Figure("sample_to_command_p99", 1e3 * latency_p99, "ms"),
+            *self._delays.take_figures(),
             Figure("inverse_kinematics_p99", 1e-6 * inverse_p99, "ms"),
             Figure("simulation_lag", max(0.0, elapsed - self._ticks * CONTROL_PERIOD), "s"),
             Figure("touching", float(self._touching), "periods"),
@@ -168,7 +153,6 @@ class RobotService:
             Figure("playout", 1e3 * self._samples.delay_s, "ms"),
             Figure("evidence_unwritten", float(self._ledger.unwritten), "events"),
         )
-        self._latencies.clear()
         self._kinematics.steps_ns.clear()
         self._touching = self._clamped = 0
         return figures
@@ -199,24 +183,3 @@ class RobotService:
     def _given(self) -> None:
         """The arm has its command: what follows in the step, simulated physics included, delays no sample."""
         self._given_ns = self._clock.now_ns()
-
-    def _measure(self, tick: Tick, sample: Received[MasterState] | None) -> None:
-        """Count the tick, and the time that the sample took where it acted for the first time."""
-        self._ticks += 1
-        self._touching += tick.observation.touch is not None
-        self._clamped += bool(tick.clamped)
-        if tick.phase is not Phase.EXECUTE or self._control.mode is Mode.AUTONOMOUS or sample in (None, self._applied):
-            return
-        self._applied = sample
-        latency = self._samples.age_s(sample, self._given_ns) if sample is not None else None
-        self._applied_latency = -1.0 if latency is None else max(0.0, latency)
-        if latency is not None:
-            self._latencies.append(self._applied_latency)
-
-
-def _quantiles(samples: deque[int] | deque[float]) -> tuple[float, float]:
-    """Median and 99th percentile; 0 where there are no samples."""
-    if not samples:
-        return 0.0, 0.0
-    median, high = np.quantile(np.array(samples, dtype=np.float64), (0.5, 0.99))
-    return float(median), float(high)

@@ -6,6 +6,7 @@ from services.bus.bus import Bus
 from services.process.schedule import Schedule
 from services.robot import wire
 from services.robot.control import Control
+from services.robot.delays import Delays
 from services.robot.execution import Execution
 from services.robot.order import Finished
 from services.robot.safety import standing
@@ -30,18 +31,16 @@ class States:
         self._arranged: tuple[str, Pose, bytes] | None = None
         self._finished: Finished | None = None
 
-    def publish(self, now_ns: int, tick: Tick, applied_sequence: int, applied_latency: float) -> None:
+    def publish(self, now_ns: int, tick: Tick, delays: Delays) -> None:
         """Publish what is due; a change of authority or scene, the emergency stop and a result at once.
 
         Args:
             now_ns: the time.
             tick: the control period that ended.
-            applied_sequence: of the last master state that took effect.
-            applied_latency: from its stamp to the command that it shaped [s]; negative where the clocks are not
-                comparable.
+            delays: of what the operator does.
         """
         control, due = self._control, self._schedule.due
-        self._bus.publish(topics.ROBOT_STATE, self._robot_state(tick, applied_sequence, applied_latency))
+        self._bus.publish(topics.ROBOT_STATE, self._robot_state(tick, delays))
         if due(topics.WORLD_STATE, now_ns):
             self._bus.publish(topics.WORLD_STATE, _world_state(tick))
         if due(topics.VERDICT, now_ns):
@@ -84,7 +83,7 @@ class States:
             self._bus.publish(topics.EPISODE_RESULT, wire.episode_result(finished))
         self._finished = finished
 
-    def _robot_state(self, tick: Tick, applied_sequence: int, applied_latency: float) -> messages.RobotState:
+    def _robot_state(self, tick: Tick, delays: Delays) -> messages.RobotState:
         order = self._control.order
         return messages.RobotState(
             joint_names=self._control.arm.joint_names,
@@ -102,10 +101,13 @@ class States:
             hold_reason=tick.hold_reason,
             waiting=self._control.waiting,
             clamped=tick.clamped[:16],
-            applied_sequence=applied_sequence,
-            applied_latency=applied_latency,
             contact_force=vector3(self._control.contact.force),
             contact_energy=self._control.contact.energy_in,
+            applied_sequence=delays.applied.sequence,
+            applied_latency=delays.applied.latency,
+            applied_way=delays.applied.way,
+            following_lag=delays.following_s,
+            ahead=delays.ahead_s,
         )
 
     def _authority_state(self, now_ns: int) -> messages.AuthorityState:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -30,6 +30,18 @@ HEARD_S = 0.3
 """Age at which the robot's state is not shown as its present one any more, on a busy machine too."""
 
 
+class RobotClock(NamedTuple):
+    """The clock of a robot's machine against this one's.
+
+    Attributes:
+        publisher: of the robot's process.
+        ahead_s: by how much it is ahead [s].
+    """
+
+    publisher: int
+    ahead_s: float
+
+
 class Ears:
     """What the station subscribes to."""
 
@@ -50,6 +62,23 @@ class Ears:
         self.wrist = bus.subscribe(topics.WRIST_IMAGE)
         self.queue = QueueReport(bus, self.head, self.wrist)
         self.cloud = bus.subscribe(topics.POINT_CLOUD)
+
+    def robot_clock(self, own: int) -> RobotClock | None:
+        """What is known of it: at once on one machine, else while a master of this machine commands the robot.
+
+        Args:
+            own: this process' identity.
+        """
+        robot, master = message(self.robot.latest()), message(self.master.latest())
+        if robot is None:
+            return None
+        if same_clock(robot.publisher, own):
+            return RobotClock(robot.publisher, 0.0)
+        commands = message(self.authority.latest())
+        mine = master is not None and same_clock(master.publisher, own)
+        if master is None or robot.ahead is None or commands is None or not mine or master.holder != commands.holder:
+            return None
+        return RobotClock(robot.publisher, robot.ahead)
 
     def blind(self, now_ns: int) -> bool:
         """Whether there were pictures, and they are too old to correct by."""
@@ -72,16 +101,17 @@ def came_s(received: Received[M] | None) -> float:
     return received.received_ns / 1e9 if received is not None else 0.0
 
 
-def picture(camera: Subscription[Captured], now_ns: int, own: int) -> Picture | None:
+def picture(camera: Subscription[Captured], now_ns: int, own: int, clock: RobotClock | None = None) -> Picture | None:
     """What a camera showed last, and how old that is since it was captured.
 
     A camera stands beside its robot, by whose clock it says when: what passed there until it sent is known wherever it
-    stands. What the network took is known of this machine's own clock alone; from elsewhere it counts as nothing.
+    stands. What the network took is known where the clocks compare; else it counts as nothing.
 
     Args:
         camera: its newest.
         now_ns: the time.
         own: this process' identity.
+        clock: of the robot's machine, where it is known.
     """
     received = camera.latest()
     if received is None:
@@ -89,6 +119,8 @@ def picture(camera: Subscription[Captured], now_ns: int, own: int) -> Picture | 
     shown = received.message
     there_ns = max(0, shown.stamp_ns - shown.captured_ns) if shown.captured_ns else 0
     under_way_ns = max(0, received.received_ns - shown.stamp_ns) if same_clock(shown.publisher, own) else 0
+    if clock is not None and same_clock(shown.publisher, clock.publisher):
+        under_way_ns = max(0, received.received_ns - shown.stamp_ns + round(1e9 * clock.ahead_s))
     age_s = (there_ns + under_way_ns) / 1e9 + received.age_s(now_ns)
     return Picture(shown.data, age_s, heading(shown.pose) if isinstance(shown, messages.CameraImage) else 0.0)
 

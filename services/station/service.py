@@ -25,12 +25,13 @@ from services.process.exceptions import UnusableSetting
 from services.process.schedule import Schedule
 from services.station.company import Company
 from services.station.device_buttons import DeviceButtons
-from services.station.ears import Ears, came_s, message, picture, prediction_of, young
+from services.station.ears import Ears, came_s, message, prediction_of, young
 from services.station.frontend import Frontend
 from services.station.handover import GIVE, KEEP, HandOver
 from services.station.history import HistoryReader
 from services.station.live_view.stage import Stage
 from services.station.neighbours import Neighbours
+from services.station.own_path import OwnPath
 from services.station.page.view import PageView
 from services.station.press import REVOKE, STOP, Press
 from services.station.settings import settings
@@ -98,6 +99,7 @@ class StationService:
         self._open_network = open_network
         self._random = np.random.default_rng(seed)
         self._ears = Ears(bus)
+        self._path = OwnPath(self._ears, bus.identity, workflow_settings.holder)
         self._stop = StopButton(bus, self._ears.safety, workflow_settings.holder)
         self._hand_over = HandOver(bus, workflow_settings.holder)
         self._company = Company(bus)
@@ -144,7 +146,7 @@ class StationService:
             log.debug("%s -> %s", before.value, step.state.phase.value)
             if step.state.phase is Phase.RESETTING and step.state.placed is None:
                 self._drawn = None
-        self._publish(held, now_ns)
+        self._publish(self._path.seen(held), now_ns)
         self._pass_authority(now_ns, pressed, view)
         self._company.tell(self._attendance(), now_ns)
         return view
@@ -165,8 +167,8 @@ class StationService:
             self._page.show(self._page_view(now_ns, view))
 
     def figures(self) -> tuple[Figure, ...]:
-        """Of the page."""
-        return self._page.figures() if self._page is not None else ()
+        """Of the page, and how old its pictures are when they have been drawn."""
+        return (*self._page.figures(), *self._path.figures()) if self._page is not None else ()
 
     def close(self) -> None:
         """Close the page."""
@@ -284,16 +286,15 @@ class StationService:
         """What the page shows now."""
         ears = self._ears
         robot = ears.robot.latest()
-        latency = robot.message.applied_latency if robot is not None else -1.0
         return replace(
             self._words,
             safety=view.safety,
             robot=message(robot),
             robot_age_s=robot.age_s(now_ns) if robot is not None else math.inf,
-            latencies=(Figure("applied", latency, "s"),) if latency >= 0.0 else (),
+            path=self._path.stages(view.authority, view.robot),
             object_pose=message(ears.seen.latest()),
             force=self._stage.force(now_ns),
-            head=picture(ears.head, now_ns, self._bus.identity),
-            wrist=picture(ears.wrist, now_ns, self._bus.identity),
-            cloud=picture(ears.cloud, now_ns, self._bus.identity),
+            head=self._path.picture(ears.head, now_ns),
+            wrist=self._path.picture(ears.wrist, now_ns),
+            cloud=self._path.picture(ears.cloud, now_ns),
         )

@@ -60,7 +60,7 @@ def blueprint(eye: Eye) -> rrb.Blueprint:
                 ),
                 rrb.Tabs(
                     _series("Self-distance", entities.SELF_DISTANCE),
-                    _series("Latency", entities.LATENCY),
+                    _series("Latency", entities.SERIES_LATENCY),
                     active_tab=0,
                 ),
                 row_shares=[1.3, 1, 1, 1, 0.8],

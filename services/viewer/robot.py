@@ -5,6 +5,7 @@ from __future__ import annotations
 from protocol.messages import ExecutionState, Part, RobotState
 from protocol.topics import EXECUTION, ROBOT_STATE, SAFETY_STATE
 from services.bus.bus import Bus
+from services.bus.stages import stages
 from services.viewer import entities, series
 from services.viewer.journal import Journal
 from services.viewer.kinds import POSES
@@ -58,6 +59,7 @@ class Robot:
         series.log_following(self._run, robot.reference, robot.measured)
         series.log_correction(self._run, robot.offset, robot.turn)
         series.log_latency(self._run, robot.applied_latency)
+        series.log_stages(self._run, stages(robot=robot))
         self._tell(robot, now_ns)
         return robot
 

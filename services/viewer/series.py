@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import astuple
 
 import numpy as np
 import rerun as rr
 
 from protocol.messages import MasterState, Pose, Vector3
+from services.bus.stages import NAMES, Stages
 from services.viewer import entities, palette
 from services.viewer.kinds import SCALARS
 from services.viewer.run import Run
@@ -45,6 +47,8 @@ def log_legends(run: Run) -> None:
     """Name and colour what has a fixed number of lines."""
     for path, names in _LEGENDS.items():
         _log_legend(run, path, names, _COLOURS.get(path, palette.AXES))
+    for number, name in enumerate(NAMES):
+        _log_legend(run, f"{entities.STAGES}/{name}", [f"{name} [ms]"], palette.MANY[number:])
 
 
 def log_joint_legend(run: Run, names: Sequence[str]) -> None:
@@ -107,6 +111,13 @@ def log_latency(run: Run, latency_s: float) -> None:
     """From the operator's sample to its effect [s]; negative where it is not known."""
     if latency_s >= 0.0:
         run.row(entities.LATENCY, SCALARS, _milli([latency_s]))
+
+
+def log_stages(run: Run, known: Stages) -> None:
+    """Each stage between hand and eye that is known."""
+    for name, value_s in zip(NAMES, astuple(known), strict=True):
+        if value_s is not None:
+            run.row(f"{entities.STAGES}/{name}", SCALARS, _milli([value_s]))
 
 
 def _log_legend(run: Run, path: str, names: Sequence[str], colours: palette.Colours) -> None:

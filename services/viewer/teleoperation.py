@@ -5,6 +5,7 @@ from __future__ import annotations
 from protocol.messages import Controller, MasterState, OperatorInput, Trouble, Vector3
 from protocol.topics import AUTHORITY_STATE, MASTER_STATE, OPERATOR_INPUT
 from services.bus.bus import Bus
+from services.bus.stages import stages
 from services.viewer import entities, scene, series
 from services.viewer.journal import Journal, who_commands
 from services.viewer.news import News, NewsOfHolder
@@ -52,11 +53,13 @@ class Teleoperation:
             self._words.state(entities.KEYS, keys_held(held), now_ns)
             self._words.state(entities.PAGE, who_is_there(held), now_ns)
             self._draw_axes(held.controllers)
+            series.log_stages(self._run, stages(operator=held))
         master = self._master.take(holder)
         if master is None:
             return
         self._words.state(entities.ENGAGED, hand(master), now_ns)
         series.log_master(self._run, master)
+        series.log_stages(self._run, stages(master=master))
         if at is not None:
             scene.log_force(self._run, at, master.force)
 

@@ -20,10 +20,12 @@ from protocol import topics
 from protocol.codec import decode
 from protocol.exceptions import ProtocolError
 from protocol.messages import Mode, Phase
+from services.bus.stages import stages
 from services.bus.zenoh import Passing, open_session, watch
 from services.process.clock import SystemClock
 from services.process.isolation import retouch_command
 from sim.tasks import SCENES
+from tests.bench.support.path import OwnPath
 from tests.bench.support.results import Result, report
 
 RUN_TIMEOUT_S = 300.0
@@ -37,6 +39,7 @@ class Ear:
         self.clock = SystemClock()
         self.robot_stamps = []
         self.latencies = {}
+        self.path = OwnPath()
         self.pictures = {"head": [], "wrist": []}
         self.beats = {}
         self.haptic_p99 = []
@@ -65,6 +68,8 @@ class Ear:
         self.refining = state.mode is Mode.REFINE and state.phase is Phase.EXECUTE
         self.robot_stamps.append(state.stamp_ns)
         if self.refining and state.applied_latency >= 0.0:
+            if state.applied_sequence not in self.latencies:
+                self.path.keep(stages(robot=state))
             self.latencies[state.applied_sequence] = state.applied_latency
 
     def _picture(self, image):
@@ -144,6 +149,7 @@ def figures(ear, report, memory, began_ns):
         Result("haptic period p99, worst interval", float(np.max(ear.haptic_p99)), "ms"),
         Result("simulation behind the clock", _figure(robot, "simulation_lag"), "s"),
     ]
+    results += ear.path.results()  # nobody is at a page here: the first stage and the last are `deploy/bench station`'s
     for camera, pictures in ear.pictures.items():
         stamps, ages = np.array(pictures).T
         seconds_a_picture = float(np.median(np.diff(stamps))) / 1e9

@@ -25,10 +25,12 @@ from websockets.sync.client import connect
 from protocol import topics
 from protocol.codec import decode
 from protocol.messages import Mode, Phase
+from services.bus.stages import stages
 from services.bus.zenoh import open_session, watch
 from services.process.config import load
 from services.station.page.link import FRAME_HEADER
 from services.station.page.said import Held, Hello
+from tests.bench.support.path import OwnPath
 from tests.bench.support.results import Result, report
 from tests.bench.support.teaching import SCENE as TAUGHT
 from tests.bench.support.teaching import teach
@@ -195,12 +197,20 @@ def refine(operator, witness, endpoint):
     said, displaced, applied = np.percentile(latencies, 50, axis=0)
     pictures = operator.page.evaluate("window.drawn") - drawn
     foresights, ages = (np.array(operator.page.evaluate(f"window.{name}")) for name in ("foresights", "ages"))
+    path = OwnPath()
+    for said in heard[topics.OPERATOR_INPUT]:
+        path.keep(stages(operator=said))
+    for master in heard[topics.MASTER_STATE]:
+        path.keep(stages(master=master))
+    for robot in heard[topics.ROBOT_STATE]:
+        path.keep(stages(robot=robot))
     held = np.mean([robot.phase is Phase.HOLD for robot in heard[topics.ROBOT_STATE]])
     return [
         Result("key to displacement applied, p50", float(applied), "ms", 15.0),
         Result("of it, until the station says the key", float(said), "ms"),
         Result("of it, until the master is displaced", float(displaced), "ms"),
         Result("key to displacement applied, p99", float(np.percentile(latencies[:, 2], 99)), "ms", 50.0),
+        *path.results(),
         Result("taps that moved the robot", len(latencies), "1"),
         Result("robot holds though somebody is at the keys", 100.0 * float(held), "%"),
         Result("3-D view, pictures a second", pictures / took, "Hz"),

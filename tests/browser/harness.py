@@ -18,8 +18,9 @@ from lessons import history
 
 from lfd.motion.rotations import rotate
 from protocol import messages
-from protocol.messages import Box, Figure, Light, Mode, Phase, Pose
+from protocol.messages import Box, Light, Mode, Phase, Pose
 from services.bus.arrays import motion_to_wire, points_to_wire, to_wire
+from services.bus.stages import Stages
 from services.process.clock import SystemClock
 from services.process.config import StationSection
 from services.station.live_view.description import describe
@@ -137,7 +138,7 @@ def working_view() -> PageView:
         head=Picture(picture("head"), 0.02),
         wrist=Picture(picture("wrist"), 0.02, yaw=0.5),
         cloud=Picture(cloud(), 0.05),
-        latencies=(Figure("hand_to_robot", 0.024, "s"),),
+        path=Stages(capture=0.012, way=0.018, apply=0.006, motion=0.020, picture=0.031),
     )
 
 

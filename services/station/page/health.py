@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import astuple
+
 from protocol.messages import Prediction
 from services.bus.predictions import LITTLE
+from services.bus.stages import Stages
 from services.station.page.readout import is_stale, length, limited, span
 from services.station.page.standing import Standing
 from services.station.page.values import Values
@@ -11,7 +14,10 @@ from services.station.page.view import Shown
 from services.station.words.predictions import certainty
 from services.station.words.table import say
 
-FIGURES = ("phase", "age", "latency", "link", "limited", "object", "model", "prediction", "authority", "network")
+FIGURES = (
+    *("phase", "age", "latency", "path", "stages", "link", "limited", "object", "model", "prediction", "authority"),
+    "network",
+)
 """What stands behind the one word of health, in order; the link is measured by the page's script."""
 
 SLOW_S = 0.1
@@ -25,7 +31,7 @@ def health(shown: Shown) -> Values:
     """In a word whether data and links are as they should be: the worst that there is to say."""
     view = shown.view
     recording = view.recording
-    latency_s = max((figure.value for figure in view.latencies), default=0.0)
+    latency_s = view.robot.applied_latency if view.robot is not None else 0.0
     pictures_s = max((one.age_s + shown.elapsed_s for one in (view.head, view.wrist) if one is not None), default=0.0)
     if view.robot is None:
         tone, words = "bad", say("health.unheard")
@@ -54,7 +60,9 @@ def figures(shown: Shown) -> Values:
         "figure-phase": say("figure.unknown") if robot is None else say(f"robot.{robot.phase.value}"),
         "figure-age": span(shown.robot_age_s),
         "figure-age@data-tone": "bad" if is_stale(shown) else "good",
-        "figure-latency": " / ".join(span(figure.value) for figure in view.latencies) or say("figure.none"),
+        "figure-latency": say("figure.none") if robot is None else span(robot.applied_latency),
+        "figure-path": _path(view.path),
+        "figure-stages": _stages(view.path),
         "figure-limited": clamped or say("figure.nothing"),
         "figure-object": say("figure.unseen") if view.object_pose is None else length(view.object_pose.error),
         "figure-model": say("figure.none")
@@ -66,6 +74,19 @@ def figures(shown: Shown) -> Values:
         "figure-network@data-tone": "warn" if view.open_network else "good",
         "limited": say("pad.limited", what=clamped) if clamped else "",
     }
+
+
+def _path(path: Stages) -> str:
+    """From hand to eye; of what is known no more than that."""
+    if not path.known:
+        return say("figure.none")
+    return span(path.total) if path.complete else say("figure.at_least", least=span(path.total))
+
+
+def _stages(path: Stages) -> str:
+    """The same, stage by stage, as their heading names them [ms]."""
+    each = ("?" if value is None else f"{1e3 * value:.0f}" for value in astuple(path))
+    return say("duration.milliseconds", number=" + ".join(each)) if path.known else say("figure.none")
 
 
 def commander(shown: Shown, standing: Standing) -> Values:

@@ -60,6 +60,7 @@ class Desk:
         self._tabs: dict[int, Tab] = {}
         self._seat = Seat()
         self._held: Held | None
+        self._captured_ns = 0
         self._let_go: bool
         self._heard_ns: int
         self._sat_ns: int
@@ -127,6 +128,8 @@ class Desk:
                 focused=True,
                 controllers=held.controllers,
                 yaw=held.yaw,
+                captured_ns=self._captured_ns,
+                drawn=-1.0 if held.picture_ms is None else held.picture_ms / 1e3,
             )
 
     def attendance(self) -> Attendance:
@@ -221,6 +224,7 @@ class Desk:
             self.late += 1
             return
         before, self._held = self._held, message
+        self._captured_ns = known.captured_ns(message, now_ns) if known is not None else 0
         if before is None or before.keys != message.keys or before.focused != message.focused:
             self.call.set()
         self._heard_ns = now_ns

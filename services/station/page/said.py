@@ -54,6 +54,9 @@ class Held(_FromBrowser, frozen=True, tag="held"):
         cloud: the live view shows the point cloud.
         yaw: by which the person's forward is turned to the left from the robot's, as far as the keys are to follow the
             view [rad].
+        waited_ms: how long what changed it has waited in the browser [ms].
+        way_ms: how long what the tab says is under way to here, as its round trips tell [ms]; None before the first.
+        picture_ms: age of the newest camera picture when it had been drawn [ms]; None before the first.
     """
 
     sequence: Count
@@ -65,6 +68,9 @@ class Held(_FromBrowser, frozen=True, tag="held"):
     drawn: tuple[Count, Count, Count, Count]
     cloud: bool = False
     yaw: Yaw = 0.0
+    waited_ms: Milliseconds = 0.0
+    way_ms: Milliseconds | None = None
+    picture_ms: Milliseconds | None = None
 
 
 class Pressed(_FromBrowser, frozen=True, tag="pressed"):

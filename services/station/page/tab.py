@@ -36,6 +36,17 @@ class Tab:
         self._states = Freshness(DEAD_MAN_NS, _OURS, rate_hz, clock)
         self._presses = Freshness(LATE_PRESS_NS, _OURS, rate_hz, clock)
 
+    def captured_ns(self, message: Held, now_ns: int) -> int:
+        """When the browser read what it says, by our clock, as well as round trips tell [ns]; 0 where they do not yet.
+
+        Args:
+            message: the newest, which `has_sent_in_time`.
+            now_ns: when it came [ns].
+        """
+        if message.way_ms is None:
+            return 0
+        return max(0, now_ns - max(0, self._states.age_ns) - round(1e6 * (message.way_ms + message.waited_ms)))
+
     def has_sent_in_time(self, message: Held | Pressed, now_ns: int) -> bool:
         """Whether the message is new and no older than its kind may be.
 

@@ -12,7 +12,6 @@ from protocol.messages import (
     Attendance,
     AuthorityState,
     ExecutionState,
-    Figure,
     Light,
     MasterState,
     ModelState,
@@ -25,6 +24,7 @@ from protocol.messages import (
     Vector3,
     Verdict,
 )
+from services.bus.stages import Stages
 from services.process.clock import Clock
 from services.station.live_view.drawing import Drawing
 from services.station.neighbours import Neighbour
@@ -70,7 +70,7 @@ class PageView:
         authority_is_mine: this station holds the authority.
         neighbours: the other robots of the network.
         attendances: who is at which station's page.
-        latencies: measured delays worth showing, in seconds.
+        path: how long each stage takes from this operator's hand to the robot, and back to the eye.
         notice: one line about what went wrong last; empty where nothing did.
         open_network: others can listen in on the robot's network, and command on it.
     """
@@ -97,7 +97,7 @@ class PageView:
     head: Picture | None = None
     wrist: Picture | None = None
     cloud: Picture | None = None
-    latencies: tuple[Figure, ...] = ()
+    path: Stages = field(default_factory=Stages)
     notice: str = ""
     open_network: bool = False
 

@@ -231,3 +231,11 @@ def test_every_state_says_which_of_the_robot_s_had_come_and_how_long_before():
     held_ns = state.echo_held_ns
     state = desk.run(0.02, robot=None)
     assert state.echo_held_ns - held_ns == pytest.approx(2e7)
+
+
+def test_it_tells_how_long_a_key_took_from_the_page_to_its_sample():
+    desk = Desk()
+    desk.run(0.1, keys=())
+    assert desk.run(0.1, captured_ns=desk.clock.now_ns()).capture == pytest.approx(PERIOD)
+    assert desk.run(0.1, keys=("KeyW",)).capture == -1.0, "a page that does not say when"
+    assert any(figure.name == "stage_capture" for figure in desk.service.figures())

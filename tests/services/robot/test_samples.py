@@ -49,6 +49,14 @@ def test_how_long_a_sample_was_on_its_way_is_known_by_the_round_trip(far):
     assert far.samples.way_s(sample) == pytest.approx(0.05, abs=1e-6)
 
 
+def test_the_newest_way_and_how_far_the_clocks_are_apart_are_told(far):
+    assert far.samples.newest_way_s is None
+    assert far.samples.ahead_s is None
+    far.send(0.05, 0.05)
+    assert far.samples.newest_way_s == pytest.approx(0.05, abs=1e-6)
+    assert far.samples.ahead_s == pytest.approx(-AHEAD_NS / 1e9, abs=1e-3), "the master's clock is ahead"
+
+
 def test_what_was_on_its_way_for_longer_than_the_bound_never_counts_and_is_counted(far):
     assert far.send(0.3, 0.3) is None
     assert far.samples.late == 1

@@ -78,7 +78,8 @@ class Site:
     def run(self, seconds):
         for _ in range(round(seconds * self.service.rate_hz)):
             self.clock.advance(1.0 / self.service.rate_hz)
-            robot = RobotState(measured=POSE, reference=POSE, phase=Phase.IDLE, applied_latency=self.applied_latency)
+            applied = {"applied_latency": self.applied_latency, "applied_way": 0.8 * self.applied_latency}
+            robot = RobotState(measured=POSE, reference=POSE, phase=Phase.IDLE, **applied)
             self.other.publish(topics.ROBOT_STATE, robot)
             self.other.publish(
                 topics.MODEL_STATE, ModelState(kind="adaptive", version=1, demonstrations=1, updates=0, scene="s")

@@ -5,6 +5,7 @@ import pytest
 
 from protocol import queries, topics
 from protocol.messages import AuthorityState, Light, OperatorInput, Person, Role, SafetyState
+from services.bus.stages import Stages
 from services.station import service
 from services.station.press import Press
 from tests.services.station.site import BY_HAND, Site, Tab, spied
@@ -246,10 +247,14 @@ def test_the_workflow_sees_whether_a_key_is_held_that_steers(key, steers, monkey
     assert view.steering is steers
 
 
-@pytest.mark.parametrize(("latency", "told"), [(-1.0, []), (0.0, [0.0]), (0.5, [0.5])])
-def test_the_page_tells_how_late_input_is_applied_once_that_was_measured(latency, told):
+def test_the_page_tells_the_way_from_hand_to_eye_of_who_commands():
     page = Tab()
+    page.held = msgspec.structs.replace(page.held, drawn=0.03)
     site = Site(page, settings=BY_HAND)
-    site.applied_latency = latency
+    site.applied_latency = 0.5
     site.run(0.1)
-    assert [figure.value for figure in page.shown.latencies] == told
+    assert page.shown.path.known == (0.03,), "whoever does not command is not applied"
+    site.grant()
+    site.run(0.1)
+    assert page.shown.path == Stages(way=0.4, apply=pytest.approx(0.1), picture=0.03)
+    assert site.service.figures()[-1].name == "stage_picture"

@@ -5,10 +5,14 @@ import gzip
 import msgspec
 import pytest
 
+from protocol.topics import RECORDING
 from services.bus.memory import MemoryNetwork
 from services.process.clock import ManualClock
 from services.process.config import Configuration, RobotSection, ViewerSection
 from tests.ports import free_port
+from tests.services.viewer.read import Read
+
+TICK_S = 1 / 30
 
 
 @pytest.fixture
@@ -49,3 +53,22 @@ def build(configuration, files, monkeypatch):
 @pytest.fixture
 def system(build):
     return build("dishwasher")
+
+
+@pytest.fixture
+def record(system):
+    """A function that records ticks, each of (topic, message) pairs, and reads the file."""
+    network, clock, viewer = system
+    bus = network.bus()
+    announced = bus.subscribe(RECORDING)
+
+    def record_(*ticks):
+        for messages in ticks:
+            for topic, message in messages:
+                bus.publish(topic, message)
+            viewer.step(clock.now_ns())
+            clock.advance(TICK_S)
+        viewer.close()
+        return Read(announced.latest().message.path)
+
+    return record_

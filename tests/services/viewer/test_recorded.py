@@ -39,7 +39,6 @@ from protocol.topics import (
     OPERATOR_INPUT,
     POINT_CLOUD,
     PREDICTION,
-    RECORDING,
     ROBOT_STATE,
     SAFETY_STATE,
     TEACHING_STATE,
@@ -47,11 +46,9 @@ from protocol.topics import (
 )
 from services.bus.arrays import motion_to_wire, points_to_wire
 from tests.services.predictions import prediction
-from tests.services.viewer.read import Read
 
 pytestmark = pytest.mark.sim
 
-TICK_S = 1 / 30
 UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 HERE = Pose((0.5, 0.0, 0.5), UPRIGHT)
 ANNA = AuthorityState(operator="anna", holder="station-anna", epoch=3, expires_in=1.0)
@@ -75,25 +72,6 @@ TEACHING = TeachingState(
     updates=1,
     updates_allowed=8,
 )
-
-
-@pytest.fixture
-def record(system):
-    """A function that records ticks, each of (topic, message) pairs, and reads the file."""
-    network, clock, viewer = system
-    bus = network.bus()
-    announced = bus.subscribe(RECORDING)
-
-    def record_(*ticks):
-        for messages in ticks:
-            for topic, message in messages:
-                bus.publish(topic, message)
-            viewer.step(clock.now_ns())
-            clock.advance(TICK_S)
-        viewer.close()
-        return Read(announced.latest().message.path)
-
-    return record_
 
 
 def held(*keys, holder="station-anna", **state):

@@ -29,11 +29,11 @@ class BrowserTab:
     def send(self, message):
         self.desk.receive(self.tab, msgspec.json.encode(message), self.now_ms * MS, self.account)
 
-    def hold(self, *keys, focused=True, visible=True, controllers=(), later_ms=PERIOD_MS, stamp_ms=None):
+    def hold(self, *keys, focused=True, visible=True, controllers=(), later_ms=PERIOD_MS, stamp_ms=None, **told):
         self.now_ms += later_ms
         self.sequence += 1
         stamp = self.now_ms if stamp_ms is None else stamp_ms
-        self.send(Held(self.sequence, float(stamp), keys, visible, focused, controllers, (0, 0, 0, 0)))
+        self.send(Held(self.sequence, float(stamp), keys, visible, focused, controllers, (0, 0, 0, 0), **told))
 
     def keep_on(self, seconds, *keys, **state):
         for _ in range(round(seconds * 1_000 / PERIOD_MS)):

@@ -6,8 +6,9 @@ import msgspec
 import pytest
 from views import SEATED, robot, shown
 
-from protocol.messages import AuthorityState, Figure, ModelState, Phase, Recording, Way
+from protocol.messages import AuthorityState, ModelState, Phase, Recording, Way
 from services.bus.arrays import motion_to_wire
+from services.bus.stages import Stages
 from services.station.page.health import commander, figures, health
 from services.station.page.view import Picture
 from tests.services.predictions import prediction
@@ -15,10 +16,10 @@ from tests.services.predictions import prediction
 MOTION = motion_to_wire([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], [[1.0, 0.0, 0.0, 0.0]] * 2, 1.0)
 LOOKING_ON = replace(SEATED, armed=False)
 WELL = {
-    "robot": robot(Phase.IDLE),
+    "robot": robot(Phase.IDLE, applied_latency=0.024),
     "robot_age_s": 0.01,
     "model": ModelState(kind="adaptive", version=7, demonstrations=12, updates=2, scene="table"),
-    "latencies": (Figure("applied", 0.024, "s"),),
+    "path": Stages(capture=0.012, way=0.018, apply=0.006, motion=0.020, picture=0.031),
 }
 
 
@@ -45,7 +46,7 @@ def test_an_authority_that_nobody_holds_is_nobody_s():
         ({"model": None}, "warn", "The model is not heard"),
         ({"head": Picture(b"", 0.2), "wrist": Picture(b"", 2.9)}, "warn", "Pictures 2.9 s old"),
         ({"head": Picture(b"", 0.2)}, "good", "All well"),
-        ({"latencies": (Figure("applied", 0.12, "s"),)}, "warn", "Slow: 120 ms from hand to robot"),
+        ({"robot": robot(Phase.IDLE, applied_latency=0.12)}, "warn", "Slow: 120 ms from hand to robot"),
         (
             {"recording": Recording(path="a", viewer_url="", recording_id="r", fault="full")},
             "warn",
@@ -61,6 +62,19 @@ def test_the_figures_say_what_was_measured():
     told = figures(shown(**WELL))
     assert (told["figure-phase"], told["figure-age"]) == ("stands", "10 ms")
     assert (told["figure-latency"], told["figure-model"]) == ("24 ms", "v7, 2 learnt")
+
+
+@pytest.mark.parametrize(
+    ("path", "total", "stages"),
+    [
+        (WELL["path"], "87 ms", "12 + 18 + 6 + 20 + 31 ms"),
+        (Stages(way=0.018, apply=0.006, picture=0.031), "at least 55 ms", "? + 18 + 6 + ? + 31 ms"),
+        (Stages(), "none", "none"),
+    ],
+)
+def test_the_way_from_hand_to_eye_is_told_by_its_stages_and_what_is_unknown_counts_as_nothing(path, total, stages):
+    told = figures(shown(**{**WELL, "path": path}))
+    assert (told["figure-path"], told["figure-stages"]) == (total, stages)
 
 
 def test_what_is_limited_is_said_in_a_person_s_words_and_once():

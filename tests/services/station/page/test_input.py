@@ -237,3 +237,25 @@ def test_no_bytes_break_the_desk(payload):
     desk = Desk()
     assert desk.receive(1, payload, 0) is None
     assert desk.dropped == 1
+
+
+def test_when_the_browser_read_what_is_held_is_known_by_its_round_trips(browser):
+    """Half of the fastest is the way; what comes later than the fastest was under way for so much longer."""
+    browser.hold("KeyE", way_ms=3.0)
+    assert browser.now_ms * MS - browser.input().captured_ns == 3 * MS
+    browser.hold("KeyE", "KeyQ", way_ms=3.0, waited_ms=1.5)
+    assert browser.now_ms * MS - browser.input().captured_ns == 4.5 * MS
+    browser.hold("KeyE", way_ms=3.0, later_ms=60, stamp_ms=browser.now_ms + 20)
+    assert browser.now_ms * MS - browser.input().captured_ns == pytest.approx(43 * MS, rel=2e-3), "clocks may drift"
+
+
+def test_before_any_round_trip_nobody_knows_when(browser):
+    browser.hold("KeyE")
+    assert browser.input().captured_ns == 0
+
+
+def test_how_old_a_picture_was_when_it_had_been_drawn_is_passed_on(browser):
+    browser.hold()
+    assert browser.input().drawn == -1.0
+    browser.hold(picture_ms=31.0)
+    assert browser.input().drawn == pytest.approx(0.031)

@@ -5,6 +5,7 @@ const KEYS_AT_MOST = 32;
 export class Held {
   constructor(changed, controllers) {
     this.keys = new Set();
+    this.since = null;
     this.controllers = controllers;
     this.changed = changed;
     window.addEventListener("blur", () => this.clear());
@@ -13,23 +14,33 @@ export class Held {
     document.addEventListener("visibilitychange", () => this.clear());
   }
 
-  press(code) {
+  // at: when it happened, by the browser's clock [ms].
+  press(code, at) {
     if (this.keys.has(code) || this.keys.size >= KEYS_AT_MOST || !/^[A-Za-z0-9]{1,32}$/.test(code)) return;
     this.keys.add(code);
+    this.since = at;
     this.changed();
   }
 
   // A release that cannot be told to be of one key lets go of all; while Meta is down some systems swallow the others'.
-  release(code, isUnknown) {
+  release(code, isUnknown, at) {
     if (!isUnknown && !code.startsWith("Meta") && !this.keys.has(code)) return;
     if (isUnknown || code.startsWith("Meta")) this.keys.clear();
     else this.keys.delete(code);
+    this.since = at;
     this.changed();
   }
 
   clear() {
     this.keys.clear();
     this.changed();
+  }
+
+  // How long the newest change has waited to be said, once [ms].
+  waited() {
+    const since = this.since;
+    this.since = null;
+    return since === null ? 0 : Math.max(0, performance.now() - since);
   }
 
   state() {

@@ -10,11 +10,13 @@ export class Pictures {
   constructor() {
     this.drawn = [0, 0];
     this.captured = [-Infinity, -Infinity];
+    this.age = null;
   }
 
   // A new connection counts its pictures anew; those still being decoded count for the old one.
   restart() {
     this.drawn = [0, 0];
+    this.age = null;
   }
 
   // way: how long it was under way to here [ms]; its age when it left the station stands in it.
@@ -42,7 +44,8 @@ export class Pictures {
     }
     canvas.getContext("2d").drawImage(bitmap, 0, 0);
     this.captured[camera] = captured;
-    canvas.dataset.ageMs = (performance.now() - captured).toFixed(1); // for whoever measures
+    this.age = Math.max(0, performance.now() - captured); // of the newest when it had been drawn [ms]
+    canvas.dataset.ageMs = this.age.toFixed(1); // for whoever measures
   }
 
   showAges() {

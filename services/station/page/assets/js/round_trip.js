@@ -14,6 +14,11 @@ export class RoundTrip {
     return this.times.length === 0 ? 0 : Math.max(0, Math.min(...this.times)) / 2;
   }
 
+  // The same for the station, which judges by it how long what is said here was under way; null before the first.
+  get told() {
+    return this.times.length === 0 ? null : this.way;
+  }
+
   hear([stamp, waited]) {
     if (stamp === 0) return;
     this.times = [...this.times, performance.now() - stamp - waited].slice(-KEPT);

@@ -66,7 +66,7 @@ setInterval(say, INPUT_PERIOD_MS);
 setInterval(showAges, AGES_PERIOD_MS);
 setInterval(() => devices.draw(), DRAW_PERIOD_MS);
 window.addEventListener("keydown", down, { capture: true });
-window.addEventListener("keyup", (event) => held.release(keyboard.nameOf(event), keyboard.placeOf(event) === ""), { capture: true });
+window.addEventListener("keyup", up, { capture: true });
 document.addEventListener("click", clicked);
 swapOnPress();
 new Tour();
@@ -110,8 +110,9 @@ function onSilence() {
 
 function say() {
   const { drawn, clouds, wantsCloud } = liveView;
-  const seen = { drawn: [...pictures.drawn, drawn, clouds], cloud: wantsCloud };
-  link.sayHeld({ ...held.state(), ...seen, yaw: following.yaw });
+  const seen = { drawn: [...pictures.drawn, drawn, clouds], cloud: wantsCloud, picture_ms: pictures.age };
+  const when = { waited_ms: held.waited(), way_ms: roundTrip.told };
+  link.sayHeld({ ...held.state(), ...seen, ...when, yaw: following.yaw });
 }
 
 function changed() {
@@ -146,7 +147,11 @@ function down(event) {
   if (event.repeat) return;
   if (isSpace(event)) actions.ask(document.querySelector('[data-action="finish"]'));
   if (timeline.shortcut(code)) return;
-  held.press(code);
+  held.press(code, event.timeStamp);
+}
+
+function up(event) {
+  held.release(keyboard.nameOf(event), keyboard.placeOf(event) === "", event.timeStamp);
 }
 
 function clicked(event) {
