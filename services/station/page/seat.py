@@ -111,8 +111,11 @@ class Seat:
         return self.left_ns(now_ns) <= 0 and self.give()
 
     def left_ns(self, now_ns: int) -> int:
-        """Until silence answers the question; 0 where there is none."""
-        return ASKED_NS - (now_ns - self.question.since_ns) if self.question is not None else 0
+        """Until silence answers the question; 0 where there is none. Nobody's seat is kept only for whoever left it."""
+        if self.question is None:
+            return 0
+        asked_ns = ASKED_NS - (now_ns - self.question.since_ns)
+        return asked_ns if self.tab is not None else min(asked_ns, RESERVED_NS + 1 - (now_ns - self._left_ns))
 
     def _sit(self, tab: int, token: str) -> None:
         self.tab = tab

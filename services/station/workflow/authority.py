@@ -95,16 +95,24 @@ def _granted(state: Workflow, view: View, epoch: int) -> Workflow:
         watches=False,
         warned=False,
         unanswered=None,
-        event=say("event.back") if state.event == say("event.lost") else state.event,
+        event=_joined(say("event.back"), _news(state.event)) if _tells_of_a_loss(state.event) else state.event,
     )
-    if not runs(state, view) or state.episode is None:
+    if state.episode is None:
         return to(granted, Phase.LOOKING, view)
+    if not runs(state, view):
+        return to(replace(granted, episode=None, last=None, taught=None), Phase.LOOKING, view, event=gone(state, view))
     number = state.episode.number or (view.robot.episode if view.robot is not None else 0)
     answer = state.unanswered.answer if state.unanswered is not None else None
     asked = state.offered & unanswered.ANSWERS
     return to(
         granted, Phase.EXECUTING, view, episode=replace(state.episode, number=number), wants=answer, offered=asked
     )
+
+
+def gone(state: Workflow, view: View) -> str:
+    """Why nothing comes any more of the episode that the robot was told to run."""
+    restarted = view.robot is not None and state.episode is not None and view.robot.publisher != state.episode.robot
+    return say("event.restarted") if restarted else say("event.another_episode")
 
 
 def runs(state: Workflow, view: View) -> bool:
@@ -121,10 +129,10 @@ def heard(state: Workflow, view: View, settings: Settings) -> Workflow:
     """With what the robot says of itself and of the authority."""
     authority = view.authority
     mine = authority is not None and (authority.holder, authority.epoch) == (settings.holder, state.epoch)
-    old = state.event == say("event.back") and view.now_s - state.granted_s > TOLD_S
+    old = _tells_of_a_loss(state.event) and state.holding and view.now_s - state.granted_s > TOLD_S
     return replace(
         state,
-        event="" if old else state.event,
+        event=_news(state.event) if old else state.event,
         heard_s=view.now_s if view.robot is not None else state.heard_s,
         confirmed=state.confirmed or (state.holding and mine),
     )
@@ -142,10 +150,26 @@ def lost(state: Workflow, view: View, settings: Settings) -> Workflow | None:
             return to(dropped, Phase.WATCHING, view, event=reason)
         asked = unanswered.kept(state, view)
         offered = state.offered & unanswered.ANSWERS if asked is not None else frozenset()
-        return to(dropped, Phase.WAITING, view, event=reason, unanswered=asked, offered=offered)
+        event = _joined(reason, _news(state.event)) if reason == say("event.lost") else reason
+        return to(dropped, Phase.WAITING, view, event=event, unanswered=asked, offered=offered)
     if state.pressed and view.now_s - state.heard_s > UNHEARD_S:
         return to(state, Phase.DECIDING, view, pressed=False, event=say("event.unheard"))
     return None
+
+
+def _tells_of_a_loss(event: str) -> bool:
+    return event.startswith((say("event.lost"), say("event.back")))
+
+
+def _news(event: str) -> str:
+    """What was told besides a loss of the authority, which may come and go while it is news."""
+    for told in (say("event.back"), say("event.lost")):
+        event = event.removeprefix(told).strip()
+    return event
+
+
+def _joined(loss: str, news: str) -> str:
+    return f"{loss} {news}".strip()
 
 
 def _loss(state: Workflow, view: View, settings: Settings) -> str:

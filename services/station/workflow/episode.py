@@ -18,7 +18,7 @@ from services.station.words.table import say
 from services.station.workflow import editing, going
 from services.station.workflow.action import Action
 from services.station.workflow.asking import RETRY_S, ask, not_done, to
-from services.station.workflow.authority import runs
+from services.station.workflow.authority import gone, runs
 from services.station.workflow.state import WHOLE, Episode, Phase, Place, Settings, Workflow
 from services.station.workflow.view import Ask, Step, View
 
@@ -157,12 +157,19 @@ def starting(state: Workflow, view: View, settings: Settings) -> Step:
         again = Phase.PREDICTING if state.origin is Origin.MODEL else Phase.PLANNING
         return refused(state, view, settings, queries.EXECUTE, reply, again=again)
     if isinstance(reply, Step):
-        told = Episode(reply.state.intent, robot.publisher, part=part) if reply.ask is not None else state.episode
+        if reply.ask is None:
+            return reply
+        told = Episode(reply.state.intent, robot.publisher, part=part)
         return Step(replace(reply.state, episode=told), reply.ask)
-    started = replace(state.episode, number=reply.episode) if state.episode is not None else None
+    started = started_as(state, reply.episode, view)
     paced = going.begun(state, settings, part)
     begun = {"episode": started, "pressed": False, "led": False, "let_go": False, "going": paced}
     return Step(to(state, Phase.EXECUTING, view, **begun))
+
+
+def started_as(state: Workflow, number: int, view: View) -> Episode | None:
+    """The episode that was asked for, now that the robot has begun it under this number."""
+    return replace(state.episode, number=number, begun_s=view.now_s) if state.episode is not None else None
 
 
 def refused(
@@ -189,7 +196,7 @@ def executing(state: Workflow, view: View, settings: Settings) -> Step:
     """Watch, until the result has come; the operator ends the episode, or lets a held one go on."""
     ended = _without_result(state, view, settings)
     if ended:
-        return Step(to(state, Phase.DECIDING, view, episode=None, event=ended))
+        return Step(to(state, Phase.DECIDING, view, episode=None, last=None, taught=None, event=ended))
     state = editing.heard(going.heard(state, view), view)
     wanted = _wanted(state, view, settings)
     if wanted is not state.wants:
@@ -263,9 +270,9 @@ def _without_result(state: Workflow, view: View, settings: Settings) -> str:
     A robot that is idle proves nothing: its result may be on its way, and is repeated until it comes.
     """
     if not runs(state, view):
-        restarted = view.robot is not None and state.episode is not None and view.robot.publisher != state.episode.robot
-        return say("event.restarted") if restarted else say("event.another_episode")
+        return gone(state, view)
     # A person may let the robot hold for as long as they like; a script that does is broken.
-    if settings.scripted and view.now_s - state.since_s > settings.duration_s(state.mode) + EPISODE_GRACE_S:
+    begun_s = state.episode.begun_s if state.episode is not None else state.since_s
+    if settings.scripted and view.now_s - begun_s > settings.duration_s(state.mode) + EPISODE_GRACE_S:
         return say("event.lost_episode")
     return ""

@@ -7,7 +7,7 @@ from dataclasses import replace
 from protocol import queries
 from protocol.messages import Method, Mode
 from services.station.workflow.asking import ask, to
-from services.station.workflow.episode import press, refused
+from services.station.workflow.episode import press, refused, started_as
 from services.station.workflow.state import Episode, Phase, Settings, Workflow
 from services.station.workflow.view import Step, View
 
@@ -31,6 +31,6 @@ def taking_up(state: Workflow, view: View, settings: Settings) -> Step:
     if isinstance(reply, Step):
         told = Episode(reply.state.intent, robot.publisher) if reply.ask is not None else state.episode
         return Step(replace(reply.state, episode=told), reply.ask)
-    started = replace(state.episode, number=reply.episode) if state.episode is not None else None
+    started = started_as(state, reply.episode, view)
     led = state.approach.method is Method.WAYPOINTS
     return Step(to(state, Phase.EXECUTING, view, episode=started, pressed=False, let_go=False, led=led))

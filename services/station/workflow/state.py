@@ -101,6 +101,7 @@ class Episode:
         request: number of the request for it, which stands in its result.
         robot: the robot process' incarnation that was told.
         number: the robot's own for it; 0 until the robot has said so.
+        begun_s: when the robot said so [s].
         finishing: the operator asked to end it.
         part: of the motion in which corrections count.
     """
@@ -108,6 +109,7 @@ class Episode:
     request: int
     robot: int
     number: int = 0
+    begun_s: float = 0.0
     finishing: bool = False
     part: Part = WHOLE
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 
-from protocol.messages import Light, Mode, Origin, Outcome, RobotState, SafetyState, TeachingState
+from protocol.messages import Light, Method, Mode, Origin, Outcome, RobotState, SafetyState, TeachingState
 from protocol.messages import Phase as RobotPhase
 from services.station.words.heard import heard
 from services.station.words.predictions import certainty, way_taken
@@ -19,13 +19,15 @@ from services.station.workflow.learning import confidence
 from services.station.workflow.state import Phase, Settings, Workflow
 from services.station.workflow.view import View
 
+_NO_HAND = "no hand"
+
 _HOLDS = (
     ("nobody holds", "authority"),
     ("no operator", "absent"),
     ("nothing was heard", "unheard"),
     ("the operator's keys or device were not heard", "unheard"),
     ("the operator's keys or device are heard", "late"),
-    ("no hand", "hand"),
+    (_NO_HAND, "hand"),
 )
 """How what keeps the robot from going on begins, and the words for whoever stands at the page."""
 
@@ -34,6 +36,15 @@ _WAITS = (("it held for", "long"), ("it was asked for under another", "other"))
 
 _KEPT_BY = re.compile(r" \((.*)\)$")
 """What had kept it, behind why it waits."""
+
+
+_PARTLY = {
+    Method.REFINE: "workflow.teach_part",
+    Method.UNKNOWN: "workflow.teach_part",
+    Method.WAYPOINTS: "workflow.teach_waypoints",
+    Method.DEMONSTRATE: "workflow.teach_demonstration",
+}
+"""What to do with what was shown and did not succeed."""
 
 
 def teaching_state(state: Workflow, view: View, settings: Settings) -> TeachingState:
@@ -132,7 +143,7 @@ def _text(state: Workflow, view: View, settings: Settings) -> str:
 def _without(state: Workflow, view: View, settings: Settings) -> str:
     """Without the authority: what is waited for, or who has it and what can be done."""
     if _asked(state) and view.robot is not None:
-        return _holding(view.robot)
+        return _holding(state, view.robot)
     if state.phase is Phase.ACQUIRING:
         return say("workflow.acquiring")
     taker = another(view, settings)
@@ -158,11 +169,13 @@ def _deciding(state: Workflow, view: View, settings: Settings) -> str:
     """How the last attempt was, and the one thing to do."""
     outcome = f"{outcome_text(state.last, view)} " if state.last else ""
     if state.taught is not None:
-        return f"{outcome}{say('workflow.teach' if state.taught.whole else 'workflow.teach_part')}"
+        return f"{outcome}{say('workflow.teach' if state.taught.whole else _PARTLY[state.taught.method])}"
     if state.unseen:
         return f"{outcome}{say('workflow.unseen')}"
     if state.last:
-        return f"{outcome}{say(f'workflow.then_{recommended(state, settings).value}')}"
+        then = recommended(state, settings)
+        leads_again = then is Action.LEAD and state.approach.method is Method.DEMONSTRATE
+        return f"{outcome}{say('workflow.then_show' if leads_again else f'workflow.then_{then.value}')}"
     if state.warned and state.prediction is not None:
         return say("workflow.little_known", known=certainty(state.prediction))
     return say("workflow.ready")
@@ -173,15 +186,18 @@ def _executing(state: Workflow, view: View) -> str:
     if robot is None:
         return say("workflow.unheard")
     if robot.phase is RobotPhase.HOLD:
-        return _holding(robot)
+        return _holding(state, robot)
     if robot.phase is not RobotPhase.EXECUTE:
-        ramps = robot.phase is RobotPhase.RAMP
-        return say("workflow.ramp" if ramps else "workflow.over")
+        return _ramping(robot) if robot.phase is RobotPhase.RAMP else say("workflow.over")
     if paused(view):
         return say("workflow.paused")
     if state.mode is Mode.AUTONOMOUS:
         return _watching(state)
     return _correcting(state, view) if state.mode is Mode.REFINE else showing.leading(state, robot)
+
+
+def _ramping(robot: RobotState) -> str:
+    return say("workflow.ramp" if robot.progress > 0.0 else "workflow.ramp_first")
 
 
 def _watching(state: Workflow) -> str:
@@ -199,16 +215,23 @@ def _correcting(state: Workflow, view: View) -> str:
     return say("workflow.let_go" if state.let_go else "workflow.correct")
 
 
-def _holding(robot: RobotState) -> str:
+def _holding(state: Workflow, robot: RobotState) -> str:
     """Whether it goes on by itself, and what keeps it; where it waits to be asked, what had kept it."""
     reason = robot.hold_reason
     if not robot.waiting:
-        why = _worded(reason, _HOLDS) or heard(reason)
+        why = _kept(state, reason) or heard(reason)
         return say("workflow.holds_because", why=why) if why else say("workflow.holds")
     kept_by = _KEPT_BY.search(reason)
-    why = _worded(kept_by[1] if kept_by is not None else reason, _HOLDS, "was_") or _worded(reason, _WAITS)
+    why = _kept(state, kept_by[1] if kept_by is not None else reason, "was_") or _worded(reason, _WAITS)
     why = why or heard(reason)
     return say("workflow.waits_because", why=why) if why else say("workflow.waits")
+
+
+def _kept(state: Workflow, reason: str, tense: str = "") -> str:
+    """What keeps the robot, or had kept it: a key that was down before it counted does once it was let go."""
+    if state.let_go and reason.startswith(_NO_HAND):
+        return say(f"hold.{tense}let_go")
+    return _worded(reason, _HOLDS, tense)
 
 
 def _worded(reason: str, table: tuple[tuple[str, str], ...], tense: str = "") -> str:

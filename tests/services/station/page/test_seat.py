@@ -205,6 +205,16 @@ def test_the_seat_of_a_tab_that_has_just_gone_has_to_be_asked_for(first, second)
     assert second.standing().armed
 
 
+def test_a_seat_that_is_kept_for_whoever_left_it_is_had_once_it_is_kept_no_longer(first, second):
+    first.leave()
+    second.now_ms += RESERVED_MS - 2_000
+    second.hold()
+    second.press("take_input")
+    assert second.standing().asking_s == pytest.approx(2.0)
+    second.keep_on(2.1)
+    assert second.standing().armed
+
+
 def test_the_seat_of_a_tab_that_has_gone_for_good_is_taken_by_a_press(first, second):
     first.leave()
     second.now_ms += RESERVED_MS + 1

@@ -16,6 +16,7 @@ from tests.services.station.workflow.site import (
     EXECUTE,
     HOLD,
     IDLE,
+    REACHED,
     SCRIPTED,
     STOPPED,
     Site,
@@ -195,6 +196,34 @@ def test_a_robot_that_was_restarted_stands_until_the_operator_presses():
     site.run_to(Phase.DECIDING)
     site.stay()
     assert site.names()[asked:] == ["authority/acquire"]
+
+
+def test_after_a_robot_s_restart_nothing_is_said_of_the_attempt_before():
+    site = Site(BY_HAND, [REACHED])
+    site.press(Action.EXECUTE, Phase.EXECUTING)
+    site.run_to(Phase.DECIDING)
+    assert site.state.last == REACHED
+    site.press(Action.EXECUTE, Phase.EXECUTING)
+    site.robot(publisher=2, phase=IDLE, episode=0)
+    lose_authority(site)
+    site.run_to(Phase.LOOKING)
+    site.run_to(Phase.DECIDING)
+    assert site.state.last is None
+    assert "restarted" in site.state.event
+
+
+def test_a_loss_that_passes_wipes_no_news():
+    site = Site(BY_HAND)
+    site.run_to(Phase.DECIDING)
+    site.state = replace(site.state, event="It has learnt.")
+    for _ in range(2):
+        lose_authority(site)
+        site.step()
+        assert site.state.event == "The authority was lost. It has learnt."
+        site.run_to(Phase.DECIDING)
+        assert site.state.event == "The authority was lost, and is back. It has learnt."
+    site.step(seconds=TOLD_S + 1.0)
+    assert site.state.event == "It has learnt."
 
 
 def test_a_first_question_that_is_refused_is_asked_again_in_a_moment():

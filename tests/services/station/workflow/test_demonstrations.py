@@ -65,6 +65,7 @@ def test_a_demonstration_that_missed_is_learnt_only_where_its_operator_insists()
     site.finish(MISSED, commanded=shown_way())
     assert Action.TEACH in site.state.offered
     assert site.told.recommended != "teach"
+    assert site.told.text.endswith("Lead it by hand again, or teach the motion all the same.")
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import pytest
 from protocol import queries
 from services.station.workflow.action import Action
 from services.station.workflow.state import Phase
-from tests.services.station.workflow.site import BY_HAND, HOLD, SCRIPTED, UNANSWERED, Site, authority
+from tests.services.station.workflow.site import BY_HAND, HOLD, SCRIPTED, UNANSWERED, Site, authority, lose_authority
 
 
 def after(action, phase, settings=BY_HAND):
@@ -59,6 +59,18 @@ def test_a_scripts_episode_that_has_not_ended_45_s_after_its_motion_is_repeated(
     assert site.state.phase is Phase.DECIDING
     site.run_to(Phase.EXECUTING)
     assert site.names()[asked:] == ["cmd/finish", "cmd/reset", "model/predict", "cmd/execute"]
+
+
+def test_a_script_s_episode_ends_in_time_although_its_authority_comes_and_goes():
+    site = Site(SCRIPTED)
+    site.run_to(Phase.EXECUTING)
+    began_s = site.now_s
+    while site.state.phase is not Phase.DECIDING and site.now_s < began_s + 600.0:
+        site.robot(phase=HOLD, waiting=True)
+        lose_authority(site)
+        site.run_to(Phase.EXECUTING)
+        site.step(seconds=5.0)
+    assert site.now_s - began_s <= SCRIPTED.autonomous_s + 60.0
 
 
 def test_an_episode_that_does_not_end_before_the_reset_is_told_to_every_half_second():

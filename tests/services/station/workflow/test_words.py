@@ -49,7 +49,7 @@ def told(state, **seen):
     ("state", "seen", "light", "text"),
     [
         (REFINING, {"robot": robot(EXECUTE)}, Light.GREEN, "Steer around it. Space when done."),
-        (REFINING, {"robot": robot(RAMP)}, Light.AMBER, "The robot goes to where the motion goes on."),
+        (REFINING, {"robot": robot(RAMP)}, Light.AMBER, "The robot goes to where the motion begins."),
         (REFINING, {"robot": robot(IDLE)}, Light.AMBER, "The motion has ended."),
         (REFINING, {"robot": None}, Light.AMBER, "The robot is not heard."),
         (
@@ -59,7 +59,7 @@ def told(state, **seen):
             "Let go of the keys: they count from then on.",
         ),
         (ALONE, {"robot": robot(EXECUTE)}, Light.RED, "The robot moves alone."),
-        (ALONE, {"robot": robot(RAMP)}, Light.RED, "The robot goes to where the motion goes on."),
+        (ALONE, {"robot": robot(RAMP)}, Light.RED, "The robot goes to where the motion begins."),
         (Workflow(phase=Phase.DECIDING), {}, Light.GREEN, "Ready. Watch what the robot does alone."),
         (
             Workflow(phase=Phase.DECIDING, last=REACHED),
@@ -247,6 +247,16 @@ def test_no_sentence_says_again_what_the_light_says():
 
 
 @pytest.mark.parametrize("waiting", [True, False])
+def test_where_a_key_was_down_before_it_counted_nobody_is_told_that_no_hand_is_there(waiting):
+    reason = "no hand is at the operator's keys or device"
+    held = robot(HOLD, hold_reason=f"{TOO_LONG} ({reason})" if waiting else reason, waiting=waiting)
+    _, text = told(replace(REFINING, let_go=True), robot=held)
+    assert text.startswith("Keys were down before they counted: let go of all keys.")
+    _, text = told(REFINING, robot=held)
+    assert text.startswith("No hand")
+
+
+@pytest.mark.parametrize("waiting", [False, True])
 def test_every_reason_of_the_robot_s_to_hold_has_words_for_whoever_stands_at_the_page(waiting):
     watchdog = Watchdog(hold_after_s=0.1, presence_after_s=0.2)
     causes = [
