@@ -6,6 +6,7 @@ import pytest
 
 from services.certificates.authority import make_authority
 from tests.ports import free_port
+from tests.system.closed import check_closed
 from tests.system.harness import START_S, Command
 
 pytestmark = [pytest.mark.system, pytest.mark.alone]
@@ -56,6 +57,7 @@ def test_the_loop_closes_between_them(network):
         site.until(lambda: "robot" in site.pids(), START_S, "the robot's process is there")
         assert desk.ended(LOOP_S) == 0, f"{desk.tail()}\n{site.tail()}"
         said = json.loads((network / "desk" / "said.json").read_text())
+        check_closed(said, "dishwasher")
         assert set(said["processes"]) == {"router", "master", "viewer", "station"}
         assert set(site.pids()) == {"router", "robot", "camera", "perception", "model"}
         assert site.stop() == 0
