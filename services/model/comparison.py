@@ -46,7 +46,7 @@ class Comparisons:
         self._known: OrderedDict[int, Effect | Refused | None] = OrderedDict()
 
     def of(self, entry: StoredDemonstration) -> Compared | Refused:
-        """The effect of an entry, if it is there; it will be, where it is not."""
+        """The effect of an entry, if it is there; where it is not it will be, before what was asked for earlier."""
         self._forget_others()
         if entry.version not in self._known:
             self._known[entry.version] = None
@@ -54,11 +54,13 @@ class Comparisons:
             if len(self._known) > KEPT:
                 oldest, _ = self._known.popitem(last=False)
                 self._waiting = deque(one for one in self._waiting if one[0] != oldest)
+        # Somebody waits for it now: for others, who ask no more, there is time.
+        self._waiting = deque(sorted(self._waiting, key=lambda one: one[0] != entry.version))
         found = self._known[entry.version]
         return found if isinstance(found, Refused) else Compared(self._version, found)
 
     def step(self) -> None:
-        """Work a little on what was asked for first."""
+        """Work a little on what was asked for last."""
         self._forget_others()
         if not self._waiting:
             return

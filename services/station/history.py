@@ -6,7 +6,7 @@ from typing import Any, Protocol
 
 from protocol import queries
 from protocol.messages import ModelState
-from protocol.queries import Compare, Compared, Effect, HistoryListed, ListHistory
+from protocol.queries import Compare, Compared, Effect, HistoryListed, ListHistory, Refused
 from services.bus.bus import Bus, Pending
 from services.station.page.entries import Rows, rows_of
 
@@ -22,8 +22,8 @@ class Wanted(Protocol):
         """The entry that is wanted next; None for none."""
         ...
 
-    def put(self, version: int, entry: int, effect: Effect | None) -> None:
-        """What an entry changes; None where it changes nothing that can be shown."""
+    def put(self, version: int, entry: int, effect: Effect | Refused) -> None:
+        """What an entry changes, or why that cannot be said."""
         ...
 
     def renew(self, version: int) -> None:
@@ -69,7 +69,7 @@ class HistoryReader:
                 self._effects.renew(outcome.version)
             case Compared(version, effect) if effect is not None:
                 self._effects.put(version, entry, effect)
-            case queries.Refused() if entry and self.rows is not None:
-                self._effects.put(self.rows.version, entry, None)
+            case Refused() if entry and self.rows is not None:
+                self._effects.put(self.rows.version, entry, outcome)
             case _:
                 self._next_ns = now_ns + AGAIN_NS

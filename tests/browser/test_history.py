@@ -1,14 +1,23 @@
 """The history of the skill on the page: what it shows of each entry, and how entries are taken back and used again."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import msgspec
 import pytest
 from lessons import VERSION, effect, history
 
+from protocol.queries import Refused
 from services.station.press import Press
 
 TURNS = ("take_back", "use_again")
+ASKED = (
+    "performance.getEntriesByType('resource').filter(({name}) => /history.*[/]6/.test(name))"
+    ".map(({startTime}) => startTime)"
+)
+"""When the newest entry was asked for [ms]."""
+
+SELDOM_MS = 1000.0
 
 
 @pytest.fixture
@@ -20,7 +29,8 @@ def learnt(station, tab, eventually):
     page.effects.renew(VERSION)
     feed.view = replace(feed.view, teaching=told, history=history())
     tab.wait(".entry:nth-child(4)")
-    return tab
+    yield tab
+    page.effects.renew(0)  # the next test's tab shall hear nothing of this one's
 
 
 def row(number):
@@ -107,3 +117,63 @@ def test_how_sure_somebody_is_is_told_where_it_is_set_and_shown_as_it_counts(lea
     learnt.page.focus("#confidence")
     learnt.page.keyboard.press("ArrowLeft")
     assert presses() == [Press("confidence", "0.65")]
+
+
+def test_an_entry_that_was_clicked_stays_compared_until_it_is_clicked_again(learnt, station):
+    page, _ = station
+    page.effects.put(VERSION, 5, effect())
+    learnt.wait(f"{row(5)} rect")
+    learnt.page.click(f"{row(5)} .entry-show")
+    learnt.page.hover(".header")
+    learnt.wait(f"{row(5)} .entry-show[aria-pressed=true]")
+    learnt.wait("body[data-comparing] .legend-changed:has-text('up to 40 mm')")
+    learnt.page.click(f"{row(5)} .entry-show")
+    learnt.page.hover(".header")
+    learnt.wait(f"{row(5)} .entry-show[aria-pressed=false]")
+    learnt.wait("body:not([data-comparing])")
+
+
+def test_that_an_entry_was_clicked_is_said_at_once_and_how_long_what_it_changed_is_waited_for(
+    learnt, station, eventually
+):
+    page, _ = station
+    learnt.page.click(f"{row(1)} .entry-show")
+    learnt.wait(f"{row(1)} .entry-show[aria-pressed=true]")
+    learnt.wait(f"{row(1)} .entry-told:has-text('work')")
+    learnt.wait(".legend-changed:has-text('work')")
+    eventually(lambda: page.effects.wanted() == 1)  # of four that are not there the one that is looked at
+    learnt.wait(f"{row(1)} .entry-told:has-text('Still being worked out after')")
+    page.effects.put(VERSION, 1, effect())
+    learnt.wait(f"{row(1)} .entry-told:has-text('up to 40 mm')")
+    learnt.wait("body[data-comparing] .legend-changed:has-text('up to 40 mm')")
+
+
+def test_an_entry_whose_effect_is_refused_says_why_where_it_is_clicked(learnt, station):
+    page, _ = station
+    page.effects.put(VERSION, 5, Refused("entry 5 cannot be compared: it is too short"))
+    learnt.page.click(f"{row(5)} .entry-show")
+    learnt.wait(f"{row(5)} .entry-told:has-text('Not to be shown: entry 5 cannot be compared: it is too short')")
+    assert not learnt.page.locator("body[data-comparing]").count()
+
+
+def test_what_was_clicked_is_compared_in_the_next_model_too(learnt, station):
+    page, feed = station
+    page.effects.put(VERSION, 5, effect())
+    learnt.page.click(f"{row(5)} .entry-show")
+    learnt.wait(f"{row(5)} .entry-told:has-text('up to 40 mm')")
+    page.effects.renew(VERSION + 1)
+    feed.view = replace(feed.view, history=history(VERSION + 1))
+    learnt.wait(f"{row(5)} .entry-told:has-text('work')")
+    page.effects.put(VERSION + 1, 5, effect(0.03))
+    learnt.wait(f"{row(5)} .entry-told:has-text('up to 30 mm')")
+
+
+def test_however_often_a_pointer_comes_by_an_entry_is_asked_for_by_one_chain_of_questions(learnt, eventually):
+    for _ in range(12):
+        learnt.page.hover(f"{row(6)} .entry-what")
+        learnt.page.hover(f"{row(5)} .entry-what")
+    learnt.page.hover(".header")
+    learnt.page.evaluate("performance.clearResourceTimings()")
+    eventually(lambda: len(learnt.page.evaluate(ASKED)) > 3)
+    begun = learnt.page.evaluate(ASKED)
+    assert min(after - before for before, after in pairwise(begun)) > SELDOM_MS

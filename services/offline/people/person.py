@@ -13,7 +13,7 @@ from enum import Enum
 import numpy as np
 
 from protocol.messages import Attendance, Figure, Method, Mode, OperatorInput, Origin, Phase, RobotState, TeachingState
-from protocol.queries import Effect
+from protocol.queries import Effect, Refused
 from protocol.topics import EXECUTION, OBJECT_POSE, ROBOT_STATE, SCENE_STATE
 from services.bus.arrays import motion_from_wire
 from services.bus.bus import Bus
@@ -84,7 +84,7 @@ class NoEffects:
         """None."""
         return None
 
-    def put(self, version: int, entry: int, effect: Effect | None) -> None:
+    def put(self, version: int, entry: int, effect: Effect | Refused) -> None:
         """Not looked at."""
 
     def renew(self, version: int) -> None:

@@ -10,10 +10,11 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from protocol.messages import Array, Motion
-from protocol.queries import Effect
+from protocol.queries import Effect, Refused
 from services.bus.arrays import Floats, drawable
 from services.station.live_view.drawing import Point
 from services.station.live_view.stage import told
+from services.station.words.heard import heard
 
 KEPT = 64
 """Effects, and entries that are waited for."""
@@ -58,6 +59,16 @@ class Comparison(msgspec.Struct, frozen=True):
     field: Moved | None
 
 
+class Incomparable(msgspec.Struct, frozen=True):
+    """What is told instead where an entry cannot be compared.
+
+    Attributes:
+        refused: why, as the reader's language has it.
+    """
+
+    refused: str
+
+
 class Effects:
     """The newest effects, and what is waited for. Safe to use from several threads."""
 
@@ -76,13 +87,15 @@ class Effects:
                 self._known.clear()
 
     def wanted(self) -> int | None:
-        """The entry that was asked for first and is not there yet; None where none is."""
+        """The entry that is looked at, or was asked for first, and is not there yet; None where none is."""
         with self._lock:
             return next(iter(self._wanted), None)
 
-    def put(self, version: int, entry: int, effect: Effect | None) -> None:
-        """Keep what an entry changes; None where that cannot be said."""
-        shown = msgspec.json.encode(None if effect is None else _shown(effect))
+    def put(self, version: int, entry: int, effect: Effect | Refused) -> None:
+        """Keep what an entry changes, or why that cannot be said."""
+        shown = msgspec.json.encode(
+            Incomparable(heard(effect.reason)) if isinstance(effect, Refused) else _shown(effect)
+        )
         with self._lock:
             self._wanted.pop(entry, None)
             if version != self._version:
@@ -92,15 +105,23 @@ class Effects:
                 self._known.popitem(last=False)
 
     async def serve(self, request: Request) -> Response:
-        """Answer a browser, at /history/VERSION/ENTRY: what it asks for is there soon where it is not yet."""
+        """Answer a browser, at /history/VERSION/ENTRY: what it asks for is there soon where it is not yet.
+
+        With ?first=1 somebody looks at it, and it comes before what nobody looks at.
+        """
         version, entry = request.path_params["version"], request.path_params["entry"]
         with self._lock:
             if version != self._version:
                 return Response(status_code=_GONE)
             found = self._known.get(entry)
             if found is None:
-                if len(self._wanted) < KEPT:
+                is_first = "first" in request.query_params
+                if is_first or len(self._wanted) < KEPT:
                     self._wanted[entry] = None
+                    if is_first:
+                        self._wanted.move_to_end(entry, last=False)
+                    if len(self._wanted) > KEPT:
+                        self._wanted.popitem()
                 return Response(status_code=_WORKING)
         return Response(found, media_type=_JSON, headers={"Cache-Control": "no-store"})
 

@@ -60,6 +60,15 @@ def test_the_effect_of_a_change_is_made_before_anybody_asks_and_no_step_makes_al
     assert taught.ask(queries.COMPARE, Compare(3)).effect is not None
 
 
+def test_who_asks_last_waits_for_no_others(taught):
+    for entry in (1, 2, 3):
+        assert taught.ask(queries.COMPARE, Compare(entry)).effect is None
+    for _ in range(STEPS):
+        taught.service.step(taught.clock.now_ns())
+    assert taught.ask(queries.COMPARE, Compare(3)).effect is not None
+    assert taught.ask(queries.COMPARE, Compare(1)).effect is None
+
+
 def test_what_was_taken_back_is_compared_as_what_it_would_change(taught):
     in_use = _compared(taught, 3)
     taught.ask(queries.UNDO, Undo(entry=3))

@@ -77,6 +77,7 @@ def test_what_the_model_refuses_is_asked_for_no_more(reading):
     reading.effects._wanted[3] = None
     assert reading.settle(queries.Refused("no such entry")) == 1
     assert reading.effects.wanted() is None
+    assert b"no such entry" in reading.effects._known[3]
 
 
 def test_where_the_model_does_not_answer_it_is_asked_again_but_not_at_once():

@@ -6,7 +6,7 @@ import msgspec
 import pytest
 from starlette.requests import Request
 
-from protocol.queries import Effect, Field
+from protocol.queries import Effect, Field, Refused
 from services.bus.arrays import motion_to_wire, to_wire
 from services.station.page.effects import KEPT, Effects
 
@@ -15,8 +15,8 @@ FIELD = Field((0, 1), (0.8, -0.1), (0.9, 0.2), *(to_wire([[0.01, 0.02], [0.03, 0
 EFFECT = Effect((0.85, 0.05, 0.55), MOTION, None, FIELD)
 
 
-def _ask(effects, version, entry):
-    scope = {"type": "http", "path_params": {"version": version, "entry": entry}}
+def _ask(effects, version, entry, asked=b""):
+    scope = {"type": "http", "path_params": {"version": version, "entry": entry}, "query_string": asked}
     return asyncio.run(effects.serve(Request(scope)))
 
 
@@ -53,11 +53,20 @@ def test_an_effect_is_told_as_it_is_drawn(effects):
     }
 
 
-def test_what_cannot_be_compared_is_told_as_nothing(effects):
+def test_what_is_looked_at_comes_before_what_was_asked_for_earlier(effects):
+    for entry in range(KEPT):
+        _ask(effects, 5, entry)
+    for entry in (7, KEPT):
+        assert _ask(effects, 5, entry, b"first=1").status_code == 202
+        assert effects.wanted() == entry
+
+
+def test_of_what_cannot_be_compared_it_is_told_why(effects):
     _ask(effects, 5, 3)
-    effects.put(5, 3, None)
+    effects.put(5, 3, Refused("entry 3 cannot be compared: too short"))
     assert effects.wanted() is None
-    assert _ask(effects, 5, 3).body == b"null"
+    told = msgspec.json.decode(_ask(effects, 5, 3).body)
+    assert told == {"refused": "entry 3 cannot be compared: too short"}
 
 
 def test_effects_of_another_model_are_gone(effects):

@@ -1,23 +1,32 @@
-// What the skill has learnt, an entry a row: what it changed is shown where a row is looked at, in the 3-D view and as a
-// small picture; each entry is taken back or used again. And how far what is taught next is to be believed.
+// What the skill has learnt, an entry a row: what it changed is shown where a row is looked at or was pressed, in the 3-D
+// view, in words and as a small picture; each entry is taken back or used again. And how far what is taught next is to be
+// believed.
 
-import { mapOf, summaryOf } from "/assets/js/history_map.js";
+import { Effects } from "/assets/js/effects.js";
+import { mapOf } from "/assets/js/history_map.js";
 import { timeOf } from "/assets/js/time.js";
 import { say } from "/assets/js/words.js";
 
-const AGAIN_MS = 300;
 const MAPS_AT_ONCE = 8; // of the newest entries; the others' are worked out when they are looked at
 
 export class History {
   // press: does what a control says.
   constructor(liveView, press) {
-    Object.assign(this, { liveView, press, rows: new Map(), effects: new Map(), version: 0, looked: null });
+    Object.assign(this, { liveView, press, rows: new Map(), looked: null, pressed: null });
+    this.effects = new Effects((id) => this.tell(id));
     this.panel = document.querySelector(".history");
     this.legend = document.querySelector(".legend-changed");
     this.list = this.panel.querySelector(".entries");
     this.slider = this.panel.querySelector("#confidence");
     this.slider.addEventListener("change", () => this.press("confidence", this.slider.value));
     this.slider.addEventListener("pointerup", () => setTimeout(() => this.slider.blur()));
+    // A pointer gives the focus back, so that keys steer: what it pressed stays shown without it.
+    this.list.addEventListener("click", ({ target, detail }) => {
+      const button = target.closest(".entry-show");
+      if (!button) return;
+      if (detail > 0) button.blur();
+      this.hold(idOf(button));
+    });
     this.list.addEventListener("pointerover", ({ target }) => this.look(idOf(target)));
     this.list.addEventListener("pointerleave", () => this.look(idOf(document.activeElement)));
     this.list.addEventListener("focusin", ({ target }) => this.look(idOf(target)));
@@ -36,8 +45,7 @@ export class History {
   }
 
   arrange({ version, rows }) {
-    if (version !== this.version) this.effects.clear();
-    this.version = version;
+    this.effects.renew(version);
     const before = this.rows;
     this.rows = new Map(rows.map((row) => [row.id, before.get(row.id) ?? newRow(row.id)]));
     rows.forEach((row) => fill(this.rows.get(row.id), row));
@@ -47,39 +55,52 @@ export class History {
       this.list.replaceChildren(...elements);
       if (this.list.contains(activeElement)) activeElement.focus({ preventScroll: true });
     }
-    rows.slice(0, MAPS_AT_ONCE).forEach(({ id }) => this.ask(id));
-    if (this.looked !== null) this.look(this.rows.has(this.looked) ? this.looked : null);
+    for (const which of ["looked", "pressed"]) if (!this.rows.has(this[which])) this[which] = null;
+    this.turnTo();
+    rows.slice(0, MAPS_AT_ONCE).forEach(({ id }) => this.effects.ask(id));
   }
 
-  // Shows what the entry changed; null where none is looked at.
+  // The entry under the pointer or with the focus; null where there is none.
   look(id) {
-    if (id !== this.looked) {
-      this.rows.get(this.looked)?.removeAttribute("data-looked");
-      this.rows.get(id)?.setAttribute("data-looked", "");
-      this.looked = id;
-    }
-    if (id !== null) this.ask(id);
-    const effect = this.effects.get(id) ?? null;
-    this.liveView.compare(effect);
-    document.body.toggleAttribute("data-comparing", Boolean(effect));
-    this.legend.textContent = effect ? summaryOf(effect) : "";
+    if (id === this.looked) return;
+    this.looked = id;
+    this.turnTo();
   }
 
-  // Until it is there: the model works it out when it has nothing better to do.
-  async ask(id) {
-    if (this.effects.has(id)) return;
-    const { version } = this;
-    this.effects.set(id, undefined);
-    const answer = await fetch(`/history/${version}/${id}`).catch(() => null);
-    if (version !== this.version || !this.rows.has(id)) return;
-    if (answer?.status === 200) {
-      this.effects.set(id, await answer.json());
-      showMap(this.rows.get(id), this.effects.get(id));
-      if (this.looked === id) this.look(id);
-    } else {
-      this.effects.delete(id);
-      if (answer?.status !== 204) setTimeout(() => version === this.version && this.ask(id), AGAIN_MS);
+  // Shows what an entry changed until it is pressed again.
+  hold(id) {
+    this.pressed = id === this.pressed ? null : id;
+    this.turnTo();
+  }
+
+  turnTo() {
+    this.effects.prefer(this.looked ?? this.pressed);
+    for (const id of [this.looked, this.pressed]) if (id !== null) this.effects.ask(id);
+    this.draw();
+  }
+
+  draw() {
+    const shown = this.looked ?? this.pressed;
+    for (const [id, row] of this.rows) {
+      row.toggleAttribute("data-looked", id === shown);
+      row.querySelector(".entry-show").setAttribute("aria-pressed", String(id === this.pressed));
+      row.querySelector(".entry-told").textContent = id === this.pressed ? this.effects.words(id) : "";
     }
+    const drawn = this.effects.drawn(shown);
+    this.liveView.compare(drawn);
+    document.body.toggleAttribute("data-comparing", Boolean(drawn));
+    this.legend.textContent = shown === null ? "" : this.effects.words(shown);
+  }
+
+  // There is something new to say of an entry.
+  tell(id) {
+    const map = this.rows.get(id).querySelector(".entry-map");
+    const drawn = this.effects.drawn(id);
+    const words = this.effects.words(id);
+    map.replaceChildren(...(drawn?.field ? [mapOf(drawn)] : []));
+    map.setAttribute("aria-label", words);
+    map.title = words;
+    if (id === this.pressed || id === this.looked) this.draw();
   }
 }
 
@@ -95,10 +116,11 @@ function newRow(id) {
   row.innerHTML = `<button type="button" class="entry-show"><span class="entry-what"></span>
     <span class="entry-who"></span><span class="entry-how"></span><span class="entry-moved"></span>
     <span class="entry-turned"></span></button>
-    <div class="entry-map" role="img"></div><button type="button" class="button turn"></button>`;
+    <div class="entry-map" role="img"></div><button type="button" class="button turn"></button>
+    <div class="entry-told"></div>`;
   const look = row.querySelector(".entry-show");
   look.title = say("entry.show");
-  look.addEventListener("click", ({ detail }) => detail > 0 && look.blur());
+  look.setAttribute("aria-pressed", "false");
   row.querySelector(".entry-map").setAttribute("aria-label", say("entry.working"));
   return row;
 }
@@ -123,11 +145,4 @@ function fill(row, { id, what, how, who, at, moved, believed, in_use: isUsed, tu
     confirm: say(`entry.ask_${action}`, { what }),
     confirmYes: say(`entry.yes_${action}`),
   });
-}
-
-function showMap(row, effect) {
-  const map = row.querySelector(".entry-map");
-  map.replaceChildren(...(effect?.field ? [mapOf(effect)] : []));
-  map.setAttribute("aria-label", summaryOf(effect));
-  map.title = summaryOf(effect);
 }

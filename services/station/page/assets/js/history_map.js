@@ -28,7 +28,7 @@ export function mapOf({ field, place }) {
 }
 
 export function summaryOf(effect) {
-  if (!effect?.field) return say("entry.nothing");
+  if (!effect.field) return say("entry.nothing");
   const moved = effect.field.moved.flat();
   const some = SOME_M * 1e3;
   const most = Math.max(...moved);
