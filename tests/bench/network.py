@@ -45,6 +45,7 @@ def results(case, outcome):
     yield Result(f"{case.name}: moved unasked", max(f.unasked_mm, outcome.gone_mm), "mm", 0.1)
     late = case.path_ms + 100.0 if case.shape.get("rate") else None
     yield Result(f"{case.name}: up p99", f.up_ms[1], "ms", late)
+    yield Result(f"{case.name}: up p50, less what the robot tells", f.up_ms[0] - f.told_ms[0], "ms")
     yield Result(f"{case.name}: down p99", f.down_ms[1], "ms", late)
     yield Result(f"{case.name}: jerk", f.jerk, "m/s3")
     yield Result(f"{case.name}: held", 100.0 * f.held, "%")

@@ -24,6 +24,7 @@ class Figures:
 
     Attributes:
         up_ms: median and 99th percentile of the master's samples on their way to the robot.
+        told_ms: the same as `up_ms`, as the robot tells it, which sees neither clock but its own.
         down_ms: the same, of the robot's states on their way to the desk.
         held: share of the refinements' time in which the robot held.
         hold_after_ms: from the last sample that took effect to the hold, at most.
@@ -35,6 +36,7 @@ class Figures:
     """
 
     up_ms: tuple[float, float]
+    told_ms: tuple[float, float]
     down_ms: tuple[float, float]
     held: float
     hold_after_ms: float
@@ -71,6 +73,7 @@ class Record:
         seconds = np.ptp(self._shown[:, 0]) / 1e9 if len(self._shown) else np.inf
         return Figures(
             up_ms=_quantiles(self._up),
+            told_ms=_quantiles([1e3 * state.applied_way for state in refining if state.applied_way >= 0.0]),
             down_ms=_quantiles(self._down),
             held=len(held) / len(refining) if refining else np.nan,
             hold_after_ms=max(self._hold_delays(), default=0.0),
