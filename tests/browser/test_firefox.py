@@ -6,8 +6,15 @@ from dataclasses import replace
 import msgspec
 import pytest
 
+from protocol.messages import Person, Role
+from services.accounts.account import Account, Accounts
+from services.accounts.file import AccountsFile, save
+from services.station.page.login.judge import Judge
 from services.station.press import Press
 from tests.browser import scripts
+from tests.ports import free_port
+
+DIGEST = f"$argon2id$v=19$m=65536,t=3,p=1${'A' * 22}${'A' * 43}"
 
 pytestmark = pytest.mark.browser
 
@@ -108,3 +115,46 @@ def test_the_pointer_s_pad_is_gripped_dragged_and_let_go(tab, station, eventuall
     eventually(lambda: read(1.0))
     tab.pointer("up")
     eventually(lambda: read(0.0))
+
+
+@pytest.fixture
+def guarded(tmp_path):
+    """A page at which Anna has to log in."""
+    from harness import served
+
+    anna = Account("Anna", Role.OPERATOR, DIGEST)
+    save(Accounts((anna,)), tmp_path / "accounts.json")
+    judge = Judge(AccountsFile(tmp_path / "accounts.json"), lambda password, account: password == "correct horse")
+    with served(judge=judge, port=free_port()) as (page, _):
+        yield page
+
+
+def log_in(tab, password):
+    tab.wait("[name=password]")
+    tab.evaluate("document.querySelector('[name=name]').value = 'Anna'")
+    tab.evaluate(f"document.querySelector('[name=password]').value = '{password}'")
+    tab.pointer(".login-enter", "down", "up")
+
+
+def test_somebody_logs_in_commands_and_logs_out(firefox, guarded, eventually):
+    tab = firefox.open(guarded.url, scripts.TOURED + scripts.UNDRAWN)
+    try:
+        for password, then, says in (
+            ("wrong", ".login-notice", "is wrong"),
+            ("correct horse", "body[data-link=armed]", ""),
+        ):
+            tab.wait("[name=password]")
+            tab.evaluate("document.querySelector('[name=name]').value = 'Anna'")
+            tab.evaluate(f"document.querySelector('[name=password]').value = '{password}'")
+            tab.pointer(".login-enter", "down", "up")
+            tab.wait(then, says)
+        eventually(lambda: guarded.attendance().people)
+        assert guarded.attendance().people == (Person("Anna", Role.OPERATOR, has_input=True),)
+        tab.pointer(".who > summary", "down", "up")
+        tab.wait("[data-value=people-commands]", "Anna")  # what lies below stays where it is now
+        tab.wait(".log-out button:not([data-come])")
+        tab.pointer(".log-out button", "down", "up")
+        tab.wait(".login-notice", "You have logged out.")
+        eventually(lambda: guarded.attendance().people == ())
+    finally:
+        tab.close()
