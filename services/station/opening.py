@@ -11,6 +11,7 @@ from services.certificates.expiry import Expiry
 from services.certificates.page import is_plain, of_page, secured
 from services.process.clock import Clock
 from services.process.config import Configuration
+from services.process.load import load_now
 from services.station.live_view.description import describe
 from services.station.page.login.judge import Judge
 from services.station.page.page import Page
@@ -30,7 +31,8 @@ def open_page(configuration: Configuration, clock: Clock) -> Page:
     """
     judge = Judge(AccountsFile(accounts_path()), is_right) if asks(configuration) else None
     described = describe(configuration.robot.scene)
-    page = Page(secured(configuration), configuration.name, clock, described, configuration.operator, judge=judge)
+    served, robot = secured(configuration), configuration.name
+    page = Page(served, robot, clock, described, configuration.operator, judge=judge, load=load_now)
     page.start()
     if page_is_open(configuration):
         log.warning("the page is open to others (--insecure): %s", _why(configuration))

@@ -16,6 +16,7 @@ from services.commands.doctor.hearing import Hearing
 from services.process.clock import Clock
 from services.process.config import Configuration
 from services.process.endpoint import Endpoint, parse
+from services.process.load import Loads, load_now
 
 TRIPS = 20
 """Round trips that whatever is waited for may take besides."""
@@ -43,6 +44,7 @@ class Case:
         heard: what the hearer hears of the speaker.
         hearing: what was heard of everybody.
         open: whatever has to be closed again.
+        load: says the load of this computer.
     """
 
     configuration: Configuration
@@ -55,6 +57,7 @@ class Case:
     heard: Subscription[Probe] | None = None
     hearing: Hearing = field(default_factory=Hearing)
     open: contextlib.ExitStack = field(default_factory=contextlib.ExitStack)
+    load: Loads = load_now
 
     @property
     def endpoint(self) -> Endpoint:

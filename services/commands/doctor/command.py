@@ -27,6 +27,7 @@ each thing, as it is found.
 
 What is looked at, in this order:
 
+  computer       is it too busy to be in time? Said only where it is
   name           the host's name leads to an address
   port           somebody listens there, and how far away; or the machine refuses, nothing
                  answers (off, a firewall), no way leads there

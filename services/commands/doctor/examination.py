@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from services.commands.doctor.case import Case
 from services.commands.doctor.certificate import check_certificate
+from services.commands.doctor.computer import COMPUTER, check_computer
 from services.commands.doctor.entitlement import RIGHTS, check_rights
 from services.commands.doctor.finding import Finding, Verdict
 from services.commands.doctor.own import CERTIFICATE
@@ -34,6 +35,7 @@ class Check:
 
 
 CHECKS = (
+    Check(COMPUTER, check_computer),
     Check(NAME, check_name),
     Check(PORT, check_port, needs=(NAME,)),
     Check(CERTIFICATE, check_certificate),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from statistics import quantiles
@@ -11,7 +11,7 @@ from statistics import quantiles
 from protocol.messages import Probe
 from protocol.topics import MASTER_STATE, PROBE
 from services.commands.doctor.case import Case
-from services.commands.doctor.finding import Finding, look, ok, wrong
+from services.commands.doctor.finding import Finding, Verdict, look, ok, wrong
 from services.process.config import LONGEST_SILENCE_S, RobotSection
 
 WAY = "way"
@@ -33,6 +33,10 @@ HOLD_S = RobotSection().hold_after_s
 
 LATE_NS = MASTER_STATE.stale_after_ns or 0
 FELT_S = 0.1
+_BUSY = "this computer is too busy to say more of the way"
+_LOOPBACK = "nothing lies between but this computer: is it busy, or what listens on it?"
+"""What to do where no cable is at fault."""
+
 LOST_LOOK = 0.02
 """Of the samples: beyond it the network is poor, though each next one makes up for it."""
 
@@ -90,7 +94,10 @@ def _longest_gap_s(times_ns: Sequence[int]) -> float:
 
 def check_way(case: Case) -> Iterator[Finding]:
     """Send, and judge what came of it."""
-    yield judged(_crossed(case))
+    crossing = _crossed(case)
+    load = case.load()
+    is_busy = load is not None and load.is_too_much
+    yield judged(crossing, is_busy=is_busy, is_loopback=case.endpoint.is_loopback)
 
 
 def _crossed(case: Case) -> Crossing:
@@ -115,12 +122,18 @@ def _crossed(case: Case) -> Crossing:
     return Crossing(sent_ns[RUN_UP:], came)
 
 
-def judged(crossing: Crossing) -> Finding:
-    """Whether a robot can be led this way; it is longer than the way of a command by the half that leads back."""
+def judged(crossing: Crossing, *, is_busy: bool = False, is_loopback: bool = False) -> Finding:
+    """Whether a robot can be led this way; it is longer than the way of a command by the half that leads back.
+
+    Args:
+        crossing: what became of the samples.
+        is_busy: this computer has more to do than it can, which says nothing of the way.
+        is_loopback: there is nothing else on it.
+    """
+    own = _BUSY if is_busy else _LOOPBACK if is_loopback else ""
     if len(crossing.in_time) < 2:
-        return wrong(
-            WAY, f"of {len(crossing.sent_ns)} small samples none came back in time", "is the link cut, or full?"
-        )
+        told = f"of {len(crossing.sent_ns)} small samples none came back in time"
+        return wrong(WAY, told, own or "is the link cut, or full?")
     usual_s, most_s = crossing.trips_s
     lost = f"{crossing.lost} of {len(crossing.sent_ns)} lost" if crossing.lost else "none lost"
     late = f" ({crossing.late} too late)" if crossing.late else ""
@@ -132,6 +145,14 @@ def judged(crossing: Crossing) -> Finding:
         return look(
             WAY, f"{told}; this machine itself paused for {1e3 * crossing.pause_s:.0f} ms", "it is busy: with what?"
         )
+    finding = _of_the_way(crossing, told)
+    if finding.verdict is Verdict.OK or not own:
+        return finding
+    return look(WAY, told, own) if is_busy else replace(finding, remedy=own)
+
+
+def _of_the_way(crossing: Crossing, told: str) -> Finding:
+    usual_s, most_s = crossing.trips_s
     if crossing.silence_s > HOLD_S:
         return wrong(
             WAY, told, f"beyond {1e3 * HOLD_S:.0f} ms a robot holds: a cable, another access point, less traffic?"

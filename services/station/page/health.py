@@ -7,6 +7,7 @@ from dataclasses import astuple
 from protocol.messages import Prediction
 from services.bus.predictions import LITTLE
 from services.bus.stages import Stages
+from services.process.load import Load
 from services.station.page.readout import is_stale, length, limited, span
 from services.station.page.standing import Standing
 from services.station.page.values import Values
@@ -37,6 +38,8 @@ def health(shown: Shown) -> Values:
         tone, words = "bad", say("health.unheard")
     elif is_stale(shown):
         tone, words = "bad", say("health.stale", age=span(shown.robot_age_s))
+    elif shown.load is not None and shown.load.is_too_much:  # most of what is said below comes of it
+        tone, words = "warn", busy(shown.load)
     elif view.model is None:
         tone, words = "warn", say("health.model")
     elif pictures_s > OLD_PICTURE_S:
@@ -50,6 +53,14 @@ def health(shown: Shown) -> Values:
     if view.open_network:  # said for as long as it is so
         tone, words = "warn" if tone == "good" else tone, say("health.open", words=words)
     return {"health@data-tone": tone, "health-text": words}
+
+
+def busy(load: Load) -> str:
+    """That this computer has more to do than it can."""
+    wanting = round(load.wanting)
+    if load.processors == 1:
+        return say("health.busy_one", wanting=wanting)
+    return say("health.busy", wanting=wanting, processors=load.processors)
 
 
 def figures(shown: Shown) -> Values:

@@ -23,6 +23,7 @@ from services.process.addresses import family, in_url
 from services.process.clock import Clock
 from services.process.config import StationSection
 from services.process.exceptions import PortInUse
+from services.process.load import Loads, no_load
 from services.station.live_view.description import Description
 from services.station.live_view.files import Files
 from services.station.page.asset_files import asset_files
@@ -64,6 +65,7 @@ class Page:
         description: of what the live view shows.
         operator: name of an operator who gives none.
         judge: of the passwords of whoever comes; None where everybody may.
+        load: says the load of this computer.
     """
 
     def __init__(
@@ -75,13 +77,14 @@ class Page:
         operator: str = "",
         *,
         judge: Judge | None = None,
+        load: Loads = no_load,
     ) -> None:
         self._station = station
         self._clock = clock
         self._files = Files(description)
         self._assets = asset_files()
         self._document = document(robot, self._files)
-        self._board = Board(clock)
+        self._board = Board(clock, load)
         self.effects = Effects()
         """What entries of the history change, as far as a tab wants to see it."""
         self._address = address(station, platform.node())

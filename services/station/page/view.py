@@ -26,6 +26,7 @@ from protocol.messages import (
 )
 from services.bus.stages import Stages
 from services.process.clock import Clock
+from services.process.load import Load, Loads, no_load
 from services.station.live_view.drawing import Drawing
 from services.station.neighbours import Neighbour
 
@@ -110,11 +111,13 @@ class Shown:
         view: the newest.
         elapsed_s: since it was put up [s]: everything in it has aged by as much.
         clamped: what the robot limited in the last moment, each a short word with the place.
+        load: of this computer; None where that is not known.
     """
 
     view: PageView
     elapsed_s: float
     clamped: tuple[str, ...] = ()
+    load: Load | None = None
 
     @property
     def robot_age_s(self) -> float:
@@ -129,10 +132,12 @@ class Board:
 
     Args:
         clock: by which views age.
+        load: says the load of this computer.
     """
 
-    def __init__(self, clock: Clock) -> None:
+    def __init__(self, clock: Clock, load: Loads = no_load) -> None:
         self._clock = clock
+        self._load = load
         self._newest = (PageView(), clock.now_ns())
         self._clamped: tuple[tuple[str, ...], int] = ((), 0)
         self._held: tuple[TeachingState, int] | None = None
@@ -149,7 +154,8 @@ class Board:
         """The newest view and its age."""
         (view, put_ns), (clamped, clamped_ns) = self._newest, self._clamped
         now_ns = self._clock.now_ns()
-        return Shown(view, (now_ns - put_ns) / 1e9, clamped if now_ns - clamped_ns < LIMIT_SHOWN_NS else ())
+        limits = clamped if now_ns - clamped_ns < LIMIT_SHOWN_NS else ()
+        return Shown(view, (now_ns - put_ns) / 1e9, limits, self._load())
 
     def _steady(self, teaching: TeachingState | None, now_ns: int) -> TeachingState | None:
         if teaching is None:

@@ -72,3 +72,23 @@ def test_what_came_too_late_for_a_robot_is_lost():
 @pytest.mark.parametrize("came", [[], [(0, MS)]])
 def test_nothing_that_comes_back_is_wrong(came):
     assert judged(Crossing(SENT, came)).verdict is Verdict.WRONG
+
+
+@pytest.mark.parametrize(
+    "crossed", [crossing(12.0, lost=range(80, 92)), crossing(12.0, lost=range(0, SAMPLES, 10)), crossing(260.0)]
+)
+@pytest.mark.parametrize("whose", ["is_busy", "is_loopback"])
+def test_what_a_computer_is_late_with_itself_is_blamed_on_no_cable(crossed, whose):
+    found, of_the_way = judged(crossed, **{whose: True}), judged(crossed)
+    assert "cable" in of_the_way.remedy
+    assert "cable" not in found.remedy
+    assert "this computer" in found.remedy
+    assert found.verdict is (Verdict.LOOK if whose == "is_busy" else of_the_way.verdict)
+
+
+def test_where_nothing_comes_back_a_busy_computer_may_be_the_cause():
+    assert "this computer" in judged(crossing(12.0, lost=range(SAMPLES)), is_busy=True).remedy
+
+
+def test_a_way_that_is_well_is_well_on_a_busy_computer_too():
+    assert judged(crossing(12.0), is_busy=True, is_loopback=True) == judged(crossing(12.0))

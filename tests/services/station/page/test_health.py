@@ -9,8 +9,10 @@ from views import SEATED, robot, shown
 from protocol.messages import AuthorityState, ModelState, Phase, Recording, Way
 from services.bus.arrays import motion_to_wire
 from services.bus.stages import Stages
+from services.process.clock import ManualClock
+from services.process.load import Load
 from services.station.page.health import commander, figures, health
-from services.station.page.view import Picture
+from services.station.page.view import Board, Picture
 from tests.services.predictions import prediction
 
 MOTION = motion_to_wire([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], [[1.0, 0.0, 0.0, 0.0]] * 2, 1.0)
@@ -21,6 +23,7 @@ WELL = {
     "model": ModelState(kind="adaptive", version=7, demonstrations=12, updates=2, scene="table"),
     "path": Stages(capture=0.012, way=0.018, apply=0.006, motion=0.020, picture=0.031),
 }
+BUSY = "This computer is too busy: 22 programs want its {}; motions will hold."
 
 
 @pytest.mark.parametrize(
@@ -56,6 +59,26 @@ def test_an_authority_that_nobody_holds_is_nobody_s():
 )
 def test_health_is_the_worst_that_there_is_to_say(changes, tone, words):
     assert health(shown(**{**WELL, **changes})) == {"health@data-tone": tone, "health-text": words}
+
+
+@pytest.mark.parametrize(
+    ("load", "changes", "tone", "words"),
+    [
+        (Load(7.9, 2), {}, "good", "All well"),
+        (Load(22.4, 2), {"model": None}, "warn", BUSY.format("2 processors")),
+        (Load(22.4, 1), {}, "warn", BUSY.format("one processor")),
+        (Load(22.4, 2), {"robot": None}, "bad", "The robot is not heard"),
+    ],
+)
+def test_a_computer_that_is_too_busy_is_named_before_what_comes_of_it(load, changes, tone, words):
+    told = health(replace(shown(**{**WELL, **changes}), load=load))
+    assert told == {"health@data-tone": tone, "health-text": words}
+
+
+def test_the_load_is_looked_at_whenever_it_is_shown():
+    loads = iter([Load(1.0, 2), Load(22.0, 2)])
+    board = Board(ManualClock(), lambda: next(loads))
+    assert [board.newest().load for _ in range(2)] == [Load(1.0, 2), Load(22.0, 2)]
 
 
 def test_the_figures_say_what_was_measured():
