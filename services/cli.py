@@ -19,7 +19,8 @@ from services.process.lifeline import die_with_parent
 from services.process.limits import limit_reached
 from services.process.lines import one_line
 from services.process.logs import Unhurried, own_stderr
-from sim.exceptions import CacheUnusable, DescriptionMissing, DrawingLibraryMissing, SimError
+from services.process.suggestion import right
+from sim.exceptions import CacheUnusable, DescriptionMissing, DrawingLibraryMissing, SimError, UnknownScene
 
 log = logging.getLogger(__name__)
 
@@ -100,6 +101,8 @@ def _ending(error: Exception) -> tuple[str, Exit]:
             EnvironmentFault() | StorageUnavailable() | CacheUnusable() | DescriptionMissing() | DrawingLibraryMissing()
         ):
             return str(error), Exit.ENVIRONMENT
+        case UnknownScene(name=name, known=known):
+            return f"unknown scene {name!r}; {right(name, known)}", Exit.BAD_INPUT
         case ServiceError() | ProtocolError() | SimError() | LfdError():
             return str(error), Exit.BAD_INPUT
         case OSError(errno=number, filename=file) if number in _ERRNOS_OF_THE_MACHINE:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, Namespace, RawDescriptionHelpFormatter
+from argparse import SUPPRESS, Action, ArgumentError, ArgumentParser, Namespace, RawDescriptionHelpFormatter
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any, NoReturn
 
 from services.process.exit_codes import Exit
 from services.process.lines import one_line
+from services.process.suggestion import nearest
+
+_FLAG = "--"
 
 
 class Parser(ArgumentParser):
@@ -35,8 +38,25 @@ class Parser(ArgumentParser):
             fill(self)
         known, unknown = super().parse_known_args(args, namespace)
         if unknown:
-            self.error(f"unrecognized arguments: {' '.join(unknown)}")
+            meant = self._meant(unknown)
+            self.error(f"unrecognized arguments: {' '.join(unknown)}" + (f"; {meant}" if meant else ""))
         return known, unknown
+
+    def _meant(self, unknown: Sequence[str]) -> str:
+        """The flag that is nearest to the first that is unknown."""
+        flag = next((word.partition("=")[0] for word in unknown if word.startswith(_FLAG)), "")
+        told = [name for name, action in self._option_string_actions.items() if action.help != SUPPRESS]
+        # That both are flags makes them no more alike.
+        bare = [name.removeprefix(_FLAG) for name in told if name.startswith(_FLAG)]
+        return nearest(flag.removeprefix(_FLAG), bare, _FLAG)
+
+    def _check_value(self, action: Action, value: Any) -> None:
+        """As of any parser; the nearest choice instead of all, where one is near."""
+        choices = [str(choice) for choice in action.choices or ()]
+        meant = nearest(str(value), choices)
+        if meant and str(value) not in choices:
+            raise ArgumentError(action, f"invalid choice: {value!r}; {meant}")
+        super()._check_value(action, value)
 
     def format_help(self) -> str:
         """As of any parser, with the last lines."""
@@ -46,4 +66,6 @@ class Parser(ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """End with one line instead of the usage."""
-        self.exit(Exit.BAD_INPUT, f"{self.prog}: {one_line(message)}; see '{self.prog} --help'\n")
+        said = one_line(message)
+        see = " See" if said.endswith("?") else "; see"
+        self.exit(Exit.BAD_INPUT, f"{self.prog}: {said}{see} '{self.prog} --help'\n")

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-from difflib import get_close_matches
 from typing import Any
 
 import msgspec
 from msgspec import inspect
+
+from services.process.suggestion import right
 
 _UNKNOWN = re.compile(r"Object contains unknown field `(.+)`")
 _PLACE = re.compile(r" - at `\$\.?(.*)`$")
@@ -43,9 +44,7 @@ def told(error: msgspec.ValidationError, kind: type) -> str:
     unknown = _UNKNOWN.match(what)
     if unknown:
         known = [field.encode_name for field in _fields(fits)]
-        meant = get_close_matches(unknown[1], known, 1)
-        right = f"did you mean {meant[0]}?" if meant else f"one of {', '.join(known)}"
-        return f"{_named([*keys, ''])}unknown key {unknown[1]}; {right}"
+        return f"{_named([*keys, ''])}unknown key {unknown[1]}; {right(unknown[1], known)}"
     for name, words in _WORDS.items():
         what = what.replace(name, words)
     choices = _choices(fits)

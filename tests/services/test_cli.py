@@ -112,6 +112,39 @@ def test_what_a_command_says_to_install_is_there(command):
     assert (command.needs or command.name) in PROJECT["optional-dependencies"]
 
 
+@pytest.mark.parametrize(
+    ("written", "said"),
+    [
+        ("upp", "retouch: argument COMMAND: invalid choice: 'upp'; did you mean up? See 'retouch --help'"),
+        (
+            "stop --relase",
+            "retouch stop: unrecognized arguments: --relase; did you mean --release? See 'retouch stop --help'",
+        ),
+        (
+            "up --operater=anna",
+            "retouch up: unrecognized arguments: --operater=anna; did you mean --operator? See 'retouch up --help'",
+        ),
+        ("up --scene tabel", "retouch: unknown scene 'tabel'; did you mean table?"),
+        ("up --only robott", "retouch: --only: unknown process 'robott'; did you mean robot?"),
+    ],
+)
+def test_what_is_written_nearly_right_gets_the_nearest_name(capsys, written, said):
+    try:
+        code = cli.main(written.split())
+    except SystemExit as left:
+        code = left.code
+    assert code == Exit.BAD_INPUT
+    assert capsys.readouterr().err == f"{said}\n"
+
+
+def test_what_is_near_to_nothing_gets_all_that_there_is(capsys):
+    assert cli.main(["up", "--only", "xyz"]) == Exit.BAD_INPUT
+    assert "'xyz'; one of robot, camera" in capsys.readouterr().err
+    with pytest.raises(SystemExit):
+        cli.main(["xyzzy"])
+    assert "choose from" in capsys.readouterr().err
+
+
 def test_an_unknown_flag_is_named_with_the_help_of_its_command(capsys):
     with pytest.raises(SystemExit) as left:
         cli.main(["robot", "--headless"])

@@ -30,6 +30,7 @@ from services.process.exit_codes import Exit
 from services.process.ports import check_port
 from services.process.processes import PROCESS_NAMES
 from services.process.runner import stop_on_signals
+from services.process.suggestion import right
 
 TEACHER = "teach"
 
@@ -80,7 +81,7 @@ class Launch:
         names = tuple(name.strip() for name in arguments.only.split(",")) if named else every
         for name in names:
             if name not in PROCESS_NAMES:
-                raise CommandFailed(f"--only: unknown process {name!r}; there are {', '.join(PROCESS_NAMES)}")
+                raise CommandFailed(f"--only: unknown process {name!r}; {right(name, PROCESS_NAMES)}")
         if arguments.json is not None and not arguments.json.parent.is_dir():
             raise CommandFailed(f"--json: the folder {arguments.json.parent} does not exist")
         if arguments.json is not None and arguments.json.is_dir():
