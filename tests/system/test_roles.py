@@ -80,6 +80,18 @@ def commands(witness, name):
     )
 
 
+def takes_over(witness, somebody, name, why):
+    """Take over as a person does, whenever that is offered, until it is so by the robot's own word."""
+
+    def taken():
+        if somebody.shown.get("action-take_over@disabled") is False:
+            somebody.shown["action-take_over@disabled"] = True  # until s/he is told otherwise
+            somebody.press("take_over", why)
+        return witness.authority is not None and witness.authority.operator == name
+
+    eventually(taken, WITHIN_S, lambda: f"{name} commands; {witness.authority}, {somebody.shown}")
+
+
 def shows(somebody, value, words):
     eventually(
         lambda: words in str(somebody.shown.get(value, "")), WITHIN_S, lambda: f"{words!r}; {somebody.shown.get(value)}"
@@ -111,15 +123,8 @@ def both(people, witness):
         """Ann commands, or may take over: whoever comes first to a robot that is free commands it."""
         return ann.shown.get("who-text") == "You command" or ann.shown.get("action-take_over@disabled") is False
 
-    def taken():
-        """By the robot's own word; she takes over whenever that is offered: her station may just ask by itself."""
-        if ann.shown.get("action-take_over@disabled") is False:
-            ann.shown["action-take_over@disabled"] = True  # until she is told otherwise
-            ann.press("take_over", "the test begins")
-        return witness.authority is not None and witness.authority.operator == "Ann"
-
     eventually(decided, WITHIN_S, lambda: ann.shown)
-    eventually(taken, WITHIN_S, lambda: f"Ann commands; {witness.authority}, {ann.shown}")
+    takes_over(witness, ann, "Ann", "the test begins")
     shows(ann, "who-text", "You command")
     shows(bob, "who-text", "Ann commands")
     shows(bob, "action-ask@disabled", "False")
@@ -155,8 +160,7 @@ def test_silence_gives_the_robot(both, witness):
 def test_a_take_over_ends_the_motion_and_who_loses_the_robot_is_told_why(both, witness, onlooker):
     ann, bob = both
     moving(onlooker, ann)
-    bob.press("take_over", "a cup is in the way")
-    commands(witness, "Bob")
+    takes_over(witness, bob, "Bob", "a cup is in the way")
     state = witness.next(topics.AUTHORITY_STATE, lambda state: state.operator == "Bob")
     onlooker.until(lambda seen: seen.phase not in MOVING, WITHIN_S, "it stands")
     shows(ann, "who-text", "Bob commands")
@@ -186,8 +190,7 @@ def test_a_supervisor_ends_the_authority_and_the_robot_holds_at_once(both, peopl
 
 def test_a_second_operator_who_leaves_lets_the_robot_hold(both, people, witness, onlooker):
     _, bob = both
-    bob.press("take_over", "my turn")
-    commands(witness, "Bob")
+    takes_over(witness, bob, "Bob", "my turn")
     moving(onlooker, bob)
     bob.leave()
     onlooker.until(lambda seen: seen.phase == "hold", HELD_WITHIN_S, "it holds")

@@ -97,10 +97,10 @@ def _granted(state: Workflow, view: View, epoch: int) -> Workflow:
         unanswered=None,
         event=_joined(say("event.back"), _news(state.event)) if _tells_of_a_loss(state.event) else state.event,
     )
-    if state.episode is None:
-        return to(granted, Phase.LOOKING, view)
-    if not runs(state, view):
+    if _restarted(state, view):
         return to(replace(granted, episode=None, last=None, taught=None), Phase.LOOKING, view, event=gone(state, view))
+    if not runs(state, view) or state.episode is None:
+        return to(granted, Phase.LOOKING, view)
     number = state.episode.number or (view.robot.episode if view.robot is not None else 0)
     answer = state.unanswered.answer if state.unanswered is not None else None
     asked = state.offered & unanswered.ANSWERS
@@ -111,8 +111,11 @@ def _granted(state: Workflow, view: View, epoch: int) -> Workflow:
 
 def gone(state: Workflow, view: View) -> str:
     """Why nothing comes any more of the episode that the robot was told to run."""
-    restarted = view.robot is not None and state.episode is not None and view.robot.publisher != state.episode.robot
-    return say("event.restarted") if restarted else say("event.another_episode")
+    return say("event.restarted") if _restarted(state, view) else say("event.another_episode")
+
+
+def _restarted(state: Workflow, view: View) -> bool:
+    return view.robot is not None and state.episode is not None and view.robot.publisher != state.episode.robot
 
 
 def runs(state: Workflow, view: View) -> bool:

@@ -196,7 +196,9 @@ def executing(state: Workflow, view: View, settings: Settings) -> Step:
     """Watch, until the result has come; the operator ends the episode, or lets a held one go on."""
     ended = _without_result(state, view, settings)
     if ended:
-        return Step(to(state, Phase.DECIDING, view, episode=None, last=None, taught=None, event=ended))
+        if not runs(state, view):  # what is known of an attempt before it says nothing of this one
+            state = replace(state, last=None, taught=None)
+        return Step(to(state, Phase.DECIDING, view, episode=None, event=ended))
     state = editing.heard(going.heard(state, view), view)
     wanted = _wanted(state, view, settings)
     if wanted is not state.wants:
