@@ -17,6 +17,7 @@ from services.commands.doctor.examination import examine
 from services.commands.doctor.finding import Verdict
 from services.process.clock import SystemClock
 from services.process.config import Configuration
+from services.process.load import no_load
 from tests.network.identities import Identities
 from tests.network.standing import Standing
 from tests.ports import free_port
@@ -30,7 +31,8 @@ ROBOT = "kitchen"
 def examined(endpoint, folder="", **settings):
     """What the doctor finds."""
     settings = {"name": ROBOT, "operator": "anna", "connect": endpoint, "tls": str(folder)} | settings
-    case = Case(msgspec.structs.replace(Configuration(), **settings), SystemClock(), threading.Event())
+    configuration = msgspec.structs.replace(Configuration(), **settings)
+    case = Case(configuration, SystemClock(), threading.Event(), load=no_load)
     with case.open:
         return list(examine(case))
 
