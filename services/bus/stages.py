@@ -13,6 +13,9 @@ from protocol.messages import Figure, MasterState, OperatorInput, RobotState
 
 _FIGURE = "stage_"
 
+LASTING_NS = 5_000_000_000
+"""For so long what was measured is shown: a key is not pressed all the time, nor does an arm always move."""
+
 LONGEST_S = 60.0
 """What took longer was no stage of anything: a picture of before a sleep, a number that somebody made up."""
 
@@ -52,11 +55,38 @@ class Stages:
 
     def figures(self) -> tuple[Figure, ...]:
         """Those that are known, as a process tells them in its heartbeat."""
-        named = zip(NAMES, astuple(self), strict=True)
-        return tuple(Figure(_FIGURE + name, 1e3 * value, "ms") for name, value in named if value is not None)
+        return tuple(Figure(_FIGURE + name, 1e3 * value, "ms") for name, value in _named(self) if value is not None)
 
 
 NAMES = tuple(field.name for field in fields(Stages))
+
+
+class Lasting:
+    """The newest that is known of each stage: what is measured only now and then stays known for a while."""
+
+    def __init__(self) -> None:
+        self._known: dict[str, tuple[float, int]] = {}
+
+    def see(self, known: Stages, now_ns: int) -> None:
+        """Remember what is known now [ns]."""
+        self._known |= {name: (value, now_ns) for name, value in _named(known) if value is not None}
+
+    def forget(self) -> None:
+        """It was another's."""
+        self._known.clear()
+
+    def at(self, now_ns: int) -> Stages:
+        """What was known within the last `LASTING_NS` [ns]."""
+        return Stages(**{name: value for name, (value, at_ns) in self._known.items() if now_ns - at_ns <= LASTING_NS})
+
+
+def merged(parts: Iterable[Stages]) -> Stages:
+    """One way of what several processes know of it."""
+    return Stages(**{name: value for part in parts for name, value in _named(part) if value is not None})
+
+
+def _named(known: Stages) -> Iterable[tuple[str, float | None]]:
+    return zip(NAMES, astuple(known), strict=True)
 
 
 def stages(

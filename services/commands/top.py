@@ -16,7 +16,7 @@ from protocol.exceptions import ProtocolError
 from protocol.messages import Figure, Heartbeat
 from protocol.names import person, process_name, role
 from protocol.topics import HEARTBEAT, VERSION
-from services.bus.stages import NAMES, Stages, from_figures
+from services.bus.stages import NAMES, Lasting, Stages, from_figures, merged
 from services.bus.zenoh import Passing, open_session, watch
 from services.certificates.credentials import credentials
 from services.commands.arguments import add_network
@@ -48,6 +48,7 @@ class Beats:
 
     def __init__(self) -> None:
         self._newest: dict[tuple[str, str], tuple[Heartbeat, float, float]] = {}
+        self._stages: dict[tuple[str, str], Lasting] = {}
         self._clock = SystemClock()
 
     def receive(self, passing: Passing) -> None:
@@ -57,7 +58,9 @@ class Beats:
         except ProtocolError:
             return
         robot = passing.key.split("/")[2]
-        now = self._clock.now_ns() / 1e9
+        now_ns = self._clock.now_ns()
+        self._stages.setdefault((robot, beat.process), Lasting()).see(from_figures(beat.figures), now_ns)
+        now = now_ns / 1e9
         previous = self._newest.get((robot, beat.process))
         share = 0.0
         if previous is not None and previous[0].pid == beat.pid and now > previous[1]:
@@ -71,12 +74,12 @@ class Beats:
     def paths(self) -> tuple[Text, ...]:
         """A line for each operator of a robot: how long what the hand does takes, from stage to stage."""
         lines = []
+        now_ns = self._clock.now_ns()
         for robot, by_process in self._figures().items():
-            shared = [figure for name, own in by_process.items() if name == "robot" for figure in own]
-            people = {person(name) for name in by_process if role(name) in ("master", "station")}
-            for who in sorted(people):
-                names = (process_name("master", who), process_name("station", who)) if who else ("master", "station")
-                path = from_figures([*shared, *(figure for name in names for figure in by_process.get(name, ()))])
+            known = {name: self._stages[robot, name].at(now_ns) for name in by_process}
+            for who in sorted({person(name) for name in known if role(name) in ("master", "station")}):
+                names = ("robot", *(process_name(one, who) if who else one for one in ("master", "station")))
+                path = merged(known[name] for name in names if name in known)
                 lines.append(Text(readable(f"{robot}{f', {who}' if who else ''}: {told(path)}")))
         return tuple(lines)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import msgspec
 
 from protocol.messages import AuthorityState, Figure, OperatorInput, RobotState
-from services.bus.stages import Stages, stages
+from services.bus.stages import Lasting, Stages, stages
 from services.bus.subscription import Subscription
 from services.station.ears import Captured, Ears, message, picture
 from services.station.page.view import Picture
@@ -25,18 +25,27 @@ class OwnPath:
         self._own = own
         self._holder = holder
         self._drawn = -1.0
+        self._lasting = Lasting()
 
     def seen(self, held: OperatorInput) -> OperatorInput:
         """What is held, with the age of the drawn picture where anybody knows it: across machines the clocks decide."""
         self._drawn = held.drawn if self._ears.robot_clock(self._own) is not None else -1.0
         return msgspec.structs.replace(held, drawn=self._drawn)
 
-    def stages(self, authority: AuthorityState | None, robot: RobotState | None) -> Stages:
-        """As they were measured; while somebody else commands only what comes back to the eye is this operator's."""
+    def stages(self, authority: AuthorityState | None, robot: RobotState | None, now_ns: int) -> Stages:
+        """As they were measured in the last seconds; while somebody else commands only the picture is this operator's.
+
+        Args:
+            authority: who commands.
+            robot: its newest state.
+            now_ns: the time [ns].
+        """
         seen = OperatorInput(drawn=self._drawn)
         if authority is None or authority.holder != self._holder:
+            self._lasting.forget()
             return stages(seen)
-        return stages(seen, message(self._ears.master.latest()), robot)
+        self._lasting.see(stages(seen, message(self._ears.master.latest()), robot), now_ns)
+        return self._lasting.at(now_ns)
 
     def figures(self) -> tuple[Figure, ...]:
         """What this process alone knows of it."""

@@ -291,7 +291,7 @@ class StationService:
             safety=view.safety,
             robot=message(robot),
             robot_age_s=robot.age_s(now_ns) if robot is not None else math.inf,
-            path=self._path.stages(view.authority, view.robot),
+            path=self._path.stages(view.authority, view.robot, now_ns),
             object_pose=message(ears.seen.latest()),
             force=self._stage.force(now_ns),
             head=self._path.picture(ears.head, now_ns),

@@ -61,6 +61,7 @@ class Desk:
         self._seat = Seat()
         self._held: Held | None
         self._captured_ns = 0
+        self._drawn = -1.0
         self._let_go: bool
         self._heard_ns: int
         self._sat_ns: int
@@ -120,7 +121,7 @@ class Desk:
             present, who = self._is_present(now_ns), self._name(self._seat.tab)
             held = self._held
             if held is None or self._let_go:
-                return OperatorInput(operator=who, present=present)
+                return OperatorInput(operator=who, present=present, drawn=self._drawn)
             return OperatorInput(
                 operator=who,
                 present=present,
@@ -129,7 +130,7 @@ class Desk:
                 controllers=held.controllers,
                 yaw=held.yaw,
                 captured_ns=self._captured_ns,
-                drawn=-1.0 if held.picture_ms is None else held.picture_ms / 1e3,
+                drawn=self._drawn,
             )
 
     def attendance(self) -> Attendance:
@@ -199,6 +200,7 @@ class Desk:
 
     def _empty(self) -> None:
         self._silence()
+        self._drawn = -1.0
         self._beats.clear()
 
     def _silence(self) -> None:
@@ -225,6 +227,7 @@ class Desk:
             return
         before, self._held = self._held, message
         self._captured_ns = known.captured_ns(message, now_ns) if known is not None else 0
+        self._drawn = -1.0 if message.picture_ms is None else message.picture_ms / 1e3
         if before is None or before.keys != message.keys or before.focused != message.focused:
             self.call.set()
         self._heard_ns = now_ns

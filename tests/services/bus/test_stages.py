@@ -3,7 +3,7 @@
 import pytest
 
 from protocol.messages import Figure, MasterState, OperatorInput, Phase, Pose, RobotState
-from services.bus.stages import LONGEST_S, NAMES, Stages, from_figures, stages
+from services.bus.stages import LASTING_NS, LONGEST_S, NAMES, Lasting, Stages, from_figures, merged, stages
 
 POSE = Pose((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
 
@@ -46,6 +46,20 @@ def test_what_can_be_no_delay_is_unknown_and_makes_no_figure(value):
 
 def test_of_no_time_a_stage_is_known():
     assert stages(robot=robot(applied_latency=0.0, applied_way=0.0)) == Stages(way=0.0, apply=0.0)
+
+
+def test_what_is_measured_now_and_then_lasts_a_while():
+    lasting = Lasting()
+    lasting.see(Stages(capture=0.012, way=0.018), 0)
+    lasting.see(Stages(way=0.020), LASTING_NS)
+    assert lasting.at(LASTING_NS) == Stages(capture=0.012, way=0.020)
+    assert lasting.at(LASTING_NS + 1) == Stages(way=0.020)
+    lasting.forget()
+    assert lasting.at(LASTING_NS) == Stages()
+
+
+def test_what_several_processes_know_is_one_way():
+    assert merged([Stages(capture=0.012), Stages(way=0.018), Stages()]) == Stages(capture=0.012, way=0.018)
 
 
 def test_what_heartbeats_tell_is_the_same_way():

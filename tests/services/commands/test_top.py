@@ -43,6 +43,11 @@ def test_each_operators_way_from_hand_to_eye_is_a_line(beats):
     assert bob.startswith("kitchen, bob: from hand to eye at least 134 ms: capture ?, way 18 ms")
 
 
+def test_what_the_last_heartbeat_did_not_measure_stays_known_for_a_while(beats):
+    beats.receive(passing(heartbeat("master-anna", sequence=2)))
+    assert "capture 12 ms" in beats.paths()[0].plain
+
+
 def test_what_each_process_measures_is_shown(beats):
     said = printed(beats.shown())
     assert "simulation_lag 0.25 s" in said

@@ -61,7 +61,7 @@ class Desk:
         return self.path.picture(self.ears.head, self.clock.now_ns())
 
     def stages(self, authority=MINE):
-        return self.path.stages(authority, self.ears.robot.latest().message)
+        return self.path.stages(authority, self.ears.robot.latest().message, self.clock.now_ns())
 
 
 @pytest.fixture(params=[False, True], ids=["one machine", "two machines"])
@@ -73,6 +73,18 @@ def test_the_whole_way_of_who_commands(desk):
     desk.hear()
     assert desk.path.seen(OperatorInput(drawn=0.031)).drawn == 0.031
     assert desk.stages() == Stages(0.012, 0.018, pytest.approx(0.006), 0.02, 0.031)
+
+
+def test_what_was_measured_stays_shown_for_seconds_and_not_for_ever(desk):
+    desk.hear()
+    desk.path.seen(OperatorInput(drawn=0.031))
+    whole = desk.stages()
+    desk.clock.advance(4.0)
+    desk.hear(following_lag=-1.0)
+    assert desk.stages() == whole, "an arm that stands"
+    desk.clock.advance(4.0)
+    desk.hear(following_lag=-1.0)
+    assert desk.stages().motion is None
 
 
 def test_while_another_one_commands_only_what_comes_back_is_ones_own(desk):

@@ -259,3 +259,6 @@ def test_how_old_a_picture_was_when_it_had_been_drawn_is_passed_on(browser):
     assert browser.input().drawn == -1.0
     browser.hold(picture_ms=31.0)
     assert browser.input().drawn == pytest.approx(0.031)
+    assert browser.input(later_ms=DEAD_MAN_MS + 1).drawn == pytest.approx(0.031), "whatever of its keys counts"
+    browser.leave()
+    assert browser.input().drawn == -1.0
