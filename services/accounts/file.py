@@ -8,7 +8,7 @@ import msgspec
 
 from services.accounts.account import Accounts
 from services.accounts.exceptions import AccountsUnreadable
-from services.process.files import settings_folder, write_whole
+from services.process.files import settings_folder, signature, write_whole
 
 NAME = "accounts.json"
 
@@ -16,8 +16,6 @@ LARGEST = 1 << 20
 """Of the file [byte]."""
 
 _PRIVATE = 0o600
-
-_Signature = tuple[int, int, int]
 
 
 def accounts_path() -> Path:
@@ -69,30 +67,21 @@ class AccountsFile:
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        self._signature: _Signature | None = None
+        self._signature: tuple[int, int, int] | None = None
         self.accounts = Accounts()
         self.fault = ""
         self._read()
 
     def refresh(self) -> bool:
         """Look at the file; whether it was read again."""
-        if _signature(self._path) == self._signature:
+        if signature(self._path) == self._signature:
             return False
         self._read()
         return True
 
     def _read(self) -> None:
-        self._signature = _signature(self._path)  # before it is read: what changes meanwhile is read again
+        self._signature = signature(self._path)  # before it is read: what changes meanwhile is read again
         try:
             self.accounts, self.fault = load(self._path), ""
         except AccountsUnreadable as error:
             self.accounts, self.fault = Accounts(), str(error)
-
-
-def _signature(path: Path) -> _Signature | None:
-    """Changes with the file's content; None where there is none to be read."""
-    try:
-        found = path.stat()
-    except OSError:
-        return None
-    return found.st_mtime_ns, found.st_size, found.st_ino

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
-from datetime import datetime
 
 from rich.table import Table
 from rich.text import Text
@@ -17,7 +16,7 @@ from services.commands.model_process import ModelProcess, model_process
 from services.commands.settings import configuration as configured
 from services.commands.terminal import Terminal
 from services.process.exit_codes import Exit
-from services.process.lines import readable
+from services.process.lines import readable, when
 from services.station.page.entries import Row, rows_of
 
 _ABOUT = """\
@@ -98,7 +97,7 @@ def _table(rows: tuple[Row, ...]) -> Table:
     for heading in ("what", "who", "when", "from what was predicted", "in use"):
         table.add_column(heading)
     for row in rows:
-        words = (str(row.id), _what(row), row.who or "-", _when(row.at), _moved(row), _in_use(row))
+        words = (str(row.id), _what(row), row.who or "-", when(row.at) or "-", _moved(row), _in_use(row))
         table.add_row(*(Text(readable(word)) for word in words), style="" if row.in_use else "dim")
     return table
 
@@ -115,12 +114,4 @@ def _moved(row: Row) -> str:
 def _in_use(row: Row) -> str:
     if not row.turned:
         return "yes" if row.in_use else "no"
-    return f"{'yes' if row.in_use else 'no'}: {row.turned}, {_when(row.turned_at)}"
-
-
-def _when(at: str) -> str:
-    """By the clock of whoever reads it; as it came where it is no time."""
-    try:
-        return datetime.fromisoformat(at).astimezone().strftime("%Y-%m-%d %H:%M")
-    except ValueError:
-        return at or "-"
+    return f"{'yes' if row.in_use else 'no'}: {row.turned}, {when(row.turned_at) or '-'}"

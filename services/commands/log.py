@@ -13,6 +13,7 @@ from services.evidence.ledger import path_of
 from services.evidence.reading import Found, Reader, verify
 from services.process.config import Configuration, load
 from services.process.exit_codes import Exit
+from services.process.lines import when
 
 _ABOUT = """\
 A robot writes down who held the authority, who commanded, stopped and corrected it,
@@ -76,7 +77,7 @@ def _show(path: Path, last: int | None) -> int:
 def _line(found: Found, text: str) -> str:
     if found.entry is None:
         return f"     ?  {text}"
-    return f"{found.entry.number:>6}  {words.when(found.entry.at)}  {text}"
+    return f"{found.entry.number:>6}  {when(found.entry.at, seconds=True)}  {text}"
 
 
 def _verify(path: Path, known: str) -> int:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from datetime import datetime
 from typing import Any
 
 from protocol.messages import AuthorityEvent, Mode
@@ -51,14 +50,6 @@ class Teller:
             if before.get(key) != now.get(key)
         ]
         return f"{began.robot} began on {began.host}, " + ("; ".join(changes) or "settings and versions as before")
-
-
-def when(at: str) -> str:
-    """A time by the clock of whoever reads it, to the second; as it came where it is none."""
-    try:
-        return datetime.fromisoformat(at).astimezone().strftime("%Y-%m-%d %H:%M:%S")
-    except ValueError:
-        return readable(at)
 
 
 def _told(event: Event) -> str:

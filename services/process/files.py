@@ -44,6 +44,15 @@ def write_whole(path: Path, content: bytes, mode: int = 0o644) -> None:
         os.close(folder)
 
 
+def signature(path: Path) -> tuple[int, int, int] | None:
+    """Changes with the file's content; None where there is none to be read."""
+    try:
+        found = path.stat()
+    except OSError:
+        return None
+    return found.st_mtime_ns, found.st_size, found.st_ino
+
+
 def data_folder() -> Path:
     """Where what was learnt belongs: `$XDG_DATA_HOME/retouch` or `~/.local/share/retouch`.
 

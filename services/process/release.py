@@ -5,9 +5,9 @@ from __future__ import annotations
 from importlib.metadata import PackageNotFoundError, version
 
 
-def release() -> str:
-    """As its package calls it; empty where it is not installed as one."""
+def release(package: str = "retouch") -> str:
+    """As its package calls it, or another one's; empty where that is not installed."""
     try:
-        return version("retouch")
+        return version(package)
     except PackageNotFoundError:
         return ""

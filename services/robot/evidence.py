@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import platform
 import sys
-from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 import msgspec
 
-from protocol.messages import Mode, Prediction
+from protocol.messages import Prediction
 from services.evidence.events import AuthorityChanged, Began, Commanded, EpisodeBegan, EpisodeEnded, StopChanged
 from services.evidence.ledger import Ledger
 from services.process.config import Configuration
+from services.process.release import release
 from services.robot.control import Control
 from services.robot.order import Finished
 
@@ -41,11 +41,10 @@ class Evidence:
         self._ledger.add(Commanded(request=type(request).__name__, asker=asker[:64], said=said))
 
     def set_in_motion(self, predicted: Prediction | None) -> None:
-        """An episode has begun: with this prediction, or led by a hand."""
+        """An episode has begun: with this prediction, or led by a hand where there is none."""
         order, lease = self._control.order, self._control.lease
         if order is None:
             return
-        led = order.mode is Mode.TEACH or predicted is None
         self._ledger.add(
             EpisodeBegan(
                 episode=order.episode,
@@ -53,8 +52,8 @@ class Evidence:
                 operator=order.who,
                 mode=order.mode,
                 prediction=order.prediction,
-                origin=None if led or predicted is None else predicted.origin,
-                model_version=None if led or predicted is None else predicted.model_version,
+                origin=predicted.origin if predicted is not None else None,
+                model_version=predicted.model_version if predicted is not None else None,
             )
         )
 
@@ -87,13 +86,9 @@ def began(configuration: Configuration) -> Began:
 
 def versions() -> dict[str, str]:
     """Of the software that moves the robot."""
-    found = {"python": platform.python_version(), "platform": sys.platform}
-    for name in SOFTWARE:
-        try:
-            found[name] = version(name)
-        except PackageNotFoundError:  # a robot without that part
-            continue
-    return found
+    installed = {name: release(name) for name in SOFTWARE}
+    known = {name: found for name, found in installed.items() if found}
+    return {"python": platform.python_version(), "platform": sys.platform, **known}
 
 
 def _authority(control: Control) -> AuthorityChanged:

@@ -65,7 +65,7 @@ class Playout:
         self.delay_ns = 0
         self._publisher = 0
         self._ways: deque[_Way] = deque()
-        self._heard_ns = self._transit_ns = 0
+        self._heard_ns = self._transit_ns = self._fastest_ns = 0
         self._samples: deque[MasterState] = deque()
         self._offset_ns: int | None = None
         self._played_ns = 0
@@ -97,6 +97,7 @@ class Playout:
             self._samples.append(message)
         else:
             self.clear()
+        self._fastest_ns = min((way.transit_ns for way in self._ways), default=0)
         self.delay_ns = self._wanted_ns(way_ns)
 
     def play(self, newest: Received[MasterState], now_ns: int) -> Received[MasterState]:
@@ -108,7 +109,7 @@ class Playout:
         """
         if not newest.message.engaged or not self._ways:
             return newest
-        wanted = min(way.transit_ns for way in self._ways) + self.delay_ns
+        wanted = self._fastest_ns + self.delay_ns
         self._approach(wanted, now_ns)
         due_ns = now_ns - (self._offset_ns if self._offset_ns is not None else wanted)
         while len(self._samples) > 1 and self._samples[1].stamp_ns <= due_ns:
@@ -121,9 +122,8 @@ class Playout:
         """So late that nearly always there is a sample that is due later, where that is worth it."""
         if not self._ways:
             return 0
-        fastest = min(way.transit_ns for way in self._ways)
         gaps = sorted(way.until_next_ns for way in self._ways)
-        late = gaps[math.ceil(COVERED * (len(gaps) - 1))] - fastest
+        late = gaps[math.ceil(COVERED * (len(gaps) - 1))] - self._fastest_ns
         if late <= REGULAR_NS:
             return 0
         return max(0, min(late, MOST_NS, OLDEST_NS - way_ns))

@@ -66,16 +66,17 @@ class Samples:
             if not covers(received.message.holder, received.message.epoch, received.message.process):
                 continue
             self._hear(received)
-            way_s = self.age_s(received, received.received_ns)
-            self.newest_way_s = max(0.0, way_s) if way_s is not None else None
+            known_s = self.age_s(received, received.received_ns)
+            self.newest_way_s = max(0.0, known_s) if known_s is not None else None
+            way_s = self.newest_way_s or 0.0
             if not received.message.engaged:
                 let_go()
-            if self.way_s(received) > LONGEST_SILENCE_S:
+            if way_s > LONGEST_SILENCE_S:
                 self.late += 1
             else:
                 self._newest = received
                 if not same_clock(received.message.publisher, self._own):
-                    self._playout.hear(received, round(1e9 * self.way_s(received)))
+                    self._playout.hear(received, round(1e9 * way_s))
         if (old := self._newest) is not None and not covers(old.message.holder, old.message.epoch, old.message.process):
             self._newest = None
         if self._newest is None:

@@ -6,6 +6,7 @@ import time
 from protocol import messages, queries, topics
 from services.bus.zenoh import Lanes, ZenohBus, open_session
 from services.process.clock import SystemClock, utc_ms
+from tests.heartbeats import heartbeat
 from tests.protocol.filled import filled
 from tests.system.harness import START_S
 
@@ -52,25 +53,7 @@ class Standing(threading.Thread):
                 self._buses["robot"].publish(topics.ROBOT_STATE, state)
             if count % BEAT == 0:
                 for name, bus in self._buses.items():
-                    bus.publish(topics.HEARTBEAT, heartbeat(name))
+                    bus.publish(topics.HEARTBEAT, heartbeat(name, utc_ms=utc_ms()))
             count += 1
             for call in self._server.take() if self._server is not None else ():
                 call.reply(queries.Learnt(filled(messages.ModelState)))
-
-
-def heartbeat(process):
-    """What a process says of itself."""
-    return messages.Heartbeat(
-        process=process,
-        pid=1,
-        host="site",
-        rate_hz=100.0,
-        ticks=1,
-        late_ticks=0,
-        period_p50=0.01,
-        period_p99=0.01,
-        step_p99=0.001,
-        cpu_s=1.0,
-        memory=1,
-        utc_ms=utc_ms(),
-    )

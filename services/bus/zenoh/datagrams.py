@@ -16,7 +16,7 @@ import zenoh
 
 from services.bus.zenoh.dialling import Opened, linked
 from services.bus.zenoh.session import Session
-from services.bus.zenoh.transport import configuration, leave
+from services.bus.zenoh.transport import configuration, leave, settings
 
 log = logging.getLogger(__name__)
 
@@ -159,7 +159,7 @@ class Datagrams(threading.Thread):
     def _open(self) -> Opened | None:
         pace_ms = self._session.pace_ms
         try:
-            session = zenoh.open(configuration("client", self._router, None, pace_ms, within_ms=pace_ms))
+            session = zenoh.open(configuration(settings("client", self._router, None, pace_ms, within_ms=pace_ms)))
         except zenoh.ZError:
             return None
         return linked(session, pace_ms)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import zenoh
 
 from services.bus.reach import OPEN_MOST_MS, Silence, open_timeout_ms, probe
-from services.bus.zenoh.transport import REDIAL_MS, configuration, leave, reason
+from services.bus.zenoh.transport import REDIAL_MS, configuration, leave, reason, settings
 from services.certificates.credentials import Credentials
 from services.process.endpoint import Endpoint
 from services.process.exceptions import BusError, ServiceError
@@ -117,10 +117,10 @@ class Dialling(threading.Thread):
     def _attempt(self, pace_ms: int) -> zenoh.Session | None:
         try:
             within_ms = ATTEMPTS * pace_ms
-            config = configuration(
+            made = settings(
                 "client", self._endpoint.text, None, pace_ms, within_ms=within_ms, credentials=self._credentials
             )
-            return zenoh.open(config)
+            return zenoh.open(configuration(made))
         except zenoh.ZError as error:
             if "Timeout!" not in str(error):
                 raise

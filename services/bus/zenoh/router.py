@@ -133,9 +133,7 @@ class Uplink:
 def router_settings(listen: str, connect: str | None = None, credentials: Credentials | None = None) -> dict[str, Any]:
     """What such a router is opened with, as the official zenohd reads it in a file; raises as `open_router`."""
     parse(listen)
-    trip = probe(parse(connect)) if connect else 0.0
-    pace_ms = open_timeout_ms(0.0 if isinstance(trip, Silence) else trip)
-    return settings("router", connect, listen, pace_ms, credentials=credentials)
+    return _settings(listen, connect, _pace_ms(parse(connect) if connect else None), credentials)
 
 
 def open_router(listen: str, connect: str | None = None, credentials: Credentials | None = None) -> Router:
@@ -154,8 +152,7 @@ def open_router(listen: str, connect: str | None = None, credentials: Credential
     """
     parse(listen)
     other = parse(connect) if connect else None
-    trip = probe(other) if other else 0.0
-    pace_ms = open_timeout_ms(0.0 if isinstance(trip, Silence) else trip)
+    pace_ms = _pace_ms(other)
     router = Router(listen, connect, Opened(_opened(listen, connect, pace_ms, credentials), pace_ms), credentials)
     if other is not None:
         Redialling(Uplink(router, other), router.end).start()
@@ -164,9 +161,19 @@ def open_router(listen: str, connect: str | None = None, credentials: Credential
     return router
 
 
+def _pace_ms(other: Endpoint | None) -> int:
+    """At which the other router is dialled, as far as the way there is known now."""
+    trip = probe(other) if other is not None else 0.0
+    return open_timeout_ms(0.0 if isinstance(trip, Silence) else trip)
+
+
+def _settings(listen: str, connect: str | None, pace_ms: int, credentials: Credentials | None) -> dict[str, Any]:
+    return settings("router", connect, listen, pace_ms, credentials=credentials)
+
+
 def _opened(listen: str, connect: str | None, pace_ms: int, credentials: Credentials | None) -> zenoh.Session:
     try:
-        session = zenoh.open(configuration("router", connect, listen, pace_ms, credentials=credentials))
+        session = zenoh.open(configuration(_settings(listen, connect, pace_ms, credentials)))
     except zenoh.ZError as error:
         if "listener bound to" in str(error):
             raise EndpointInUse(listen) from None

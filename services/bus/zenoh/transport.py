@@ -37,17 +37,8 @@ MOST_LINKS = 3
 POLL_S = 0.02
 
 
-def configuration(
-    mode: str,
-    connect: str | None,
-    listen: str | None,
-    pace_ms: int,
-    *,
-    within_ms: int = -1,
-    credentials: Credentials | None = None,
-) -> zenoh.Config:
-    """The same as `settings`, as a session takes it."""
-    made = settings(mode, connect, listen, pace_ms, within_ms=within_ms, credentials=credentials)
+def configuration(made: dict[str, Any]) -> zenoh.Config:
+    """Settings, as a session takes them."""
     return zenoh.Config.from_json5(json.dumps(made))
 
 

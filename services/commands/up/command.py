@@ -32,20 +32,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write what happened")
     side = parser.add_mutually_exclusive_group()
-    side.add_argument(
-        "--site",
-        dest="side",
-        action="store_const",
-        const=Side.SITE,
-        help="the robot's side of a network, as the file's [site] says: " + ", ".join(Side.SITE.processes),
-    )
-    side.add_argument(
-        "--desk",
-        dest="side",
-        action="store_const",
-        const=Side.DESK,
-        help="the operator's side, as the file's [desk] says: " + ", ".join(Side.DESK.processes),
-    )
+    for one, whose in ((Side.SITE, "the robot's"), (Side.DESK, "the operator's")):
+        about = f"{whose} side of a network, as the file's [{one.value}] says: {', '.join(one.processes)}"
+        side.add_argument(f"--{one.value}", dest="side", action="store_const", const=one, help=about)
     parser.add_argument("--listen", metavar="ENDPOINT", help="where other machines may join (default: this one only)")
     parser.add_argument("--only", metavar="A,B", help=f"start only some of: {', '.join(PROCESS_NAMES)}")
     parser.add_argument("--no-browser", action="store_true", help="do not open the page")

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from services.process.config import StationSection
 from services.process.exceptions import UnusableSetting
+from services.process.files import signature
 
 CERTIFICATE, KEY = "[station] certificate", "[station] key"
 
@@ -62,12 +63,8 @@ class Renewal:
         self._context.load_cert_chain(self._station.certificate, self._station.key or None)
         log.info("the page's certificate was renewed")
 
-    def _stamps(self) -> list[tuple[int, int]]:
-        """Change with the files."""
-        try:
-            return [(found.st_mtime_ns, found.st_ino) for found in (file.stat() for file in self._files)]
-        except OSError:
-            return []
+    def _stamps(self) -> list[tuple[int, int, int] | None]:
+        return [signature(file) for file in self._files]
 
 
 def _check_readable(setting: str, file: Path) -> None:

@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 
 from protocol import topics
-from protocol.messages import Heartbeat
 from protocol.rights import subject
 from tests.bench import fleet
 from tests.bench.many import presence, rules
 from tests.bench.many.fleet import Fleet, late_share, rates
+from tests.heartbeats import heartbeat
 
 
 @pytest.mark.parametrize(("processor", "borne"), [(0.05, (1, 4, 16)), (0.4, (1, 4)), (0.5, (1,)), (2.5, ())])
@@ -24,19 +24,7 @@ def test_a_rate_is_what_was_counted_meanwhile():
 
 
 def beat(ticks, late):
-    return Heartbeat(
-        process="robot",
-        pid=1,
-        host="here",
-        rate_hz=100.0,
-        ticks=ticks,
-        late_ticks=late,
-        period_p50=0.01,
-        period_p99=0.01,
-        step_p99=0.001,
-        cpu_s=1.0,
-        memory=1,
-    )
+    return heartbeat(ticks=ticks, late_ticks=late)
 
 
 def test_late_ticks_are_those_of_the_interval_and_of_all_robots():

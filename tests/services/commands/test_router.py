@@ -6,13 +6,13 @@ import pytest
 import zenoh
 
 from protocol import topics
-from protocol.messages import Heartbeat
 from services import cli
 from services.bus.zenoh import connect
 from services.certificates.authority import make_authority
 from services.certificates.credentials import credentials
 from services.process.clock import SystemClock
 from services.process.config import Configuration
+from tests.heartbeats import heartbeat
 from tests.ports import free_port
 from tests.system.harness import eventually
 
@@ -42,13 +42,6 @@ def endpoint(folder, tmp_path, capsys):
     router.close()
 
 
-def beat():
-    return Heartbeat(
-        process="camera", pid=1, host="h", rate_hz=1.0, ticks=1, late_ticks=0, period_p50=0.0, period_p99=0.0,
-        step_p99=0.0, cpu_s=0.0, memory=0, topics=(), figures=(),
-    )  # fmt: skip
-
-
 def test_it_lets_in_whom_the_certificates_name_and_passes_on_what_they_may_say(folder, endpoint):
     configuration = Configuration(name="kitchen", operator="anna", connect=endpoint, tls=str(folder))
     camera = connect(
@@ -61,7 +54,7 @@ def test_it_lets_in_whom_the_certificates_name_and_passes_on_what_they_may_say(f
         heard = station.subscribe(topics.HEARTBEAT)
 
         def passed():
-            camera.publish(topics.HEARTBEAT, beat())
+            camera.publish(topics.HEARTBEAT, heartbeat("camera"))
             return heard.latest() is not None
 
         eventually(passed, WITHIN_S, "a camera is heard through it")

@@ -1,6 +1,5 @@
 """Who is there, who is missing, and who speaks another version."""
 
-import msgspec
 import pytest
 
 from protocol import messages, topics
@@ -9,30 +8,15 @@ from services.bus.zenoh import Passing
 from services.commands.doctor.finding import Verdict
 from services.commands.doctor.hearing import Beat, Foreign, Hearing
 from services.commands.doctor.processes import AT_THE_ROBOT, present, versions
+from tests.heartbeats import heartbeat
 
 
-def heartbeat(process, **changed):
-    beat = messages.Heartbeat(
-        robot="kitchen",
-        topic=topics.HEARTBEAT.name,
-        process=process,
-        pid=1,
-        host="site",
-        rate_hz=100.0,
-        ticks=1,
-        late_ticks=0,
-        period_p50=0.01,
-        period_p99=0.01,
-        step_p99=0.001,
-        cpu_s=1.0,
-        memory=1,
-        software="0.1.0",
-    )
-    return msgspec.structs.replace(beat, **changed)
+def beat(process, **changed):
+    return heartbeat(process, robot="kitchen", topic=topics.HEARTBEAT.name, **{"software": "0.1.0"} | changed)
 
 
 def there(*names, robot="kitchen"):
-    return {robot: {name: Beat(robot, heartbeat(name), 0) for name in names}}
+    return {robot: {name: Beat(robot, beat(name), 0) for name in names}}
 
 
 def verdicts(findings):
@@ -86,7 +70,7 @@ def passing(message, schema=topics.HEARTBEAT.schema, version=topics.VERSION):
 
 
 def test_everybody_speaks_the_same():
-    hearing = heard(passing(heartbeat("robot")))
+    hearing = heard(passing(beat("robot")))
     (found,) = versions(hearing, "0.1.0", sealed=False)
     assert found.verdict is Verdict.OK
     assert hearing.robots["kitchen"]["robot"].message.host == "site"
@@ -94,7 +78,7 @@ def test_everybody_speaks_the_same():
 
 @pytest.mark.parametrize(("schema", "version", "speaks"), [("Heartbeat/2", "@v1", "Heartbeat/2"), ("", "@v2", "@v2")])
 def test_another_schema_and_another_version_are_told_as_such(schema, version, speaks):
-    hearing = heard(passing(heartbeat("camera"), schema, version))
+    hearing = heard(passing(beat("camera"), schema, version))
     assert hearing.foreign == {Foreign("kitchen", "camera", speaks)}
     assert hearing.robots == {}
     (found,) = versions(hearing, "0.1.0", sealed=False)
@@ -104,14 +88,14 @@ def test_another_schema_and_another_version_are_told_as_such(schema, version, sp
 
 
 def test_another_release_is_to_be_looked_at():
-    (found,) = versions(heard(passing(heartbeat("robot", software="0.2.0"))), "0.1.0", sealed=False)
+    (found,) = versions(heard(passing(beat("robot", software="0.2.0"))), "0.1.0", sealed=False)
     assert found.verdict is Verdict.LOOK
     assert "runs release 0.2.0, here it is 0.1.0" in found.found
 
 
 def test_who_dropped_messages_of_another_version_says_so():
     figures = (messages.TopicFigures("cmd/master_state", 0.0, -1.0, -1.0, wrong_version=7),)
-    (found,) = versions(heard(passing(heartbeat("robot", topics=figures))), "0.1.0", sealed=False)
+    (found,) = versions(heard(passing(beat("robot", topics=figures))), "0.1.0", sealed=False)
     assert found.verdict is Verdict.LOOK
     assert "7 on cmd/master_state" in found.found
 
@@ -126,7 +110,7 @@ def test_what_is_no_heartbeat_is_passed_over():
 
 
 def test_a_name_from_the_network_does_nothing_at_a_terminal():
-    beat = Beat("kitchen", heartbeat("robot", host="\x1b[2Jsite\n"), 0)
-    (found,) = present({"kitchen": {"robot": beat}}, "kitchen")
+    one = Beat("kitchen", beat("robot", host="\x1b[2Jsite\n"), 0)
+    (found,) = present({"kitchen": {"robot": one}}, "kitchen")
     assert "\x1b" not in found.line
     assert "\n" not in found.line
