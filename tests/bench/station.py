@@ -20,6 +20,7 @@ import numpy as np
 import psutil
 from playwright.sync_api import TimeoutError as NotThere
 from playwright.sync_api import sync_playwright
+from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from protocol import topics
@@ -132,6 +133,10 @@ class Onlooker(threading.Thread):
         self.over = threading.Event()
 
     def run(self):
+        with contextlib.suppress(ConnectionClosed):  # the station may end first
+            self._look_on()
+
+    def _look_on(self):
         with connect(f"{self._url.replace('http', 'ws')}link", origin=self._url.rstrip("/"), max_size=None) as link:
             name = secrets.token_hex(8)
             link.send(msgspec.json.encode(Hello(name, name)).decode())
@@ -198,8 +203,8 @@ def refine(operator, witness, endpoint):
     pictures = operator.page.evaluate("window.drawn") - drawn
     foresights, ages = (np.array(operator.page.evaluate(f"window.{name}")) for name in ("foresights", "ages"))
     path = OwnPath()
-    for said in heard[topics.OPERATOR_INPUT]:
-        path.keep(stages(operator=said))
+    for input_ in heard[topics.OPERATOR_INPUT]:
+        path.keep(stages(operator=input_))
     for master in heard[topics.MASTER_STATE]:
         path.keep(stages(master=master))
     for robot in heard[topics.ROBOT_STATE]:
