@@ -61,6 +61,8 @@ class OperatorInput(Message, frozen=True, kw_only=True):
         present: the page is alive, visible and was heard within the last second.
         keys: the physical keys held down, by their `KeyboardEvent.code`.
         focused: the page has the focus; without it no key counts.
+        late: the page was not heard for a moment, so that no key counts now; what is held all the while goes on as soon
+            as it is heard again, while after a loss of the focus everything has to be let go first.
         controllers: what else the page reads beside the keys.
         yaw: of the person's axes in the base frame [rad]: what s/he sees as forward lies so far to the left of the
             robot's. Devices of the page take it over once everything was let go.
@@ -77,6 +79,7 @@ class OperatorInput(Message, frozen=True, kw_only=True):
     present: bool = False
     keys: Annotated[tuple[Name, ...], msgspec.Meta(max_length=32)] = ()
     focused: bool = False
+    late: bool = False
     controllers: Annotated[tuple[Controller, ...], msgspec.Meta(max_length=4)] = ()
     yaw: Yaw = 0.0
     blind: bool = False

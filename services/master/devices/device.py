@@ -9,6 +9,9 @@ from protocol.messages import Figure, Mode, OperatorInput, RobotState, Trouble, 
 
 ZERO: Vector3 = (0.0, 0.0, 0.0)
 
+Episode = tuple[int, int]
+"""The robot process' identity and its number for the episode."""
+
 
 @dataclass(frozen=True)
 class Moment:

@@ -7,12 +7,14 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from protocol.messages import Figure, OperatorInput, Phase, RobotState, Trouble, Vector3
-from services.master.devices.device import ZERO, Moment, Sample
+from services.master.devices.device import ZERO, Episode, Moment, Sample
 from services.master.devices.hand import Hand, Source
 from services.master.devices.lever import Law, Lever, TurnLever, turned
 from services.process.master_devices import Led
 
 NOBODY = OperatorInput()
+
+_UNDER_WAY = (Phase.EXECUTE, Phase.HOLD)
 
 
 class _Trouble(NamedTuple):
@@ -42,7 +44,8 @@ class LedMaster:
 
     Of several devices that is in use which a hand used last. A device counts once it was seen at rest: what is held
     on the way to the start, what was plugged in deflected, or a stick that drifts asks for nothing. Two devices that
-    are used at once, and one that is pulled out while it is in use, disengage.
+    are used at once, and one that is pulled out while it is in use, disengage. What was held all through a hold that
+    ends by itself, because something came late for a moment, goes on; it does nothing meanwhile.
 
     Args:
         law: growth, decay and reach of both.
@@ -56,6 +59,7 @@ class LedMaster:
         self._yaw = 0.0
         self._engaged = False
         self._rested: set[str] = set()
+        self._episode: Episode | None = None
         self._quarrel: set[str] = set()
         self._met: set[str] = set()
         self.name = sources[0].kind
@@ -70,7 +74,7 @@ class LedMaster:
         if hand is not None and (not hand.coupled or trouble.kind is Trouble.TWO):
             hand = None
         sample = self._teach(robot, hand, moment.dt) if moment.teaching else self._refine(robot, hand, moment.dt)
-        if not _executes(robot) or not sample.engaged:
+        if not self._goes_on(moment, sample):
             self._rested.clear()
         self._rested |= {name for name, one in hands.items() if not one.held}
         actions = tuple(sorted({action for one in hands.values() for action in one.actions}))
@@ -109,6 +113,22 @@ class LedMaster:
             return _Trouble(Trouble.GONE if self.name in self._met else Trouble.ABSENT, self.name)
         restless = sorted(held - used) if _executes(robot) else ()
         return _Trouble(Trouble.NOT_AT_REST, restless[0]) if restless else NO_TROUBLE
+
+    def _goes_on(self, moment: Moment, sample: Sample) -> bool:
+        """What was seen at rest has been so since: the hand is there, or was a moment ago as far as anybody knows.
+
+        Whether a hold is short is the robot's to say: it waits to be asked after one that was not.
+        """
+        operator, robot = moment.operator, moment.robot
+        heard = operator is not None and not operator.late
+        if heard and not _is_at(operator):
+            return False
+        if robot is None:
+            return True
+        before, self._episode = self._episode, (robot.publisher, robot.episode)
+        if before != self._episode or robot.phase not in _UNDER_WAY or robot.waiting:
+            return False
+        return sample.engaged or not heard
 
     def _turn_axes(self, hands: Mapping[str, Hand], operator: OperatorInput | None) -> None:
         if operator is None or not operator.focused or any(hand.held for hand in hands.values()):

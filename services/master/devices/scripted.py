@@ -14,7 +14,7 @@ from protocol.topics import EXECUTION, OBJECT_POSE, SCENE_STATE, TEACHING_STATE
 from services.bus.arrays import motion_from_wire
 from services.bus.bus import Bus
 from services.bus.predictions import Predictions
-from services.master.devices.device import Moment, Sample
+from services.master.devices.device import Episode, Moment, Sample
 from services.master.devices.simulated_stylus import SimulatedStylus
 from services.master.feedback import Feedback
 from services.master.haptics import HapticLoop, HapticThread
@@ -40,9 +40,6 @@ _PRESSED_NS = 150_000_000
 
 _CONSIDERS_NS = 500_000_000
 """Between the end of what was led and the button that says so."""
-
-Episode = tuple[int, int]
-"""The robot process' identity and its number for the episode."""
 
 
 class ScriptedMaster:

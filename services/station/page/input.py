@@ -1,8 +1,7 @@
 """What comes from the browser: whose tab commands, what is held there, and which buttons were pressed.
 
 A browser says its FULL input state 50 times a second. Keys count only from the tab that has the seat, only while it has
-the focus, and only while its samples keep coming. After any interruption nobody is at the keys until everything that
-steers was let go: a held key that was not heard meanwhile must neither count nor look as if it did.
+the focus, and only while its samples keep coming, see `Grip`.
 """
 
 from __future__ import annotations
@@ -14,16 +13,16 @@ from collections import deque
 import msgspec
 
 from protocol.exceptions import ProtocolError
-from protocol.keys import STEERING
 from protocol.messages import SHORTEST_REASON, Attendance, OperatorInput, Person, Role, TakeOver
 from services.accounts.account import Account
 from services.process.lines import one_line
+from services.station.page.grip import Grip
 from services.station.page.identity import SOMEBODY, identify
 from services.station.page.presses import Presses
 from services.station.page.said import Held, Hello, Pressed, read
 from services.station.page.seat import Seat
 from services.station.page.standing import Standing
-from services.station.page.tab import DEAD_MAN_NS, Tab
+from services.station.page.tab import Tab
 from services.station.press import REVOKE, STOP, STOPS, Press
 
 HEARD_NS = 1_000_000_000
@@ -59,25 +58,20 @@ class Desk:
         self._lock = threading.Lock()
         self._tabs: dict[int, Tab] = {}
         self._seat = Seat()
-        self._held: Held | None
-        self._captured_ns = 0
-        self._drawn = -1.0
-        self._let_go: bool
-        self._heard_ns: int
-        self._sat_ns: int
+        self._grip = Grip()
+        self._sat_ns = 0
         self._beats: deque[int] = deque(maxlen=BEATS)
         self._presses = Presses()
         self._stop_pressed = False
         self._taken: TakeOver | None = None
         self._lost = ""
-        self._sit(0)
 
     def leave(self, tab: int, now_ns: int) -> None:
         """A tab has gone; nobody inherits its seat."""
         with self._lock:
             self._tabs.pop(tab, None)
             if self._seat.leave(tab, now_ns):
-                self._empty()
+                self._rise(now_ns)
 
     def dismiss(self, tab: int, now_ns: int) -> None:
         """Whoever was at a tab may no more: what is held there counts at once as let go, and its seat is free."""
@@ -118,20 +112,7 @@ class Desk:
         """The input as it counts now; focused only where keys would count."""
         with self._lock:
             self._expire(now_ns)
-            present, who = self._is_present(now_ns), self._name(self._seat.tab)
-            held = self._held
-            if held is None or self._let_go:
-                return OperatorInput(operator=who, present=present, drawn=self._drawn)
-            return OperatorInput(
-                operator=who,
-                present=present,
-                keys=held.keys,
-                focused=True,
-                controllers=held.controllers,
-                yaw=held.yaw,
-                captured_ns=self._captured_ns,
-                drawn=self._drawn,
-            )
+            return self._grip.input(self._name(self._seat.tab), present=self._is_present(now_ns))
 
     def attendance(self) -> Attendance:
         """Who is there, a tab each, and who took the input over last; the station's name aside."""
@@ -157,7 +138,7 @@ class Desk:
         with self._lock:
             self._expire(now_ns)
             armed = tab == self._seat.tab
-            held = self._held if armed else None
+            held = self._grip.held if armed else None
             question = self._seat.question
             left_s = self._seat.left_ns(now_ns) / 1e9
             known = self._tabs.get(tab)
@@ -165,7 +146,7 @@ class Desk:
             return Standing(
                 armed=armed,
                 vacant=self._seat.tab is None,
-                let_go=self._let_go,
+                let_go=self._grip.let_go,
                 heard=held is not None,
                 focused=held is not None and held.focused,
                 asked_s=left_s if armed else 0.0,
@@ -195,21 +176,15 @@ class Desk:
         return known.identity.name if known is not None else ""
 
     def _sit(self, now_ns: int) -> None:
-        self._empty()
-        self._heard_ns = self._sat_ns = now_ns
+        self._rise(now_ns)
+        self._sat_ns = now_ns
 
-    def _empty(self) -> None:
-        self._silence()
-        self._drawn = -1.0
+    def _rise(self, now_ns: int) -> None:
+        self._grip.sit(now_ns)
         self._beats.clear()
 
-    def _silence(self) -> None:
-        self._held = None
-        self._let_go = True
-
     def _expire(self, now_ns: int) -> None:
-        if now_ns - self._heard_ns > DEAD_MAN_NS:
-            self._silence()
+        self._grip.expire(now_ns)
         if self._seat.expire(now_ns):
             self._sit(now_ns)
 
@@ -225,20 +200,13 @@ class Desk:
         if not in_time:
             self.late += 1
             return
-        before, self._held = self._held, message
-        self._captured_ns = known.captured_ns(message, now_ns) if known is not None else 0
-        self._drawn = -1.0 if message.picture_ms is None else message.picture_ms / 1e3
-        if before is None or before.keys != message.keys or before.focused != message.focused:
+        captured_ns = known.captured_ns(message, now_ns) if known is not None else 0
+        if self._grip.hear(message, captured_ns, now_ns):
             self.call.set()
-        self._heard_ns = now_ns
         if message.visible:
             self._beats.append(now_ns)
         else:
             self._beats.clear()
-        if not (message.visible and message.focused):
-            self._let_go = True
-        elif STEERING.isdisjoint(message.keys):
-            self._let_go = False
 
     def _press(self, tab: int, message: Pressed, now_ns: int, account: Account | None) -> None:
         known = self._tabs.get(tab)

@@ -261,9 +261,13 @@ def _order(state: Workflow, view: View, query: Query[Any, Any], request: Callabl
 
 
 def _let_go(state: Workflow, view: View) -> bool:
-    """Keys that were held before the robot executes do not count until all have been let go."""
-    under_way = view.robot is not None and view.robot.phase is RobotPhase.EXECUTE
-    return view.steering and (state.let_go or not under_way)
+    """Keys that were held before the robot executes, or when it had to be asked, do not count until all were let go.
+
+    A hold that ends by itself changes nothing in what counts, nor does a robot that is not heard for a moment.
+    """
+    robot = view.robot
+    waits = robot is not None and (robot.waiting or robot.phase not in (RobotPhase.EXECUTE, RobotPhase.HOLD))
+    return view.steering and (state.let_go or waits)
 
 
 def _without_result(state: Workflow, view: View, settings: Settings) -> str:

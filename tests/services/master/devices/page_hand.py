@@ -35,8 +35,8 @@ def pointer(*axes, down=True):
     return Controller("pointer", axes=tuple(axes) + (0.0,) * (6 - len(axes)), buttons=(float(down),))
 
 
-def moment(*keys, dt=0.01, focused=True, robot=REFINING, commands=True, pads=(), yaw=0.0):
-    held = OperatorInput(keys=keys, focused=focused, controllers=tuple(pads), yaw=yaw)
+def moment(*keys, dt=0.01, focused=True, late=False, robot=REFINING, commands=True, pads=(), yaw=0.0):
+    held = OperatorInput(keys=keys, focused=focused, late=late, controllers=tuple(pads), yaw=yaw)
     return Moment(0, dt, held, robot, commands)
 
 

@@ -92,11 +92,11 @@ def test_keys_do_nothing_before_the_robot_executes(phase):
     assert sample.engaged
 
 
-@pytest.mark.parametrize("phase", [Phase.RAMP, Phase.HOLD])
+@pytest.mark.parametrize("before", [in_phase(Phase.RAMP), in_phase(Phase.HOLD, waiting=True)])
 @pytest.mark.parametrize("key", ["KeyQ", "KeyT"])
-def test_a_key_that_is_held_on_the_way_to_the_start_counts_only_once_all_were_let_go(phase, key):
+def test_a_key_that_is_held_on_the_way_to_the_start_or_asked_for_counts_only_once_all_were_let_go(before, key):
     master = seated()
-    hold(master, 0.5, key, robot=in_phase(phase))
+    hold(master, 0.5, key, robot=before)
     still = hold(master, 1.0, key)
     assert (still.displacement, still.rotation) == ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     assert still.engaged

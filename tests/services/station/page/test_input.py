@@ -10,10 +10,12 @@ from services.station.page.input import Desk
 from services.station.page.said import MAX_BYTES
 
 DEAD_MAN_MS = 150
+SHORT_MS = 500
 HEARD_MS = 1_000
 SETTLED_S = 1.0
 BEATS = 3
 NOTHING = OperatorInput()
+LATE = OperatorInput(late=True)
 PAD = Controller("gamepad", 1, "Some pad", True, (-1.0, 0.4), (0.0, 1.0))
 
 
@@ -66,12 +68,47 @@ def test_a_press_calls(browser, action):
 def test_silence_longer_than_the_dead_man_time_is_zero(browser):
     browser.hold("KeyE")
     assert browser.input(DEAD_MAN_MS).keys == ("KeyE",)
-    assert browser.input(DEAD_MAN_MS + 1) == NOTHING
+    assert browser.input(DEAD_MAN_MS + 1) == LATE
+    assert browser.input(SHORT_MS) == LATE
+    assert browser.input(SHORT_MS + 1) == NOTHING
 
 
-def test_after_silence_nobody_is_at_the_keys_until_they_were_let_go(browser):
+@pytest.mark.parametrize("silence_ms", [DEAD_MAN_MS + 1, 250, SHORT_MS])
+def test_after_a_short_silence_a_key_that_is_still_down_counts_on_from_the_second_sample(browser, silence_ms):
+    """A page that stood still for a moment may say first what was held before."""
     browser.hold("KeyE")
-    browser.hold("KeyE", later_ms=DEAD_MAN_MS + 1)
+    assert browser.input(silence_ms) == LATE
+    browser.hold("KeyE", later_ms=silence_ms)
+    assert browser.input() == LATE
+    assert not browser.standing().let_go
+    browser.hold("KeyE")
+    assert browser.input().keys == ("KeyE",)
+
+
+@pytest.mark.parametrize("first", [("KeyE",), ()])
+def test_what_was_let_go_in_a_short_silence_never_counts_again(browser, first):
+    browser.hold("KeyE")
+    browser.hold(*first, later_ms=DEAD_MAN_MS + 1)
+    assert browser.input().keys == ()
+    browser.hold()
+    assert browser.input() == OperatorInput(focused=True)
+
+
+@pytest.mark.parametrize("lost", [{"focused": False}, {"visible": False}])
+def test_a_silence_with_which_the_focus_was_lost_is_no_short_one(browser, lost):
+    browser.hold("KeyE")
+    browser.hold("KeyE", later_ms=DEAD_MAN_MS + 1, **lost)
+    assert browser.input() == NOTHING
+    for _ in range(3):
+        browser.hold("KeyE")
+    assert browser.input() == NOTHING
+    assert browser.standing().let_go
+
+
+def test_after_a_longer_silence_nobody_is_at_the_keys_until_they_were_let_go(browser):
+    browser.hold("KeyE")
+    browser.hold("KeyE", later_ms=SHORT_MS + 1)
+    browser.hold("KeyE")
     assert browser.input() == NOTHING
     assert browser.standing().let_go
     assert browser.standing().focused
@@ -135,7 +172,7 @@ def test_a_repeated_sample_does_not_keep_the_input_alive(browser):
     browser.hold("KeyE")
     browser.sequence -= 1
     browser.hold("KeyE", later_ms=DEAD_MAN_MS - 50)
-    assert browser.input(51) == NOTHING
+    assert browser.input(51) == LATE
 
 
 def test_a_page_that_is_seen_and_heard_for_a_second_has_somebody_present(browser):

@@ -206,12 +206,24 @@ def test_keys_that_are_held_from_when_the_robot_executes_count():
     assert not site.state.let_go
 
 
-@pytest.mark.parametrize("phase", [RAMP, HOLD])
-def test_keys_that_are_held_before_the_robot_executes_have_to_be_let_go(phase):
+def test_keys_that_are_held_through_a_hold_that_ends_by_itself_count_on():
     site = executing(Action.REFINE)
-    site.robot(phase=phase, mode=messages.Mode.REFINE)
     site.step(steering=True)
-    site.robot(phase=EXECUTE)
+    for phase in (HOLD, EXECUTE):
+        site.robot(phase=phase, mode=messages.Mode.REFINE)
+        site.step(steering=True)
+        assert not site.state.let_go
+    site.sees(robot=None)
+    site.step(steering=True)
+    assert not site.state.let_go
+
+
+@pytest.mark.parametrize("before", [{"phase": RAMP}, {"phase": HOLD, "waiting": True}])
+def test_keys_that_are_held_before_the_robot_executes_have_to_be_let_go(before):
+    site = executing(Action.REFINE)
+    site.robot(**before, mode=messages.Mode.REFINE)
+    site.step(steering=True)
+    site.robot(phase=EXECUTE, waiting=False)
     site.step(steering=True)
     assert site.state.let_go
     site.step(steering=False)
