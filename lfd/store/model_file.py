@@ -37,7 +37,7 @@ _Options = TypeVar("_Options")
 
 
 def save(model: AdaptiveProMP | ConditionedProMP, path: Path) -> None:
-    """Write a model; the file is there whole or not at all.
+    """Write a model; the file is there whole or not at all, and outlives a power cut once this has returned.
 
     Args:
         model: To write.
@@ -66,8 +66,18 @@ def save(model: AdaptiveProMP | ConditionedProMP, path: Path) -> None:
             Path(part).replace(path)
         finally:
             Path(part).unlink(missing_ok=True)
+        _settle_names(path.parent)
     except OSError as error:
         raise StorageError(path, f"cannot be written ({error.strerror})", "check folder, rights and space") from error
+
+
+def _settle_names(folder: Path) -> None:
+    """Bring to the disk what the files of a folder are called: of a new file that is not yet so with its content."""
+    opened = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(opened)
+    finally:
+        os.close(opened)
 
 
 def load(path: Path) -> AdaptiveProMP | ConditionedProMP:

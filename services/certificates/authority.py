@@ -18,7 +18,7 @@ from protocol.rights import KINDS, Subject, subject
 from services.certificates import register
 from services.certificates.exceptions import AuthorityThere, CannotIssue, NoAuthority, Unreadable
 from services.certificates.register import Issued, Register
-from services.process.files import write_whole
+from services.process.files import make_folder, write_whole
 from services.process.processes import NOBODY_IN_PARTICULAR
 
 ROOT = "ca.pem"
@@ -157,14 +157,18 @@ class Authority:
 def make_authority(folder: Path) -> Authority:
     """A new authority in a folder.
 
+    A key that is there alone is that of one that was not made to its end, as when the power went: it stays.
+
     Raises:
         AuthorityThere: the folder holds one.
+        Unreadable: it holds a key that is none.
         OSError: it cannot be written.
     """
-    if any((folder / name).exists() for name in (ROOT, ROOT_KEY, register.REGISTER)):
+    if any((folder / name).exists() for name in (ROOT, register.REGISTER)):
         raise AuthorityThere(folder)
     folder = _folder(folder)
-    key = ec.generate_private_key(ec.SECP256R1())
+    begun = (folder / ROOT_KEY).exists()
+    key = _private_key(folder / ROOT_KEY) if begun else ec.generate_private_key(ec.SECP256R1())
     name = x509.Name([x509.NameAttribute(NameOID.COMMON_NAME, "Retouch certificate authority")])
     builder = _builder("Retouch certificate authority", name, key, register.now() + timedelta(days=ROOT_DAYS))
     certificate = (
@@ -225,7 +229,10 @@ def _is_host(text: str) -> bool:
 
 
 def _private_key(path: Path) -> ec.EllipticCurvePrivateKey:
-    key = serialization.load_pem_private_key(path.read_bytes(), password=None)
+    try:
+        key: object = serialization.load_pem_private_key(path.read_bytes(), password=None)
+    except ValueError as error:
+        raise Unreadable(path, f"it is no key ({error})") from None
     if not isinstance(key, ec.EllipticCurvePrivateKey):
         raise Unreadable(path, "it is no key that 'retouch certs init' made")
     return key
@@ -240,5 +247,5 @@ def _pem(what: x509.Certificate | ec.EllipticCurvePrivateKey) -> bytes:
 
 
 def _folder(folder: Path) -> Path:
-    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    make_folder(folder, mode=0o700)
     return folder

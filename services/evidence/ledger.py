@@ -15,7 +15,7 @@ from typing import Protocol
 from protocol.names import checked_name
 from services.evidence.entry import LONGEST, ORIGIN, Entry, read, written
 from services.evidence.events import Event, Repaired
-from services.process.files import state_folder
+from services.process.files import make_folder, settle_names, state_folder
 
 log = logging.getLogger(__name__)
 
@@ -58,7 +58,7 @@ class LedgerFile:
 
     Args:
         path: of the file; its folder is made.
-        executor: that writes, one batch after another.
+        executor: that writes, one entry after another.
         utc: the time of day.
     """
 
@@ -105,31 +105,28 @@ class LedgerFile:
             self._fault = ""
 
     def _append(self) -> None:
+        """Write one line: of several that are written at once a power cut may leave the last and not the first."""
         file = self._file = self._opened() if self._file is None else self._file
-        lines, number, chain = b"", self._number, self._chain
-        batch = tuple(self._waiting)
-        for at, event in batch:
-            number += 1
-            line, chain = written(Entry(number=number, at=at, event=event), chain)
-            lines += line
+        at, event = self._waiting[0]
+        line, chain = written(Entry(number=self._number + 1, at=at, event=event), self._chain)
         try:
-            if os.write(file, lines) != len(lines):
-                raise OSError(f"no room for {len(lines)} bytes")
+            if os.write(file, line) != len(line):
+                raise OSError(f"no room for {len(line)} bytes")
             os.fsync(file)
         except OSError:
             # What lies there now is found out when it is opened again.
             os.close(file)
             self._file = None
             raise
-        self._number, self._chain = number, chain
-        for _ in batch:
-            self._waiting.popleft()
+        self._number, self._chain = self._number + 1, chain
+        self._waiting.popleft()
 
     def _opened(self) -> int:
         """The file, locked, with its end known and whole."""
-        self._path.parent.mkdir(parents=True, exist_ok=True)
+        make_folder(self._path.parent)
         file = os.open(self._path, os.O_RDWR | os.O_APPEND | os.O_CREAT | os.O_CLOEXEC, 0o644)
         try:
+            settle_names(self._path.parent)
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             self._resume(file)
         except BlockingIOError:

@@ -13,7 +13,7 @@ from lfd.store.database import DemonstrationStore
 from lfd.store.stored import Binding
 from services.process.config import ModelSection
 from services.process.exceptions import CannotWrite
-from services.process.files import data_folder
+from services.process.files import data_folder, make_folder
 from sim.tasks import AnyScene
 
 _EARLIER = "model.sqlite"
@@ -53,7 +53,7 @@ def open_store(section: ModelSection, robot: str, binding: Binding) -> Demonstra
 
 def _make(folder: Path) -> None:
     try:
-        folder.mkdir(parents=True, exist_ok=True)
+        make_folder(folder)
     except OSError as error:
         raise CannotWrite(folder, error.strerror or str(error)) from None
 

@@ -32,16 +32,43 @@ def write_whole(path: Path, content: bytes, mode: int = 0o644) -> None:
         with os.fdopen(handle, "wb") as file:
             file.write(content)
             file.flush()
+            os.fchmod(file.fileno(), mode)
             os.fsync(file.fileno())
-        part.chmod(mode)
         part.replace(path)
     finally:
         part.unlink(missing_ok=True)
-    folder = os.open(path.parent, os.O_RDONLY)
+    settle_names(path.parent)
+
+
+def settle_names(folder: Path) -> None:
+    """Bring to the disk what the files of a folder are called: of a new file that is not yet so with its content.
+
+    Raises:
+        OSError: it cannot be brought there.
+    """
+    opened = os.open(folder, os.O_RDONLY)
     try:
-        os.fsync(folder)
+        os.fsync(opened)
     finally:
-        os.close(folder)
+        os.close(opened)
+
+
+def make_folder(folder: Path, mode: int = 0o777) -> None:
+    """Make a folder, and those that it is in, where they are missing; when this returns they outlive a power cut.
+
+    Args:
+        folder: that is to be there.
+        mode: who may use it, where it is made.
+
+    Raises:
+        OSError: it cannot be made.
+    """
+    if folder.is_dir():
+        return
+    if not folder.parent.is_dir():
+        make_folder(folder.parent)
+    folder.mkdir(mode=mode, exist_ok=True)
+    settle_names(folder.parent)
 
 
 def signature(path: Path) -> tuple[int, int, int] | None:
@@ -89,7 +116,7 @@ def _folder(variable: str, under_home: str) -> Path:
     except RuntimeError:
         raise FolderUnusable(Path("~") / under_home, variable, "There is no home folder") from None
     try:
-        folder.mkdir(parents=True, exist_ok=True)
+        make_folder(folder)
         usable = os.access(folder, os.W_OK | os.X_OK)
     except OSError as error:
         raise FolderUnusable(folder, variable, error.strerror or str(error)) from None

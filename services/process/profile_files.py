@@ -10,7 +10,7 @@ from typing import Any
 
 import msgspec
 
-from services.process.files import settings_folder, write_whole
+from services.process.files import make_folder, settings_folder, write_whole
 from services.process.profile import Profile
 from services.process.written import read
 
@@ -82,7 +82,7 @@ def save_profile(path: Path, said: Mapping[str, Any], about: Sequence[str]) -> N
     Raises:
         OSError: it cannot be written.
     """
-    path.parent.mkdir(parents=True, exist_ok=True)
+    make_folder(path.parent)
     lines = [*(f"# {line}" for line in about), *_toml(said)]
     write_whole(path, ("\n".join(lines) + "\n").encode())
 

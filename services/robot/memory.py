@@ -11,7 +11,7 @@ import msgspec
 
 from protocol.messages import Count, Name, Text
 from protocol.names import checked_name
-from services.process.files import state_folder, write_whole
+from services.process.files import make_folder, state_folder, write_whole
 from services.robot.latch import Latch
 
 log = logging.getLogger(__name__)
@@ -181,5 +181,5 @@ def safety_file(robot: str) -> SafetyFile:
 
 
 def _write(path: Path, record: SafetyRecord) -> None:
-    path.parent.mkdir(parents=True, exist_ok=True)
+    make_folder(path.parent)
     write_whole(path, msgspec.json.format(msgspec.json.encode(record)))

@@ -130,3 +130,19 @@ def test_a_file_that_holds_something_else_is_named(authority, name):
     (authority.folder / name).write_text("nonsense")
     with pytest.raises(Unreadable):
         Authority(authority.folder)
+
+
+def test_an_authority_that_a_power_cut_left_half_made_is_made_to_its_end(tmp_path):
+    make_authority(tmp_path / "whole")
+    (tmp_path / "half").mkdir()
+    key = (tmp_path / "whole" / "ca.key").read_bytes()
+    (tmp_path / "half" / "ca.key").write_bytes(key)
+    authority = make_authority(tmp_path / "half")
+    assert (tmp_path / "half" / "ca.key").read_bytes() == key, "somebody may have certificates of it"
+    authority.issue("operator.anna")
+
+
+def test_a_key_that_is_none_is_not_taken_for_a_half_made_authority(tmp_path):
+    (tmp_path / "ca.key").write_bytes(b"none")
+    with pytest.raises(Unreadable, match="it is no key"):
+        make_authority(tmp_path)
