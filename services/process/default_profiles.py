@@ -24,6 +24,7 @@ OTHER_GAMEPAD = Profile("gamepad", ways=Ways(x=Way(axis=1, sign=-1), y=Way(axis=
 SPACE_MOUSE = Profile(
     "spacemouse",
     dead_zone=0.08,
+    crosstalk=0.15,
     ways=Ways(
         x=Way(axis=1, sign=-1),  # as the device counts by itself: x right, y towards the hand, z down
         y=Way(axis=0, sign=-1),

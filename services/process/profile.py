@@ -77,6 +77,7 @@ class Profile(Section, frozen=True):
         device: a part of the name that browser or driver give it; empty for any of its kind.
         left_hand: for the other hand: what is left on the device and what is right change places.
         dead_zone: share of an axis' way about its rest that leads nowhere.
+        crosstalk: share of the furthest deflection by which others stray that are not meant.
         expo: how much finer the middle is than the end: from 0, a straight line, to 1, the third power.
         scale: of pushing.
         turn_scale: of turning.
@@ -89,6 +90,7 @@ class Profile(Section, frozen=True):
     device: Annotated[str, msgspec.Meta(max_length=64)] = ""
     left_hand: bool = False
     dead_zone: Annotated[float, msgspec.Meta(ge=0.0, le=0.9)] = 0.12
+    crosstalk: Annotated[float, msgspec.Meta(ge=0.0, le=0.9)] = 0.0
     expo: Annotated[float, msgspec.Meta(ge=0.0, le=1.0)] = 0.4
     scale: Annotated[Positive, msgspec.Meta(le=10.0)] = 1.0
     turn_scale: Annotated[Positive, msgspec.Meta(le=10.0)] = 1.0

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from protocol.messages import Controller, OperatorInput, Vector3
-from services.master.devices.curve import deflection
+from services.master.devices.curve import deflection, meant
 from services.master.devices.hand import Hand
 from services.master.devices.profiles import Profiles
-from services.process.profile import Profile, Way
+from services.process.profile import Profile
 
 PRESSED = 0.5
 """From here on a button is pressed."""
@@ -48,8 +48,10 @@ def hand(controller: Controller, profile: Profile) -> Hand:
     if profile.left_hand:
         controller = other_handed(controller)
     ways = profile.ways
-    push = _deflected(controller, (ways.x, ways.y, ways.z), profile, profile.scale)
-    turn = _deflected(controller, (ways.roll, ways.pitch, ways.yaw), profile, profile.turn_scale)
+    each = (ways.x, ways.y, ways.z, ways.roll, ways.pitch, ways.yaw)
+    deflections = meant([deflection(controller, way, profile) for way in each], profile.crosstalk)
+    push = _scaled(deflections[:3], profile.scale)
+    turn = _scaled(deflections[3:], profile.turn_scale)
     return Hand(
         push=push,
         turn=turn,
@@ -94,6 +96,6 @@ def _swapped(values: tuple[float, ...], pairs: Iterable[tuple[int, int]]) -> tup
     return tuple(swapped)
 
 
-def _deflected(controller: Controller, ways: Iterable[Way], profile: Profile, scale: float) -> Vector3:
-    x, y, z = (max(-1.0, min(1.0, scale * deflection(controller, way, profile))) for way in ways)
+def _scaled(deflections: Iterable[float], scale: float) -> Vector3:
+    x, y, z = (max(-1.0, min(1.0, scale * one)) for one in deflections)
     return (x, y, z)

@@ -1,6 +1,9 @@
-"""How a device's axis becomes a deflection: its rest and range, its dead zone, its curve."""
+"""How a device's axis becomes a deflection: its rest and range, its dead zone, its curve, what strays from others."""
 
 from __future__ import annotations
+
+import math
+from collections.abc import Sequence
 
 from protocol.messages import Controller
 from services.process.profile import Profile, Way
@@ -15,6 +18,20 @@ def deflection(controller: Controller, way: Way, profile: Profile) -> float:
     return way.sign * _curved(spanned(_at(controller.axes, way.axis, way.rest), way), profile) + _curved(
         _at(controller.buttons, way.plus, 0.0) - _at(controller.buttons, way.minus, 0.0), profile
     )
+
+
+def meant(deflections: Sequence[float], crosstalk: float) -> list[float]:
+    """What is meant of all that one hand deflects at once: no cap is pushed one way without a little of another.
+
+    Odd, monotonic in each and continuous in all: the furthest deflection m stays, each other d leads by what it goes
+    beyond c |m|, (|d| - c |m|) / (1 - c).
+
+    Args:
+        deflections: from -1 to 1 each.
+        crosstalk: c, from 0 to less than 1.
+    """
+    astray = crosstalk * max(map(abs, deflections), default=0.0)
+    return [math.copysign(max(0.0, abs(one) - astray) / (1.0 - crosstalk), one) for one in deflections]
 
 
 def position(controller: Controller, way: Way) -> float:

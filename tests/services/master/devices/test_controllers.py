@@ -55,6 +55,12 @@ def test_a_3d_mouse_counts_right_towards_the_hand_and_down_and_turns_alike(axis,
     assert (did.push, did.turn) == (push, turn)
 
 
+def test_a_cap_that_is_pushed_up_leads_up_alone_though_a_little_of_every_other_way_goes_with_it():
+    mouse = Controller("spacemouse", axes=(0.16, -0.16, -1.0, 0.16, 0.16, -0.16), buttons=(0.0, 0.0))
+    did = hand(mouse, Profiles().of(mouse))
+    assert (did.push, did.turn) == ((0.0, 0.0, 1.0), (0.0, 0.0, 0.0))
+
+
 @given(axes=axes, buttons=buttons)
 def test_nothing_leads_further_than_all_the_way(axes, buttons):
     pad = Controller("gamepad", standard=True, axes=axes, buttons=buttons)

@@ -1,11 +1,11 @@
-"""How an axis becomes a deflection: the laws of the dead zone and the curve."""
+"""How an axis becomes a deflection: the laws of the dead zone and the curve, and of what strays from other axes."""
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from protocol.messages import Controller
-from services.master.devices.curve import deflection, position, spanned
+from services.master.devices.curve import deflection, meant, position, spanned
 from services.process.profile import Profile, Way
 
 values = st.floats(-1.0, 1.0)
@@ -84,6 +84,37 @@ def test_two_buttons_lead_against_each_other(plus, minus, profile):
 def test_a_part_that_the_device_has_not_leads_nowhere(way):
     assert deflection(Controller("gamepad", axes=(1.0,), buttons=(1.0,)), way, Profile("gamepad")) == 0.0
     assert position(Controller("pointer", axes=(1.0,)), way) == 0.0
+
+
+deflections = st.lists(values, min_size=6, max_size=6)
+crosstalks = st.floats(0.0, 0.9)
+
+
+@given(deflections=deflections, crosstalk=crosstalks)
+def test_what_is_deflected_furthest_counts_whole_and_nothing_counts_more_than_it_is(deflections, crosstalk):
+    counted = meant(deflections, crosstalk)
+    furthest = max(range(6), key=lambda i: abs(deflections[i]))
+    assert counted[furthest] == pytest.approx(deflections[furthest])
+    assert all(abs(one) <= abs(said) + 1e-12 for one, said in zip(counted, deflections, strict=True))
+    assert all(one * said >= 0.0 for one, said in zip(counted, deflections, strict=True))
+
+
+@given(furthest=values, share=st.floats(-1.0, 1.0), crosstalk=crosstalks)
+def test_what_strays_with_it_by_less_than_the_crosstalk_is_not_meant(furthest, share, crosstalk):
+    assert meant([0.99 * share * crosstalk * furthest, furthest], crosstalk)[0] == 0.0
+
+
+@given(deflections=deflections, others=deflections, crosstalk=crosstalks)
+def test_what_is_meant_is_continuous_in_all_that_is_deflected(deflections, others, crosstalk):
+    """No steeper than 2 / (1 - c)."""
+    step = max(abs(one - other) for one, other in zip(deflections, others, strict=True))
+    pairs = zip(meant(deflections, crosstalk), meant(others, crosstalk), strict=True)
+    assert all(abs(one - other) <= 2.0 / (1.0 - crosstalk) * step + 1e-12 for one, other in pairs)
+
+
+@given(deflections=deflections)
+def test_without_crosstalk_all_of_it_is_meant(deflections):
+    assert meant(deflections, 0.0) == deflections
 
 
 @given(value=st.floats(-1e3, 1e3))
