@@ -80,12 +80,15 @@ class Teacher:
         return value
 
     def decides(self, attempts=0):
-        """What the page says as it asks the operator, after so many episodes."""
+        """What the page says as it asks the operator, after so many episodes; a motion that has held goes on."""
 
         def asked():
             teaching = self._witness.teaching
             told = teaching is not None and teaching.phase == "deciding" and teaching.actions
-            return teaching if told and len(teaching.attempts) >= attempts else None
+            if told and len(teaching.attempts) >= attempts:
+                return teaching
+            self._go_on()
+            return None
 
         return self.until(asked, DECIDES_S, "the operator is asked")
 
@@ -135,7 +138,13 @@ class Teacher:
         """Whether the page asks for something else than to lead: to let go of the keys, or to go on."""
         let_go, asked = self._page.evaluate(SHOWN)
         if asked:
-            # The robot may not ask any more by now.
-            with contextlib.suppress(NotThere):
-                self._page.locator("[data-action=go_on]:enabled").click(timeout=1e3)
+            self._go_on()
         return let_go or asked
+
+    def _go_on(self):
+        """Where the page asks for it: a page that came too late, on a busy computer, has let the robot hold."""
+        button = self._page.locator("[data-action=go_on]:enabled")
+        # The robot may not ask any more by now.
+        with contextlib.suppress(NotThere):
+            if button.count():
+                button.click(timeout=1e3)
