@@ -3,6 +3,8 @@
 
 import { timeOf } from "/assets/js/time.js";
 
+const elements = new Map();
+
 export function show(values) {
   for (const [name, value] of Object.entries(values)) {
     const [element, attribute] = find(name);
@@ -15,7 +17,9 @@ export function show(values) {
   }
 }
 
+// Looked for once each: hundreds of values come at once when a page is opened.
 function find(name) {
-  const [element, attribute] = name.split("@");
-  return [document.querySelector(`[data-value="${element}"]`), attribute];
+  const [shown, attribute] = name.split("@");
+  if (!elements.get(shown)?.isConnected) elements.set(shown, document.querySelector(`[data-value="${shown}"]`));
+  return [elements.get(shown), attribute];
 }

@@ -36,6 +36,8 @@ export class Drawing {
   constructor(canvas, { context, isSlow }, description, shapes, { onDrawn, onForeseen }) {
     Object.assign(this, { canvas, context, isSlow, onDrawn, eye: description.eye });
     this.renderer = new WebGLRenderer({ canvas, context });
+    // Each answer is waited for, and the keys with it; there is no shader here but the library's own.
+    this.renderer.debug.checkShaderErrors = false;
     this.cadence = new Cadence();
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.05, 30);
@@ -65,9 +67,13 @@ export class Drawing {
     new ResizeObserver(() => this.fit()).observe(canvas);
   }
 
-  // Makes ready what draws, beside all else; drawn before that, it would hold up the keys until it is done.
+  // Makes ready what draws, beside all else and bit by bit; in one go it would hold up the keys until it is done.
   async prepare() {
     await this.renderer.compileAsync(this.scene, this.camera);
+    for (const program of this.renderer.info.programs) {
+      program.getUniforms();
+      await soon();
+    }
     this.isReady = true;
     this.wish();
   }
@@ -229,6 +235,11 @@ export class Drawing {
 function poseOf(values, first) {
   const [position, orientation] = [values.subarray(first, first + 3), values.subarray(first + 3, first + 7)];
   return { position, orientation, isKnown: Number.isFinite(position[0]) };
+}
+
+// When all else that waits has had its turn.
+function soon() {
+  return new Promise((done) => setTimeout(done));
 }
 
 function lights() {
