@@ -4,6 +4,7 @@ import contextlib
 import http.client
 import socket
 import ssl
+import time
 from dataclasses import dataclass
 from http.cookies import SimpleCookie
 from urllib.parse import urlencode, urlsplit
@@ -162,12 +163,16 @@ class Tab:
         self._say(Hello("seat-of-a-tab", "load-of-a-tab", **said))
 
     def hold(self, *keys):
-        self._sequence += 1
-        self._say(Held(self._sequence, self._sequence * 20.0, keys, True, True, (), (0, 0, 0, 0)))
+        self._say(Held(*self._stamp(), keys, True, True, (), (0, 0, 0, 0)))
 
     def press(self, action, argument=""):
+        number, at_ms = self._stamp()
+        self._say(Pressed(number, at_ms, number, action, argument))
+
+    def _stamp(self):
+        """By its own clock: what seems to come later and later counts no more."""
         self._sequence += 1
-        self._say(Pressed(self._sequence, self._sequence * 20.0, self._sequence, action, argument))
+        return self._sequence, time.monotonic() * 1e3
 
     def _say(self, message):
         self.link.send(msgspec.json.encode(message).decode())
