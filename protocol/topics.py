@@ -140,7 +140,7 @@ AUTHORITY_REQUEST = Topic(
 AUTHORITY_STATE = Topic(
     "authority/state", messages.AuthorityState, 10.0, QoS.STATE, "robot", 3_584, "who may command, and who asks to"
 )
-EMERGENCY_STOP = Topic(
+EMERGENCY_STOP = Topic(  # kept: no flood brings so many in a control period that a press is lost among them
     "safety/emergency_stop",
     messages.EmergencyStop,
     50.0,
@@ -148,7 +148,7 @@ EMERGENCY_STOP = Topic(
     "any",
     20_480,
     "stop, repeated while pressed",
-    kept=16,
+    kept=256,
     readers=("robot",),
 )
 SAFETY_STATE = Topic(

@@ -35,12 +35,13 @@ class TopicFigures(msgspec.Struct, frozen=True):
     future: Count = 0
     implausible: Count = 0
     misplaced: Count = 0
+    crowded: Count = 0
 
     @property
     def drops(self) -> int:
         """All drops together."""
         undecoded = self.malformed + self.oversized + self.wrong_version + self.misplaced
-        return undecoded + self.stale + self.repeated + self.future + self.implausible
+        return undecoded + self.stale + self.repeated + self.future + self.implausible + self.crowded
 
 
 class Heartbeat(Message, frozen=True, kw_only=True):

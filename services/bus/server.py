@@ -97,6 +97,7 @@ class Server(Generic[Req, Rep]):
             elif first:
                 self._calls.append(Call(self._query, request, self._keeping(number) if number else respond, asker))
         if full:
+            self._tally.crowded(f"crowded on {self._query.name}: {CALLS_KEPT} requests wait already")
             respond(_encoded(self._query, Refused(f"too many requests wait for {self._query.name}")))
         elif not first:
             self._hand_out(number)

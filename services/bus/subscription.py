@@ -53,6 +53,7 @@ class Subscription(Generic[M]):
         self._lock = threading.Lock()
         self._latest: Received[M] | None = None
         self._kept: deque[Received[M]] = deque(maxlen=topic.kept)
+        self._taken = False
         self._tally = Tally(topic.name)
         self._call = call
 
@@ -86,6 +87,11 @@ class Subscription(Generic[M]):
                 self._tally.dropped(judgement)
                 return
             self._tally.came()
+            if self._taken and len(self._kept) == self.topic.kept > 1:
+                self._tally.crowded(
+                    f"crowded on {self.topic.name}: more came between two steps than count, the last of them from"
+                    f" {message.process!r}"
+                )
             self._latest = Received(message, now_ns)
             self._kept.append(self._latest)
         if self._call is not None:
@@ -110,6 +116,7 @@ class Subscription(Generic[M]):
 
     def take(self) -> list[Received[M]]:
         """The messages since the last call, in order, at most as many as the topic keeps."""
+        self._taken = True  # from now on what is not taken is lost; others look at the newest only
         if not self._kept:
             return []
         with self._lock:

@@ -28,6 +28,7 @@ class Drops:
     future: int = 0
     implausible: int = 0
     misplaced: int = 0
+    crowded: int = 0
 
     def count(self, cause: ProtocolError | Judgement) -> None:
         """One more was thrown away."""
@@ -65,6 +66,16 @@ class Tally:
         with self._lock:
             self.drops.count(cause)
             self._fault = fault or self._fault
+
+    def crowded(self, fault: str) -> None:
+        """One that counts, or would, was given up for others that came with it.
+
+        Args:
+            fault: the same for people.
+        """
+        with self._lock:
+            self.drops.crowded += 1
+            self._fault = fault
 
     def take_fault(self) -> str:
         """The newest fault since the last call; empty where there is none."""

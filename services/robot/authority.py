@@ -107,11 +107,13 @@ class Lease:
         mine = (self.holder, self.epoch, self._person)
         return self.holder != NOBODY and (holder, epoch, person(process)) == mine
 
-    def renew(self, holder: str, epoch: int, process: str, received_ns: int) -> None:
-        """Prolong the lease from when its holder was heard; a stranger's renewal does nothing."""
-        if self.covers(holder, epoch, process):
+    def renew(self, holder: str, epoch: int, process: str, received_ns: int) -> bool:
+        """Prolong the lease from when its holder was heard; a stranger's renewal does nothing. Whether it counted."""
+        counts = self.covers(holder, epoch, process)
+        if counts:
             self._renewed_ns = max(self._renewed_ns or 0, received_ns)
             self._expires_ns = max(self._expires_ns, received_ns + self._duration_ns)
+        return counts
 
     def silence_s(self, now_ns: int) -> float | None:
         """Time since the newest renewal [s]; None where there was none under this epoch."""

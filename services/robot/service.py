@@ -18,6 +18,7 @@ from services.robot.backends.backend import CONTROL_PERIOD
 from services.robot.control import Control
 from services.robot.delays import Delays, quantiles
 from services.robot.evidence import Evidence, began
+from services.robot.foreign import Foreign
 from services.robot.memory import Memory, safety_file
 from services.robot.requests import Requests
 from services.robot.safety import Watchdog
@@ -111,6 +112,7 @@ class RobotService:
         self._ledger = ledger
         self._evidence = Evidence(ledger, control)
         self._requests = Requests(bus, control, self._evidence, proven=proven)
+        self._foreign = Foreign()
         self._delays = Delays(self._samples)
         self._given_ns = 0
         self._first_ns: int | None = None
@@ -122,7 +124,7 @@ class RobotService:
         self._first_ns = now_ns if self._first_ns is None else self._first_ns
         self._hear()
         self._requests.answer(now_ns)
-        sample = self._samples.take(self._control.lease.covers, self._control.let_go, now_ns)
+        sample = self._samples.take(self._covers, self._control.let_go, now_ns)
         if sample is not None:
             self._synchronisation.heard(now_ns, sample.received_ns)
         tick = self._control.tick(now_ns, sample, self._given, self._samples.way_s(sample))
@@ -149,6 +151,7 @@ class RobotService:
             Figure("touching", float(self._touching), "periods"),
             Figure("clamped", float(self._clamped), "periods"),
             Figure("refused", float(self._requests.refused), "requests"),
+            self._foreign.figure(self._clock.now_ns()),
             Figure("late", float(self._samples.late), "samples"),
             Figure("playout", 1e3 * self._samples.delay_s, "ms"),
             Figure("evidence_unwritten", float(self._ledger.unwritten), "events"),
@@ -168,9 +171,17 @@ class RobotService:
                 self._control.press(press.message.by, press.message.reason)
         for renewal in self._renewal.take():
             said = renewal.message
-            self._control.lease.renew(said.holder, said.epoch, said.process, renewal.received_ns)
+            if not self._control.lease.renew(said.holder, said.epoch, said.process, renewal.received_ns):
+                self._foreign.heard(said.process)
         for request in self._request.take():
             self._control.lease.ask(request.message, request.received_ns)
+
+    def _covers(self, holder: str, epoch: int, process: str) -> bool:
+        """See `Lease.covers`; what it does not cover is counted."""
+        covers = self._control.lease.covers(holder, epoch, process)
+        if not covers:
+            self._foreign.heard(process)
+        return covers
 
     def _tell_who_commands(self) -> None:
         """Log who took the authority from whom, and why."""

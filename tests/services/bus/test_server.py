@@ -124,6 +124,8 @@ def test_a_request_too_many_is_refused_at_once_and_can_be_asked_again(rig):
         assert rig.finish().poll() is None
     refused = rig.finish(7).poll()
     assert "too many requests wait for cmd/finish" in refused.reason
+    assert rig.server.drops.crowded == 1
+    assert "64 requests wait already" in rig.server.take_fault()
     rig.answer()
     pending = rig.finish(7)
     rig.answer()

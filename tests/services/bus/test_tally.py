@@ -30,6 +30,12 @@ def test_every_cause_is_counted_by_itself(tally, cause, counted):
     assert (getattr(figures, counted), figures.drops) == (1, 1)
 
 
+def test_what_was_given_up_for_others_is_counted_and_told(tally):
+    tally.crowded("too many")
+    figures = tally.figures(SECOND)
+    assert (figures.crowded, figures.drops, tally.take_fault()) == (1, 1, "too many")
+
+
 def test_the_rate_is_of_the_time_since_the_last_call_and_drops_are_of_all_time(tally):
     tally.figures(SECOND)
     for _ in range(20):

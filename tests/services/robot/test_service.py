@@ -148,3 +148,14 @@ def test_the_figures_have_names_and_units(site):
     assert figures["simulation_lag"].value == pytest.approx(0.0, abs=0.011)
     assert figures["touching"].value == 0.0
     assert figures["sample_to_command_p99"].unit == "ms"
+
+
+def test_what_whoever_has_no_authority_sends_is_counted_and_counts_for_nothing(site):
+    site.acquire()
+    before = site.service.figures()
+    for _ in range(3):
+        site.operator.publish(topics.MASTER_STATE, messages.MasterState(holder="eve", epoch=site.epoch))
+        site.operator.publish(topics.AUTHORITY_RENEWAL, messages.AuthorityRenewal(holder="eve", epoch=site.epoch))
+        site.run(0.01)
+    counted = [{figure.name: figure.value for figure in figures} for figures in (before, site.service.figures())]
+    assert counted[1]["without_authority"] - counted[0]["without_authority"] == 6.0

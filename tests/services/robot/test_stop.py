@@ -99,6 +99,15 @@ def test_a_button_that_is_not_pressed_stops_nothing():
     assert not site.safety.emergency_stop
 
 
+def test_a_stop_is_heard_among_what_a_flood_brings_in_a_control_period():
+    site = Site()
+    site.operator.publish(topics.EMERGENCY_STOP, messages.EmergencyStop(pressed=True, by="bob", reason="smoke"))
+    for _ in range(200):  # twenty thousand a second
+        site.operator.publish(topics.EMERGENCY_STOP, messages.EmergencyStop(pressed=False, by="eve"))
+    site.run(0.05)
+    assert (site.safety.emergency_stop, site.safety.by) == (True, "bob")
+
+
 def test_a_release_names_who_and_when_takes_the_authority_and_moves_nothing():
     site = Site()
     site.acquire()
