@@ -50,7 +50,12 @@ def _usable(approach: Approach, view: View) -> Approach:
 
 
 def _offered(state: Workflow, view: View) -> frozenset[Action]:
-    """What the operator may do, by the method: an empty model is shown its first motion before anything else."""
+    """What the operator may do, by the method: an empty model is shown its first motion before anything else.
+
+    A model that is not heard for a moment changes nothing: it is not known to be empty, nor to be another one.
+    """
+    if view.model is None and state.offered:
+        return state.offered
     approach = state.approach
     offered = {Action.METHOD, Action.END} | SETTING | turns(view) | editing.offered(state, view)
     if not view.empty:
@@ -76,9 +81,9 @@ def _shown(state: Workflow, view: View, offered: frozenset[Action]) -> Workflow:
         approach = approach.chosen(view.argument(Action.METHOD))
     if Action.BASIS in view.actions & offered:
         based = approach.based(view.argument(Action.BASIS))
-        return preview(replace(state, approach=based, event=""), view, based.basis)
+        return preview(replace(state, approach=based, event=""), view, based.basis, offered)
     state = replace(state, approach=approach, event="")
-    return preview(state, view, Origin.WAYPOINTS) if approach.leads_through else state
+    return preview(state, view, Origin.WAYPOINTS, offered) if approach.leads_through else state
 
 
 def _take(state: Workflow, view: View, settings: Settings, chosen: Action) -> Step:

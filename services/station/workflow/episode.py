@@ -122,7 +122,8 @@ def predicting(state: Workflow, view: View, settings: Settings) -> Step:
     if isinstance(reply, Step):
         return reply
     if not state.pressed:
-        return Step(to(state, Phase.DECIDING, view, prediction=reply.prediction, event=state.event))
+        kept = {"event": state.event, "offered": state.offered}
+        return Step(to(state, Phase.DECIDING, view, prediction=reply.prediction, **kept))
     if _doubtful(state, reply.prediction, settings):
         warned = replace(state, prediction=reply.prediction, last=None, warned=True)
         return Step(to(warned, Phase.DECIDING, view, pressed=False))
@@ -186,7 +187,7 @@ def refused(
     if refusals < REFUSALS_SUFFERED and not reply.lasting:
         retry_s = view.now_s + RETRY_S
         once_more = {"refusals": refusals, "retry_s": retry_s, "notice": notice, "wants": state.wants}
-        return Step(to(state, again or state.phase, view, **once_more))
+        return Step(to(state, again or state.phase, view, **once_more, offered=state.offered))
     if settings.scripted:
         return Step(to(state, Phase.FINISHED, view, reason=notice))
     return Step(to(state, Phase.DECIDING, view, pressed=False, event=notice))
@@ -226,7 +227,7 @@ def _offered(state: Workflow, view: View) -> frozenset[Action]:
     if view.robot is None and state.offered:
         return state.offered
     ends = {Action.FINISH, Action.GO_ON} if _waits(state, view) else {Action.FINISH}
-    return going.offered(view) | editing.offered(state, view) | ends
+    return going.offered(state, view) | editing.offered(state, view) | ends
 
 
 def _waits(state: Workflow, view: View) -> bool:

@@ -26,13 +26,20 @@ SETTING = frozenset({Action.PACE, Action.PART})
 """What can be set while the robot stands as well, for the next motion."""
 
 
-def offered(view: View) -> frozenset[Action]:
-    """What the operator may do with the motion that is under way."""
+_WAYS = frozenset({Action.PACE, Action.STEP_BACK, Action.STEP_ON, Action.SEEK})
+"""That every motion can be led."""
+
+
+def offered(state: Workflow, view: View) -> frozenset[Action]:
+    """What the operator may do with the motion that is under way; what is not heard for a moment takes nothing away."""
     execution, robot = view.execution, view.robot
-    if execution is None or robot is None or not robot.phase.running or execution.mode is Mode.TEACH:
+    if robot is None or not robot.phase.running:
         return frozenset()
-    always = {Action.PACE, Action.STEP_BACK, Action.STEP_ON, Action.SEEK}
-    return frozenset(always | ({Action.PLAY} if execution.pace <= 0.0 else {Action.PAUSE}))
+    if execution is None:
+        return state.offered & (_WAYS | {Action.PLAY, Action.PAUSE})
+    if execution.mode is Mode.TEACH:
+        return frozenset()
+    return _WAYS | ({Action.PLAY} if execution.pace <= 0.0 else {Action.PAUSE})
 
 
 def heard(state: Workflow, view: View) -> Workflow:

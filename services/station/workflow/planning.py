@@ -5,16 +5,30 @@ from __future__ import annotations
 from protocol import queries
 from protocol.messages import Motion, Origin
 from protocol.queries import Plan
+from services.station.workflow.action import Action
 from services.station.workflow.asking import ask, not_done, to
 from services.station.workflow.episode import ORIGIN
 from services.station.workflow.state import Phase, Settings, Workflow
 from services.station.workflow.view import Step, View
 
 
-def preview(state: Workflow, view: View, origin: Origin) -> Workflow:
-    """Show the motion of an origin; nothing moves."""
+def preview(state: Workflow, view: View, origin: Origin, offered: frozenset[Action] = frozenset()) -> Workflow:
+    """Show the motion of an origin; nothing moves.
+
+    Args:
+        state: of the workflow.
+        view: what is seen.
+        origin: of the motion.
+        offered: what the operator may do meanwhile all the same, see `is_previewed`.
+    """
     phase = Phase.PREDICTING if origin is Origin.MODEL else Phase.PLANNING
-    return to(state, phase, view, origin=origin, pressed=False, refusals=0, event=state.event, taught=state.taught)
+    kept = {"event": state.event, "taught": state.taught, "offered": offered}
+    return to(state, phase, view, origin=origin, pressed=False, refusals=0, **kept)
+
+
+def is_previewed(state: Workflow) -> bool:
+    """What the operator decides upon is about to be shown, while they may decide: no button goes away for a moment."""
+    return state.phase in (Phase.PREDICTING, Phase.PLANNING) and not state.pressed and bool(state.offered)
 
 
 def planning(state: Workflow, view: View, settings: Settings) -> Step:
@@ -28,10 +42,11 @@ def planning(state: Workflow, view: View, settings: Settings) -> Step:
         case queries.Refused(reason):
             # Another time is no better: what was shown has to be another.
             event = f"{state.event} {not_done(queries.PLAN, reason)}".strip()
-            return Step(to(state, Phase.DECIDING, view, pressed=False, event=event))
+            return Step(to(state, Phase.DECIDING, view, pressed=False, event=event, offered=state.offered))
         case _:
             onward = Phase.STARTING if state.pressed else Phase.DECIDING
-            return Step(to(state, onward, view, prediction=reply.prediction, event=state.event))
+            shown = {"prediction": reply.prediction, "event": state.event}
+            return Step(to(state, onward, view, **shown, offered=frozenset() if state.pressed else state.offered))
 
 
 def _plan(state: Workflow, view: View, settings: Settings) -> Plan:

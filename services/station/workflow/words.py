@@ -16,6 +16,7 @@ from services.station.workflow.authority import another, missing
 from services.station.workflow.deciding import recommended
 from services.station.workflow.going import elsewhere, paused
 from services.station.workflow.learning import confidence
+from services.station.workflow.planning import is_previewed
 from services.station.workflow.state import Phase, Settings, Workflow
 from services.station.workflow.view import View
 
@@ -78,10 +79,15 @@ def teaching_state(state: Workflow, view: View, settings: Settings) -> TeachingS
 
 def _first(state: Workflow, view: View, settings: Settings) -> str:
     """What is to be pressed first; empty where there is nothing to choose."""
-    if state.phase is Phase.DECIDING:
+    if _decides(state):
         return recommended(state, settings).value if state.offered else ""
     first = showing.first(state) if state.phase is Phase.EXECUTING else None
     return first.value if first in state.offered else ""
+
+
+def _decides(state: Workflow) -> bool:
+    """The operator is asked, whether or not what they decide upon is shown yet."""
+    return state.phase is Phase.DECIDING or is_previewed(state)
 
 
 def _stop(view: View) -> str:
@@ -100,7 +106,7 @@ def _who(safety: SafetyState) -> str:
 
 
 def _light(state: Workflow, view: View) -> Light:
-    if state.phase is Phase.DECIDING or (state.phase is Phase.FINISHED and state.offered):
+    if _decides(state) or (state.phase is Phase.FINISHED and state.offered):
         return Light.GREEN
     if _asked(state):
         return Light.HOLD
@@ -131,7 +137,7 @@ def _text(state: Workflow, view: View, settings: Settings) -> str:
             return _stopped(view)
         case Phase.EXECUTING:
             return _executing(state, view)
-        case Phase.DECIDING:
+        case _ if _decides(state):
             shows = "" if state.unseen else showing.deciding(state, view)
             return shows or _deciding(state, view, settings)
         case Phase.FINISHED:

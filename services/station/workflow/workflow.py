@@ -10,13 +10,15 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from services.station.workflow import authority
+from services.station.workflow.asking import to
 from services.station.workflow.authority import acquiring, waiting
 from services.station.workflow.deciding import deciding, finished
 from services.station.workflow.episode import executing, looking, predicting, resetting, starting
+from services.station.workflow.going import SETTING, set_for_next
 from services.station.workflow.history import turning
 from services.station.workflow.leading import taking_up
 from services.station.workflow.learning import confided, learning
-from services.station.workflow.planning import planning
+from services.station.workflow.planning import is_previewed, planning
 from services.station.workflow.state import Phase, Settings, Workflow
 from services.station.workflow.stop import caught, releasing, stopped
 from services.station.workflow.verdict import judged
@@ -34,7 +36,17 @@ def advance(state: Workflow, view: View, settings: Settings) -> Step:
         return Step(moved)
     if known.phase is not state.phase:
         return Step(known)
+    if is_previewed(known):
+        known = _decided(known, view)
     return _PHASES[known.phase](known, view, settings)
+
+
+def _decided(state: Workflow, view: View) -> Workflow:
+    """A press is not kept waiting by what is about to be shown: that is left, unless the press only sets something."""
+    set_ = set_for_next(state, view)
+    if not view.actions & state.offered - SETTING:
+        return set_
+    return to(set_, Phase.DECIDING, view, event=state.event, offered=state.offered)
 
 
 _PHASES: dict[Phase, Callable[[Workflow, View, Settings], Step]] = {
