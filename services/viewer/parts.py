@@ -40,6 +40,12 @@ class Parts:
         identity: of the recording.
         check_s: how often the thread looks [s]; 0 for no thread, `check` is called by hand.
 
+    Attributes:
+        path: of the first file.
+        number: of files so far.
+        fault: why nothing is recorded now, for people; empty where it is.
+        size: of all files together when the thread looked last [byte]: whoever says so waits for no disk.
+
     Raises:
         FolderUnusable: the folder cannot be written to.
     """
@@ -48,6 +54,7 @@ class Parts:
         self.path = folder.absolute() / f"{robot}-{datetime.now(UTC):%Y%m%dT%H%M%SZ}.rrd"
         self.number = 1
         self.fault = ""
+        self.size = 0
         self._identity = identity
         self._painters: dict[str, Painter] = {}
         self._lock = threading.Lock()
@@ -69,12 +76,6 @@ class Parts:
         part = self._part
         return None if part is None else part.stream
 
-    @property
-    def size(self) -> int:
-        """Of all files together [byte]."""
-        part = self._part
-        return self._finished + (0 if part is None else part.size)
-
     def paint(self, name: str, painter: Painter) -> None:
         """Draw what stays, in this file and in each later one; it replaces what had this name."""
         with self._lock:
@@ -95,6 +96,8 @@ class Parts:
         cause = part.refusal()
         if cause:
             self._break_off(part, cause)
+        else:
+            self.size = self._finished + part.size
 
     def close(self, within_s: float) -> None:
         """Finish the file; a disk that does not answer is left to itself after this time [s]."""
@@ -115,16 +118,19 @@ class Parts:
     def _finish(self) -> None:
         part, self._part = self._part, None
         if part is not None:
-            part.close(_CLOSE_S)
-            self._finished += part.size
+            self._close(part)
+
+    def _close(self, part: Part) -> None:
+        part.close(_CLOSE_S)
+        self._finished += part.size
+        self.size = self._finished
 
     def _break_off(self, part: Part, cause: str) -> None:
         with self._lock:
             self._part = None
         self.fault = f"Nothing is recorded: {cause} ({part.path}). It goes on in a new file when there is room."
         log.error("%s", self.fault)
-        part.close(_CLOSE_S)
-        self._finished += part.size
+        self._close(part)
 
     def _go_on(self) -> None:
         """Open the next file, where it takes all that stays."""

@@ -223,6 +223,42 @@ def test_a_disk_that_is_kept_busy_is_no_disk_that_does_not_answer(tmp_path, reco
     assert parts.fault == ""
 
 
+def test_a_disk_that_does_not_answer_is_said_to_until_it_does(tmp_path, record, monkeypatch):
+    """As a network's disk whose server is away: what is written to it comes back when the server does."""
+    from services.viewer import part
+
+    answers = threading.Event()
+    write = part.Part._write
+    monkeypatch.setattr(part, "_HUNG_S", 0.2)
+    monkeypatch.setattr(part.Part, "_write", lambda self, piece: answers.wait(30.0) and write(self, piece) or "")
+    parts = record(tmp_path)
+    for first in (0, 10, 20):
+        if parts.stream is not None:
+            log(parts, first)
+        parts.check()
+        assert "the disk does not answer" in parts.fault
+        assert parts.stream is None
+    answers.set()
+    parts.check()
+    assert parts.fault == ""
+    log(parts, 30)
+    parts.check()
+    assert parts.fault == ""
+
+
+def test_whoever_asks_how_large_a_recording_is_waits_for_no_disk(tmp_path, record, monkeypatch):
+    """The viewer says so in its own step: a disk that does not answer must not keep it from saying that."""
+    parts = record(tmp_path)
+    log(parts, 0)
+    parts.check()
+    size = parts.path.stat().st_size
+    looked = []
+    monkeypatch.setattr(Path, "stat", lambda *_, **__: looked.append(threading.current_thread()))
+    assert parts.size == size
+    assert looked == []
+    monkeypatch.undo()
+
+
 def test_rows_of_a_second_lie_in_one_chunk(tmp_path, record):
     from rerun.chunk import RrdReader
 
