@@ -230,7 +230,7 @@ def test_a_disk_that_does_not_answer_is_said_to_until_it_does(tmp_path, record, 
     answers = threading.Event()
     write = part.Part._write
     monkeypatch.setattr(part, "_HUNG_S", 0.2)
-    monkeypatch.setattr(part.Part, "_write", lambda self, piece: answers.wait(30.0) and write(self, piece) or "")
+    monkeypatch.setattr(part.Part, "_write", lambda self, piece: (answers.wait(30.0) and write(self, piece)) or "")
     parts = record(tmp_path)
     for first in (0, 10, 20):
         if parts.stream is not None:
