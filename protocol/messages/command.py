@@ -65,7 +65,7 @@ class OperatorInput(Message, frozen=True, kw_only=True):
             as it is heard again, while after a loss of the focus everything has to be let go first.
         controllers: what else the page reads beside the keys.
         yaw: of the person's axes in the base frame [rad]: what s/he sees as forward lies so far to the left of the
-            robot's. Devices of the page take it over once everything was let go.
+            robot's. Devices take it over once everything was let go.
         blind: the newest pictures that the station has are too old to correct by.
         captured_ns: when the browser read what is held, by the station's clock, as well as round trips tell [ns]; 0
             where that is not known.

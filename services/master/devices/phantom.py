@@ -13,10 +13,11 @@ from typing import Any, Protocol, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from lfd.motion.rotations import log_map
+from lfd.motion.rotations import exp_map, log_map, matrix_from_quaternion
 from protocol.messages import Controller, Vector3
 from services.bus.arrays import vector3
 from services.master.devices.device import ZERO
+from services.master.devices.lever import turned
 from services.process.exceptions import DeviceMissing, RoomMissing
 from sim.person.stylus import StylusState
 
@@ -99,6 +100,10 @@ class _OpenHaptics:
 class PhantomStylus:
     """See `HapticDevice`. Its neutral pose is set by whoever takes it up.
 
+    Attributes:
+        yaw: by which the operator's axes are to be turned about the base's z axis [rad], see `OperatorInput.yaw`; from
+            the next frame on they are. Not to be changed while a hand counts.
+
     Args:
         module: the vendor's.
 
@@ -112,6 +117,7 @@ class PhantomStylus:
         if number is None:
             raise DeviceMissing(KIND, "plug it in, switch it on, and start the vendor's setup once")
         self._number = number
+        self.yaw = self._turned = 0.0
         self._neutral = ZERO
         self._before: Vector3 | None = None
         self._velocity = ZERO
@@ -127,11 +133,12 @@ class PhantomStylus:
 
     def exchange(self, force: Vector3, dt: float) -> StylusState:
         """See `HapticDevice`; called within a frame."""
-        fx, fy, fz = force
+        self._turn_axes()
+        fx, fy, fz = turned(force, -self._turned)
         self._module.set_force((-fy, fz, -fx))
         self._transform, self._buttons = self._module.get_transform(), self._module.get_buttons()
         x, y, z = (MILLIMETRE * self._transform[3][axis] for axis in range(3))
-        place = (-z, -x, y)
+        place = turned((-z, -x, y), self._turned)
         before, self._before = self._before or place, place
         share = 1.0 - math.exp(-2.0 * math.pi * CUT_OFF_HZ * dt)
         vx, vy, vz = (
@@ -160,9 +167,17 @@ class PhantomStylus:
         """Render nothing any more, and let go."""
         self._module.stop(self._number)
 
+    def _turn_axes(self) -> None:
+        """What is known in the axes before, in the new ones: a hand that stands still stands still in them."""
+        by, self._turned = self.yaw - self._turned, self.yaw
+        self._neutral, self._velocity = turned(self._neutral, by), turned(self._velocity, by)
+        if self._before is not None:
+            self._before = turned(self._before, by)
+
     def _orientation(self) -> NDArray[np.float64]:
         columns = np.array([[self._transform[column][row] for column in range(3)] for row in range(3)])
-        in_base: NDArray[np.float64] = TO_BASE @ columns @ TO_BASE.T
+        to_base = matrix_from_quaternion(exp_map(np.array((0.0, 0.0, self._turned)))) @ TO_BASE
+        in_base: NDArray[np.float64] = to_base @ columns @ TO_BASE.T
         return in_base
 
 

@@ -25,8 +25,9 @@ class StylusMaster:
     """Takes the stylus up where its clutch says so, while an episode is led or refined and its operator is present.
 
     Taken up, it goes on from the correction that the robot applies, wherever the hand is: nothing jumps, and the
-    neutral place that the hand is drawn to is where it would add nothing. There is no force on the way to the start,
-    while the robot holds, and where the hand leads without a prediction.
+    neutral place that the hand is drawn to is where it would add nothing. Its axes follow the operator's view, see
+    `OperatorInput.yaw`, and turn only while it is let go: what was led stays where it is. There is no force on the way
+    to the start, while the robot holds, and where the hand leads without a prediction.
 
     Args:
         stylus: the device; its own thread calls the force loop.
@@ -69,6 +70,8 @@ class StylusMaster:
         self._feedback.contact.hear(refining, lever)
         if robot is None or not present or not coupled(controller, self._profile):
             self._engaged = False
+            if moment.operator is not None and moment.operator.focused:
+                self._stylus.yaw = moment.operator.yaw
         elif not self._engaged or robot.phase is not Phase.EXECUTE:
             self._take_up(robot, led=moment.teaching is not None)
         else:
@@ -85,6 +88,7 @@ class StylusMaster:
             force=newest.feedback,
             engaged=self._engaged,
             actions=actions(controller, self._profile),
+            yaw=self._stylus.yaw,
             contact_energy=self._feedback.contact.energy_in,
         )
 

@@ -69,7 +69,7 @@ class Desk:
         self.clock = ManualClock()
         self.master = StylusMaster(PhantomStylus(self.driver), Phantom(**settings), Profiles(), self.clock)
 
-    def run(self, seconds, robot=REFINING, *, present=True, held=True):
+    def run(self, seconds, robot=REFINING, *, present=True, held=True, focused=True, yaw=0.0):
         """The force loop a thousand times a second, the process a hundred times."""
         self.driver.buttons = int(held)
         sample = None
@@ -77,13 +77,57 @@ class Desk:
             self.clock.advance(1e-3)
             self.driver.body()
             if k % 10 == 9:
-                operator = OperatorInput(present=present)
+                operator = OperatorInput(present=present, focused=focused, yaw=yaw)
                 sample = self.master.step(Moment(self.clock.now_ns(), 0.01, operator, robot, commands=True))
         return sample
 
     def move(self, x, y, z):
         """Of the hand, in base axes [m]."""
         self.driver.place = self.driver.place + 1e3 * np.linalg.inv(TO_BASE) @ np.array((x, y, z))
+
+
+def about_z(yaw):
+    return matrix_from_quaternion(exp_map(np.array((0.0, 0.0, yaw))))
+
+
+@given(
+    yaw=st.floats(-3.1, 3.1), moved=st.tuples(*3 * [st.floats(-0.1, 0.1)]), turn=st.tuples(*3 * [st.floats(-1.0, 1.0)])
+)
+def test_what_the_hand_does_in_turned_axes_is_what_it_does_in_the_robot_s_turned(yaw, moved, turn):
+    """Forward is forward as the operator sees it, turns and velocity alike; and what is felt comes from there."""
+    told = {}
+    for view in (0.0, yaw):
+        desk = Desk(force_limit=30.0)
+        desk.run(0.02, held=False, yaw=view)
+        desk.run(0.02, yaw=view)
+        desk.move(*moved)
+        desk.driver.turned = TO_BASE.T @ matrix_from_quaternion(exp_map(np.array(turn))) @ TO_BASE
+        sample = desk.run(SOFT_START_S + 0.2, yaw=view)
+        told[view] = (sample.displacement, sample.rotation, sample.velocity, desk.driver.force)
+    straight, turned = told[0.0], told[yaw]
+    for one, other in zip(straight[:3], turned[:3], strict=True):
+        np.testing.assert_allclose(other, about_z(yaw) @ one, atol=1e-9)
+    np.testing.assert_allclose(turned[3], straight[3], atol=1e-6)
+
+
+def test_axes_turn_only_while_the_stylus_is_let_go_and_nothing_jumps_then():
+    desk = Desk()
+    desk.run(0.02)
+    desk.move(0.02, 0.0, 0.0)
+    held = desk.run(0.1, yaw=1.5)
+    assert (held.displacement, held.yaw) == (pytest.approx((0.02, 0.0, 0.0)), 0.0)
+    desk.run(0.05, held=False, yaw=np.pi / 2)
+    robot = msgspec.structs.replace(REFINING, offset=held.displacement)
+    again = desk.run(0.02, robot, yaw=np.pi / 2)
+    assert (again.displacement, again.yaw) == (pytest.approx((0.02, 0.0, 0.0)), np.pi / 2)
+    desk.move(0.01, 0.0, 0.0)
+    assert desk.run(0.02, robot, yaw=np.pi / 2).displacement == pytest.approx((0.02, 0.01, 0.0))
+
+
+def test_who_looks_elsewhere_turns_no_axes():
+    desk = Desk()
+    desk.run(0.02, held=False, yaw=1.0)
+    assert desk.run(0.02, held=False, focused=False).yaw == 1.0
 
 
 def test_without_a_device_it_is_said_what_to_do():
