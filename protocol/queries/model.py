@@ -103,7 +103,9 @@ class Learnt(msgspec.Struct, frozen=True, tag_field="reply", tag="learnt"):
     Attributes:
         state: of the model then.
         entry: of the history that was added, taken back or used again; 0 where nothing was asked to change.
+        purpose: of that entry, by which and its number people know it.
     """
 
     state: ModelState
     entry: Count = 0
+    purpose: Purpose = Purpose.UPDATE

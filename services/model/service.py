@@ -154,7 +154,7 @@ class ModelService:
             if done is None:
                 return change(request)
             made, counts = done
-            return Learnt(self._told(made.version, counts), made.demonstration)
+            return Learnt(self._told(made.version, counts), made.demonstration, self._purpose(made.demonstration))
 
         return changed
 
@@ -241,7 +241,10 @@ class ModelService:
     def _changed(self, entry: int) -> Learnt:
         """Told as it is on disk by now; what the entry changes is worked out before anybody asks."""
         self._comparisons.of(self._history.find(entry))
-        return Learnt(self._state, entry)
+        return Learnt(self._state, entry, self._purpose(entry))
+
+    def _purpose(self, entry: int) -> messages.Purpose:
+        return messages.Purpose(self._history.find(entry).purpose.value)
 
     def _listed(self, request: ListHistory) -> HistoryListed:
         return self._history.listed(request.before)

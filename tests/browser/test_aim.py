@@ -5,7 +5,7 @@ from dataclasses import replace
 import msgspec
 import pytest
 from harness import confirmed_view
-from states import IN_HAND
+from states import IN_HAND, states
 
 from protocol.messages import Method, Pose
 
@@ -24,6 +24,12 @@ LOOKED_AT = """
     }).observe(document, { subtree: true, attributes: true, attributeFilter: ["data-come"] });
 """
 """Each change of what may be pressed not yet: which button, whether it may be pressed where it lies, and when [ms]."""
+
+PLACED = """() => Object.fromEntries([...document.querySelectorAll(".action:enabled")].map((button) => {
+    const { left, top } = button.getBoundingClientRect();
+    return [`${button.dataset.action} ${button.parentElement.className}`, [Math.round(left), Math.round(top)]];
+}))"""
+"""Where each button lies, the one to press first and the small ones."""
 
 
 @pytest.fixture
@@ -63,7 +69,7 @@ def under_the_pointer(tab, at):
 
 ELSEWHERE = {
     "among the others": {"recommended": "execute"},
-    "farther down": {"method": Method.WAYPOINTS, "waypoints": (WAYPOINT,)},
+    "farther down": {"event": "More is told than there is room for. " * 20},
 }
 
 
@@ -138,6 +144,22 @@ def test_the_buttons_stay_where_they_are_when_the_words_change(tab, say, station
         tab.wait(f".notice:text-is('{notice}')", state="attached")
         places.add(middle(tab, "finish"))
     assert len(places) == 1
+
+
+@pytest.mark.parametrize("size", [(1600, 900), (1366, 768), (1280, 720)])
+def test_every_small_button_has_its_place_in_every_state_and_lies_on_no_other(tab, station, size):
+    _, feed = station
+    tab.page.set_viewport_size({"width": size[0], "height": size[1]})
+    places = {}
+    for name, view in states().items():
+        if view.teaching is None:
+            continue
+        feed.view = view
+        tab.wait(f".light-text:text-is('{view.teaching.text}')")
+        boxes = tab.page.evaluate(PLACED)
+        for action, box in boxes.items():
+            assert places.setdefault(action, box) == pytest.approx(box, abs=1.0), name
+        assert len({tuple(box) for box in boxes.values()}) == len(boxes), name
 
 
 def test_the_buttons_stay_where_they_are_when_a_waypoint_is_stored(tab, say):

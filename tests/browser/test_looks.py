@@ -9,10 +9,12 @@ from dataclasses import replace
 from pathlib import Path
 
 import cv2
+import msgspec
 import numpy as np
 import pytest
 from states import states
 
+from protocol.messages import Method, Pose, Recording
 from services.accounts.file import AccountsFile
 from services.station.page.login.judge import Judge
 from tests.ports import free_port
@@ -41,6 +43,23 @@ LOGIN = "login.jpg"
 QUALITY = 60
 SQUARE, NOTICED, AT_MOST = 16, 24, 0.03
 """Pictures are compared by squares of so many pixels, which differ by so much of 255; and of how many may."""
+
+CUT = """() => [...document.querySelectorAll(".entry, .waypoint, .criterion, .confidence")].filter((row) => {
+    const { top, bottom } = row.getBoundingClientRect();
+    const ends = [row.parentElement, document.querySelector(".side")].map((e) => e.getBoundingClientRect().bottom);
+    return top < Math.min(...ends) - 1 && bottom > Math.min(...ends) + 1;
+}).map((row) => row.textContent)"""
+"""The rows that are seen by half."""
+
+COVERED = """() => {
+    const boxes = (selector) => [...document.querySelectorAll(selector)].filter((element) => element.checkVisibility())
+        .map((element) => [element.className, element.getBoundingClientRect()]);
+    const meet = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+    const others = [...boxes(".legend"), ...boxes(".scene-tools > *"), ...boxes(".camera")];
+    const over = [...boxes(".scene-fault"), ...boxes(".scene-stale")];
+    return [...over, ...boxes(".legend")].flatMap(([name, box]) => others
+        .filter(([other, its]) => other !== name && meet(box, its)).map(([other]) => `${name} lies over ${other}`));
+}"""
 
 LOOKS = 6
 AT_LEAST_SENT = 3
@@ -95,6 +114,22 @@ def test_the_light_is_seen_in_its_colour_and_no_other_is(viewed, station, name, 
     shares = {colour: np.mean(np.all(np.abs(lamps - np.array(rgb)) < 12, axis=2)) for colour, rgb in COLOURS.items()}
     assert shares[light] > 0.02
     assert all(share < 0.002 for colour, share in shares.items() if colour != light)
+
+
+@pytest.mark.parametrize("size", [(1920, 1080), (1600, 900), (1366, 768)])
+@pytest.mark.parametrize("method", [Method.REFINE, Method.WAYPOINTS])
+def test_no_row_is_cut_through_and_nothing_lies_over_legend_or_buttons(viewed, station, size, method):
+    viewed.page.set_viewport_size({"width": size[0], "height": size[1]})
+    view = STATES["failed"]
+    here = tuple(Pose((0.5 + 0.05 * n, 0.0, 0.6), (1.0, 0.0, 0.0, 0.0)) for n in range(9))
+    fault = Recording(
+        path="/r", viewer_url="", recording_id="r", fault="Nothing is recorded: " + "the disk is full. " * 6
+    )
+    teaching = msgspec.structs.replace(view.teaching, method=method, waypoints=here, text=f"{method.value} {size}")
+    show(viewed, station[1], replace(view, teaching=teaching, recording=fault))
+    viewed.wait(".scene-fault:has-text('the disk is full')")
+    assert viewed.page.evaluate(CUT) == []
+    assert viewed.page.evaluate(COVERED) == []
 
 
 @pytest.fixture(scope="session")

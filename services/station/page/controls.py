@@ -21,30 +21,33 @@ class Button:
     Attributes:
         action: its name in `TeachingState.actions`.
         symbol: in assets/symbols.svg.
+        place: among the small buttons, from 1, where it stands whatever else is offered; no two that may be offered at
+            once have the same.
         confirmed: it takes something away, so that a second press has to confirm it.
         reasoned: it takes something from somebody, who is told the reason, which is asked for before.
     """
 
     action: str
     symbol: str
+    place: int
     confirmed: bool = False
     reasoned: bool = False
 
 
 BUTTONS = (
-    Button("execute", "play"),
-    Button("refine", "pen"),
-    Button("lead", "hand"),
-    Button("store", "place"),
-    Button("look", "undo"),
-    Button("go_on", "next"),
-    Button("finish", "flag"),
-    Button("teach", "check"),
-    Button("next", "place"),
-    Button("undo", "undo", confirmed=True),
-    Button("end", "end", confirmed=True),
-    Button("ask", "hand"),
-    Button("take_over", "hand", reasoned=True),
+    Button("execute", "play", 1),
+    Button("refine", "pen", 2),
+    Button("lead", "hand", 2),
+    Button("store", "place", 4),
+    Button("look", "undo", 1),
+    Button("go_on", "next", 5),
+    Button("finish", "flag", 6),
+    Button("teach", "check", 3),
+    Button("next", "place", 4),
+    Button("undo", "undo", 5, confirmed=True),
+    Button("end", "end", 6, confirmed=True),
+    Button("ask", "hand", 1),
+    Button("take_over", "hand", 2, reasoned=True),
 )
 """In order."""
 

@@ -217,7 +217,7 @@ def _button(number: int, button: Button) -> str:
         asks = f' data-question="{_say(f"reason.{button.action}")}"'
     return (
         f'<button type="button" class="action" data-action="{button.action}" data-order="{number}"'
-        f' data-value="action-{button.action}"{asks} disabled>{_icon(button.symbol)}'
+        f' data-place="{button.place}" data-value="action-{button.action}"{asks} disabled>{_icon(button.symbol)}'
         f'<span class="action-label" data-value="action-{button.action}-label">{_say(f"action.{button.action}")}</span>'
         f'<span class="action-hint">{_say(f"hint.{button.action}")}</span></button>'
     )

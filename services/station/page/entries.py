@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import msgspec
 
-from protocol.messages import Method, Part
+from protocol.messages import Method, Part, Purpose
 from protocol.queries import Entry, HistoryListed
 from services.station.page.readout import length
 from services.station.words.table import say
@@ -21,6 +21,7 @@ class Row(msgspec.Struct, frozen=True):
         at: when; see `protocol.history.Entry`.
         moved: how far it led from what was predicted.
         believed: how far, where that is not all the way, and of which part it speaks.
+        is_update: the model learnt it later; else it is one of those that it starts from.
         in_use: the model is made of it.
         turned: who took it back or into use again.
         turned_at: when.
@@ -33,6 +34,7 @@ class Row(msgspec.Struct, frozen=True):
     at: str
     moved: str
     believed: str
+    is_update: bool
     in_use: bool
     turned: str
     turned_at: str
@@ -50,6 +52,11 @@ class Rows(msgspec.Struct, frozen=True):
     version: int
     rows: tuple[Row, ...]
     older: int
+
+    @property
+    def newest(self) -> str:
+        """What is taken back where nothing else is named; empty where there is no such row."""
+        return next((row.what for row in self.rows if row.in_use and row.is_update), "")
 
     @property
     def in_use(self) -> int:
@@ -71,6 +78,7 @@ def _row(entry: Entry) -> Row:
         at=entry.at,
         moved=_moved(entry),
         believed=_believed(entry),
+        is_update=entry.purpose is Purpose.UPDATE,
         in_use=entry.in_use,
         turned=_turned(entry),
         turned_at=entry.turned_at,

@@ -16,7 +16,9 @@ def history(shown: Shown) -> Values:
     """Everything that the region shows beside its rows."""
     teaching, rows = shown.view.teaching, shown.view.history
     allowed = frozenset() if teaching is None else frozenset(teaching.actions)
+    newest = "" if rows is None else rows.newest
     return {
+        "action-undo@data-confirm": say("confirm.undo_named", what=newest) if newest else say("confirm.undo"),
         "history@data-turns": " ".join(name for name in TURNS if name in allowed),
         "skill-count": "" if rows is None else _count(rows),
         "skill-older": say("skill.older", number=rows.older) if rows is not None and rows.older else "",

@@ -16,8 +16,10 @@ GROUPS = ("commands", "second", "watching", "supervising")
 
 def people(shown: Shown, standing: Standing) -> Values:
     """Everybody at every page of the robot, and what this tab's person said of themselves."""
+    others = _others(shown.view, standing)
     values: dict[str, str | bool] = {
-        "who-others": _others(shown.view, standing),
+        "who-others": others,
+        "who-others@title": others,
         "who-you": say(f"who.as_{standing.identity.role.value}", name=_named(standing.identity.name)),
         "who-fault": standing.identity.fault,
         "who@data-role": standing.identity.role.value,

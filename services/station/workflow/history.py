@@ -15,6 +15,11 @@ _TURNS = {Action.UNDO: False, Action.TAKE_BACK: False, Action.USE_AGAIN: True}
 """Whether the entry is in use afterwards."""
 
 
+def named(learnt: queries.Learnt) -> str:
+    """What the list calls an entry: it is called so wherever it is told of."""
+    return say(f"skill.{learnt.purpose.value}", id=learnt.entry)
+
+
 def turns(view: View) -> frozenset[Action]:
     """What can be done with the model's history: whatever is in use can be taken back, whatever is not used again."""
     if view.model is None or not view.model.version:
@@ -50,5 +55,5 @@ def turning(state: Workflow, view: View, settings: Settings) -> Step:
         case _:
             left = tuple(entry for entry in state.learnt if wanted.in_use or entry != reply.entry)
             turned = replace(state, last=None, learnt=left, warned=False)
-            done = say("event.used_again" if wanted.in_use else "event.taken_back", entry=reply.entry)
+            done = say("event.used_again" if wanted.in_use else "event.taken_back", what=named(reply))
             return Step(to(turned, Phase.DECIDING, view, owed=None, event=done))

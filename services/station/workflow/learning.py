@@ -13,6 +13,7 @@ from services.station.words.predictions import extent
 from services.station.words.table import say
 from services.station.workflow.action import Action
 from services.station.workflow.asking import ask, not_done, to
+from services.station.workflow.history import named
 from services.station.workflow.state import WHOLE, Phase, Settings, Taught, Workflow
 from services.station.workflow.view import Step, View
 
@@ -47,7 +48,8 @@ def learning(state: Workflow, view: View, settings: Settings) -> Step:
                 part=WHOLE,
                 approach=replace(state.approach, waypoints=(), basis=Origin.MODEL),
             )
-            event = say(f"event.learnt_{taught.method.value}", extent=extent(taught.part))
+            said = say(f"event.learnt_{taught.method.value}", extent=extent(taught.part))
+            event = f"{said} {say('event.listed', what=named(reply))}"
             return Step(to(learnt, Phase.DECIDING, view, owed=None, event=event))
 
 

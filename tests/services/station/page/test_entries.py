@@ -83,6 +83,14 @@ def test_the_region_counts_what_is_in_use_and_what_is_not_shown():
     assert history(shown(history=rows_of(HistoryListed(0, ()))))["skill-count"] == "Nothing yet"
 
 
+def test_what_is_taken_back_by_undo_is_called_as_the_list_calls_it():
+    newest = msgspec.structs.replace(CORRECTION, id=8, in_use=False)
+    values = history(shown(history=rows_of(HistoryListed(9, (newest, CORRECTION, FIRST)))))
+    assert values["action-undo@data-confirm"] == "Take back what the robot learnt last, Correction 7?"
+    only_first = history(shown(history=rows_of(HistoryListed(1, (FIRST,)))))
+    assert only_first["action-undo@data-confirm"] == "Take back what the robot learnt last?"
+
+
 def test_a_row_can_be_turned_where_the_workflow_offers_it():
     assert history(shown(teaching=teaching()))["history@data-turns"] == ""
     offered = teaching(actions=("execute", "take_back", "use_again"))

@@ -33,7 +33,7 @@ def test_the_newest_or_any_entry_is_taken_back(site, action, argument, entry):
     asked = _turned(site, action, argument)
     assert asked.query is queries.UNDO
     assert (asked.request.entry, asked.request.operator) == (int(argument or 0), "ann")
-    assert site.state.event == f"Entry {entry} of the history was taken back."
+    assert site.state.event == f"Correction {entry} was taken back."
     assert site.state.learnt == tuple(one for one in (3, 4) if one != entry)
 
 
@@ -41,7 +41,7 @@ def test_what_was_taken_back_is_used_again(site):
     _turned(site, Action.TAKE_BACK, "3")
     asked = _turned(site, Action.USE_AGAIN, "3")
     assert (asked.query, asked.request.entry, asked.request.operator) == (queries.REDO, 3, "ann")
-    assert site.state.event == "Entry 3 of the history is used again."
+    assert site.state.event == "Correction 3 is used again."
 
 
 def test_an_entry_of_another_place_counts_for_no_update_of_this_one(site):

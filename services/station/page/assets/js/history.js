@@ -114,8 +114,9 @@ function newRow(id) {
   row.className = "entry";
   row.dataset.entry = id;
   row.innerHTML = `<button type="button" class="entry-show"><span class="entry-what"></span>
-    <span class="entry-who"></span><span class="entry-how"></span><span class="entry-moved"></span>
-    <span class="entry-turned"></span></button>
+    <span class="entry-who"></span><span
+    class="entry-rest"><span class="entry-moved"></span><span class="entry-how"></span><span
+    class="entry-turned"></span></span></button>
     <div class="entry-map" role="img"></div><button type="button" class="button turn"></button>
     <div class="entry-told"></div>`;
   const look = row.querySelector(".entry-show");

@@ -23,6 +23,7 @@ import { Timeline } from "/assets/js/timeline.js";
 import { Tour } from "/assets/js/tour.js";
 import { show } from "/assets/js/values.js";
 import { Waypoints } from "/assets/js/waypoints.js";
+import { WholeRows } from "/assets/js/whole_rows.js";
 
 const INPUT_PERIOD_MS = 20;
 const AGES_PERIOD_MS = 100;
@@ -69,6 +70,8 @@ window.addEventListener("keydown", down, { capture: true });
 window.addEventListener("keyup", up, { capture: true });
 document.addEventListener("click", clicked);
 swapOnPress();
+new WholeRows(document.querySelector(".entries"), ".entry");
+new WholeRows(document.querySelector(".waypoints"), ".waypoint");
 new Tour();
 
 function onOpen() {
