@@ -9,125 +9,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lfd.motion.rotations import exp_map, matrix_from_quaternion
-from protocol.messages import Mode, OperatorInput, Phase, Pose, RobotState
+from protocol.messages import OperatorInput, Phase
 from services.master.devices import phantom
 from services.master.devices.device import Moment
 from services.master.devices.phantom import TO_BASE, PhantomStylus
-from services.master.devices.profiles import Profiles
-from services.master.devices.stylus import StylusMaster
 from services.master.feedback import SOFT_START_S, STALE_S
-from services.process.clock import ManualClock
 from services.process.exceptions import DeviceMissing, RoomMissing
-from services.process.master_devices import Phantom
-
-POSE = Pose((0.5, 0.0, 0.5), (1.0, 0.0, 0.0, 0.0))
-REFINING = RobotState(measured=POSE, reference=POSE, phase=Phase.EXECUTE, mode=Mode.REFINE, episode=1)
-LED = msgspec.structs.replace(REFINING, mode=Mode.TEACH)
-MS = 1_000_000
-
-
-class FakeDriver:
-    """The vendor's interface: its scheduler is called by hand."""
-
-    def __init__(self, *, there=True):
-        self.there = there
-        self.place = np.zeros(3)  # [mm], in the device's axes
-        self.turned = np.eye(3)
-        self.buttons = 0
-        self.force = None
-        self.body = None
-        self.enabled = False
-        self.stopped = None
-
-    def init_device(self):
-        return 7 if self.there else None
-
-    def enable_force(self):
-        self.enabled = True
-
-    def serve(self, body):
-        self.body = body
-
-    def get_transform(self):
-        return [*[[*column, 0.0] for column in self.turned.T.tolist()], [*self.place.tolist(), 1.0]]
-
-    def get_buttons(self):
-        return self.buttons
-
-    def set_force(self, force):
-        self.force = tuple(force)
-
-    def stop(self, device):
-        self.stopped = device
-
-
-class Desk:
-    """A hand on the stylus, and the process that owns it."""
-
-    def __init__(self, **settings):
-        self.driver = FakeDriver()
-        self.clock = ManualClock()
-        self.master = StylusMaster(PhantomStylus(self.driver), Phantom(**settings), Profiles(), self.clock)
-
-    def run(self, seconds, robot=REFINING, *, present=True, held=True, focused=True, yaw=0.0):
-        """The force loop a thousand times a second, the process a hundred times."""
-        self.driver.buttons = int(held)
-        sample = None
-        for k in range(round(seconds * 1e3)):
-            self.clock.advance(1e-3)
-            self.driver.body()
-            if k % 10 == 9:
-                operator = OperatorInput(present=present, focused=focused, yaw=yaw)
-                sample = self.master.step(Moment(self.clock.now_ns(), 0.01, operator, robot, commands=True))
-        return sample
-
-    def move(self, x, y, z):
-        """Of the hand, in base axes [m]."""
-        self.driver.place = self.driver.place + 1e3 * np.linalg.inv(TO_BASE) @ np.array((x, y, z))
-
-
-def about_z(yaw):
-    return matrix_from_quaternion(exp_map(np.array((0.0, 0.0, yaw))))
-
-
-@given(
-    yaw=st.floats(-3.1, 3.1), moved=st.tuples(*3 * [st.floats(-0.1, 0.1)]), turn=st.tuples(*3 * [st.floats(-1.0, 1.0)])
-)
-def test_what_the_hand_does_in_turned_axes_is_what_it_does_in_the_robot_s_turned(yaw, moved, turn):
-    """Forward is forward as the operator sees it, turns and velocity alike; and what is felt comes from there."""
-    told = {}
-    for view in (0.0, yaw):
-        desk = Desk(force_limit=30.0)
-        desk.run(0.02, held=False, yaw=view)
-        desk.run(0.02, yaw=view)
-        desk.move(*moved)
-        desk.driver.turned = TO_BASE.T @ matrix_from_quaternion(exp_map(np.array(turn))) @ TO_BASE
-        sample = desk.run(SOFT_START_S + 0.2, yaw=view)
-        told[view] = (sample.displacement, sample.rotation, sample.velocity, desk.driver.force)
-    straight, turned = told[0.0], told[yaw]
-    for one, other in zip(straight[:3], turned[:3], strict=True):
-        np.testing.assert_allclose(other, about_z(yaw) @ one, atol=1e-9)
-    np.testing.assert_allclose(turned[3], straight[3], atol=1e-6)
-
-
-def test_axes_turn_only_while_the_stylus_is_let_go_and_nothing_jumps_then():
-    desk = Desk()
-    desk.run(0.02)
-    desk.move(0.02, 0.0, 0.0)
-    held = desk.run(0.1, yaw=1.5)
-    assert (held.displacement, held.yaw) == (pytest.approx((0.02, 0.0, 0.0)), 0.0)
-    desk.run(0.05, held=False, yaw=np.pi / 2)
-    robot = msgspec.structs.replace(REFINING, offset=held.displacement)
-    again = desk.run(0.02, robot, yaw=np.pi / 2)
-    assert (again.displacement, again.yaw) == (pytest.approx((0.02, 0.0, 0.0)), np.pi / 2)
-    desk.move(0.01, 0.0, 0.0)
-    assert desk.run(0.02, robot, yaw=np.pi / 2).displacement == pytest.approx((0.02, 0.01, 0.0))
-
-
-def test_who_looks_elsewhere_turns_no_axes():
-    desk = Desk()
-    desk.run(0.02, held=False, yaw=1.0)
-    assert desk.run(0.02, held=False, focused=False).yaw == 1.0
+from tests.services.master.devices.phantom_desk import LED, REFINING, Desk, FakeDriver
 
 
 def test_without_a_device_it_is_said_what_to_do():
