@@ -136,6 +136,7 @@ function fill(row, { id, what, how, who, at, moved, believed, in_use: isUsed, tu
     turned: turned && [turned, timeOf(turnedAt)].filter(Boolean).join(", "),
   };
   for (const [name, text] of Object.entries(words)) row.querySelector(`.entry-${name}`).textContent = text;
+  row.querySelector(".entry-rest").title = [words.moved, words.how, words.turned].filter(Boolean).join(", ");
   const action = isUsed ? "take_back" : "use_again";
   const button = row.querySelector(".turn");
   button.textContent = say(`entry.${action}`);
