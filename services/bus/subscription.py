@@ -88,10 +88,7 @@ class Subscription(Generic[M]):
                 return
             self._tally.came()
             if self._taken and len(self._kept) == self.topic.kept > 1:
-                self._tally.crowded(
-                    f"crowded on {self.topic.name}: more came between two steps than count, the last of them from"
-                    f" {message.process!r}"
-                )
+                self._tally.crowded()
             self._latest = Received(message, now_ns)
             self._kept.append(self._latest)
         if self._call is not None:

@@ -67,15 +67,11 @@ class Tally:
             self.drops.count(cause)
             self._fault = fault or self._fault
 
-    def crowded(self, fault: str) -> None:
-        """One that counts, or would, was given up for others that came with it.
-
-        Args:
-            fault: the same for people.
-        """
+    def crowded(self, fault: str = "") -> None:
+        """One that counts, or would, was given up for others that came with it; see `dropped`."""
         with self._lock:
             self.drops.crowded += 1
-            self._fault = fault
+            self._fault = fault or self._fault
 
     def take_fault(self) -> str:
         """The newest fault since the last call; empty where there is none."""

@@ -99,14 +99,12 @@ def test_of_what_comes_between_two_steps_the_newest_are_kept(ear):
     assert ear.subscription.latest().message.sequence == TOPIC.kept + 3
 
 
-def test_what_nobody_could_take_for_newer_ones_is_counted_and_its_sender_told(ear):
+def test_what_nobody_could_take_for_newer_ones_is_counted(ear):
     ear.subscription.take()
     for _ in range(TOPIC.kept + 3):
         ear.hear()
     assert ear.figures().crowded == 3
-    assert ear.subscription.take_fault() == (
-        f"crowded on {TOPIC.name}: more came between two steps than count, the last of them from 'master-ann'"
-    )
+    assert ear.subscription.take_fault() == "", "so it is with whoever is slower than the sender"
 
 
 def test_whoever_looks_at_the_newest_only_misses_nothing(ear):
