@@ -58,7 +58,8 @@ def check_harmless(robot, flood, kind, capsys):
     compared = Comparison(robot, flood, MOST)
     with capsys.disabled():
         print(f"\n{kind}, {compared}")
-    assert compared.sent > RATES[kind] / 2, "this machine is too slow to flood"
+    if compared.sent < RATES[kind] / 2:
+        pytest.skip(f"this machine is too busy for a flood: {compared}")
     assert compared.more - compared.error <= MOST, str(compared)
     assert robot.beat().pid == before.pid
     authority = robot.authority()
