@@ -23,6 +23,10 @@ SLOWEST = 0.01
 """Where the reference moves slower, noise tells more than the motion [m/s]."""
 
 
+LONGEST_S = 1.0
+"""An arm that is farther behind is held by something: how long it will be there nobody knows [s]."""
+
+
 class Following:
     """One arm's.
 
@@ -60,4 +64,5 @@ class Following:
         """From when the arm was handed a command until it was measured to be there [s]; None where nobody knows."""
         if len(self._lags) < FEWEST:
             return None
-        return max(0.0, self._period_s + median(self._lags))
+        lag_s = max(0.0, self._period_s + median(self._lags))
+        return lag_s if lag_s <= LONGEST_S else None

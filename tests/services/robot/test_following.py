@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from services.robot.following import FEWEST, KEPT, Following
+from services.robot.following import FEWEST, KEPT, LONGEST_S, Following
 
 PERIOD_S = 0.01
 
@@ -62,3 +62,10 @@ def test_an_arm_that_is_blocked_is_ever_farther_behind():
         if i >= 2 * FEWEST and i % FEWEST == 0:
             assert following.lag_s > before
             before = following.lag_s
+
+
+def test_an_arm_that_something_holds_tells_no_delay():
+    following = Following(PERIOD_S)
+    for i in range(round(LONGEST_S / PERIOD_S) + KEPT):
+        following.see(np.array([0.1 * i * PERIOD_S, 0.0, 0.0]), np.zeros(3))
+    assert following.lag_s is None
