@@ -3,17 +3,15 @@
 import json
 import os
 import signal
-import time
 
 import numpy as np
 import pytest
 
 from protocol import queries, topics
-from protocol.messages import Mode, Phase, Purpose
+from protocol.messages import Mode, Purpose
 from services.bus.arrays import motion_to_wire
 from tests.system.harness import (
     EVERYBODY,
-    POLL_S,
     START_S,
     Command,
     Witness,
@@ -21,70 +19,13 @@ from tests.system.harness import (
     eventually,
     free_endpoint,
 )
+from tests.system.supervised import BACK_S, EPISODE_S, Run
 
 pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.alone]
 
-BACK_S = 30.0
-EPISODE_S = 90.0
-HOLD_S = 10.0
-STILL_M = 1e-3
 PROMISED_S = 2.0
 KERNEL_S = 1.0
 """For the end of a process to be seen, on a machine that is busy with something else too."""
-
-STILL_SAMPLES = 30
-
-
-class Run:
-    """A supervised run, and what its witness sees."""
-
-    def __init__(self, up, witness):
-        self.up = up
-        self.witness = witness
-
-    def kill(self, name):
-        """kill -9; returns the process id that it had."""
-        return self.up.kill(name)
-
-    def back(self, name, pid):
-        """Wait until the process lives again, as another one, and speaks."""
-        self.up.until(lambda: self.up.pids().get(name, pid) != pid, BACK_S, f"{name} starts again")
-        if name != "router":
-            self.up.until(
-                lambda: (beat := self.witness.beats().get(name)) and beat.pid == self.up.pids().get(name),
-                BACK_S,
-                f"{name} speaks again",
-            )
-
-    def executing(self, mode):
-        """Wait until an episode of this mode is under way."""
-
-        def seen():
-            robot = self.witness.robot
-            return robot and robot.phase is Phase.EXECUTE and robot.mode is mode and 0.05 < robot.progress < 0.7
-
-        self.up.until(seen, EPISODE_S, f"the robot executes: {mode.value}")
-
-    def holds(self, reason):
-        """Wait until the robot holds for this reason, and see that the measured pose stands still meanwhile."""
-
-        def holding(robot):
-            return robot.phase is Phase.HOLD and reason in robot.hold_reason
-
-        self.up.until(lambda: (robot := self.witness.robot) and holding(robot), HOLD_S, f"the robot holds: {reason}")
-        positions = {}
-        deadline = time.monotonic() + 5.0
-        while len(positions) < STILL_SAMPLES and time.monotonic() < deadline:
-            robot = self.witness.robot
-            if robot and not holding(robot):
-                break
-            if robot:
-                positions[robot.sequence] = robot.measured.position
-            time.sleep(POLL_S)
-        # The arm comes to rest in the first of them.
-        still = np.array(list(positions.values()))[STILL_SAMPLES // 3 :]
-        assert len(still) > 5, f"held for {len(positions)} states only"
-        assert np.ptp(still, axis=0).max() < STILL_M
 
 
 @pytest.mark.sim
