@@ -189,7 +189,7 @@ EPISODE_RESULT = Topic(
     "what became of an episode",
     kept=16,
 )
-HEAD_IMAGE = Topic(
+HEAD_IMAGE = Topic(  # kept: one that others need must not be lost between two steps of who decodes them
     "cam/head",
     messages.CameraImage,
     15.0,
@@ -197,9 +197,12 @@ HEAD_IMAGE = Topic(
     "camera",
     1_048_576,
     "the head camera",
+    kept=32,
     readers=("perception",),
 )
-WRIST_IMAGE = Topic("cam/wrist", messages.CameraImage, 15.0, QoS.PICTURE, "camera", 1_048_576, "the wrist camera")
+WRIST_IMAGE = Topic(
+    "cam/wrist", messages.CameraImage, 15.0, QoS.PICTURE, "camera", 1_048_576, "the wrist camera", kept=32
+)
 POINT_CLOUD = Topic(
     "cam/cloud", messages.PointCloud, 5.0, QoS.PICTURE, "camera", 73_728, "surfaces that the head camera sees"
 )
@@ -210,18 +213,12 @@ PICTURE_QUEUE = Topic(
     QoS.STATE,
     "any",
     1_024,
-    "how late pictures come to who looks",
+    "how late pictures come to who looks, and what s/he needs",
     kept=64,
     readers=("camera",),
 )
 OBJECT_POSE = Topic(
-    "state/object_pose",
-    messages.ObjectPose,
-    15.0,
-    QoS.STATE,
-    "perception",
-    1_536,
-    "the object as the camera sees it",
+    "state/object_pose", messages.ObjectPose, 15.0, QoS.STATE, "perception", 1_536, "the object as the camera sees it"
 )
 PREDICTION = Topic(
     "model/prediction",

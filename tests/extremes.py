@@ -5,11 +5,13 @@ import numpy as np
 from hypothesis import strategies as st
 
 from protocol.messages import (
+    MOST_AFTER_KEY,
     Array,
     Attempt,
     AuthorityState,
     Box,
     CameraImage,
+    Coding,
     Controller,
     Light,
     MasterState,
@@ -126,6 +128,8 @@ images = st.builds(
     pose=poses,
     captured_ns=counts,
     object_pose=st.none() | poses,
+    coding=st.sampled_from(Coding),
+    after_key=st.integers(0, 3) | st.just(MOST_AFTER_KEY),
 )
 clouds = st.builds(
     PointCloud, camera=names, data=st.binary(max_size=40) | st.just(b"\x80" * 72_000), captured_ns=counts

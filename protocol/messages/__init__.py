@@ -14,7 +14,15 @@ from protocol.messages.authority import (
     AuthorityRequest,
     AuthorityState,
 )
-from protocol.messages.camera import MOST_POINTS, POINT_BYTES, CameraImage, PictureQueue, PointCloud
+from protocol.messages.camera import (
+    MOST_AFTER_KEY,
+    MOST_POINTS,
+    POINT_BYTES,
+    CameraImage,
+    Coding,
+    PictureQueue,
+    PointCloud,
+)
 from protocol.messages.command import Controller, MasterState, OperatorInput, Trouble, Yaw
 from protocol.messages.health import Figure, Heartbeat, Probe, TopicFigures
 from protocol.messages.model import MOST_WAYPOINTS, Method, ModelState, Origin, Prediction, Purpose, Way
@@ -57,6 +65,7 @@ from protocol.messages.values import (
 __all__ = [
     "ITEM_SIZES",
     "LONGEST_REASON",
+    "MOST_AFTER_KEY",
     "MOST_POINTS",
     "MOST_WAYPOINTS",
     "POINT_BYTES",
@@ -71,6 +80,7 @@ __all__ = [
     "AuthorityState",
     "Box",
     "CameraImage",
+    "Coding",
     "Condition",
     "Controller",
     "Count",

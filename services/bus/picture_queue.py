@@ -1,4 +1,4 @@
-"""How late pictures come: who looks at them tells the cameras, which send less where it is much.
+"""How late pictures come, and what is missing: who looks at them tells the cameras, which send what comes through.
 
 A queue on the way fills little by little and may stand for long, so that a picture is compared with the fastest of a
 whole minute. The clocks need not agree; where one jumps, that is learnt within the minute.
@@ -12,7 +12,8 @@ from statistics import median
 from protocol.messages import CameraImage, PictureQueue
 from protocol.topics import PICTURE_QUEUE
 from services.bus.bus import Bus
-from services.bus.subscription import Received, Subscription
+from services.bus.picture_stream import PictureStream
+from services.bus.subscription import Received
 from services.process.schedule import Schedule
 
 REMEMBERED_NS = 60_000_000_000
@@ -54,42 +55,51 @@ class QueueReport:
         pictures: the cameras'.
     """
 
-    def __init__(self, bus: Bus, *pictures: Subscription[CameraImage]) -> None:
+    def __init__(self, bus: Bus, *pictures: PictureStream) -> None:
         self._bus = bus
         self._pictures = {one: Lateness() for one in pictures}
         self._schedule = Schedule()
-        self._seen: dict[Subscription[CameraImage], Received[CameraImage]] = {}
+        self._seen: dict[PictureStream, Received[CameraImage]] = {}
         self._late: deque[tuple[int, int]] = deque()
         self._captured_ns: int | None = None
         self._stale = 0
 
-    def step(self, now_ns: int) -> None:
-        """Look at what has come, and tell where there is anything to tell."""
+    def step(self, now_ns: int, *, jpeg_only: bool = False, waits: bool = False) -> None:
+        """Look at what has come, and tell where there is anything to tell.
+
+        Args:
+            now_ns: the time.
+            jpeg_only: nothing else can be shown here.
+            waits: what came is no use, and a key picture is needed; what was lost on the way is noticed here.
+        """
         for pictures, lateness in self._pictures.items():
-            newest = pictures.latest()
+            shown, newest = pictures.latest(), pictures.newest
             if newest is None or newest is self._seen.get(pictures):
                 continue
             self._seen[pictures] = newest
             late_ns = lateness.late_ns(newest)
             self._late.append((newest.received_ns, late_ns))
+            if newest is not shown:  # what cannot be shown makes nothing that is seen any younger
+                continue
             drawn_ns = newest.message.stamp_ns - newest.message.captured_ns if newest.message.captured_ns else 0
             captured_ns = newest.received_ns - late_ns - max(0, drawn_ns)
             self._captured_ns = max(self._captured_ns or captured_ns, captured_ns)
         while self._late and now_ns - self._late[0][0] > SPAN_NS:
             self._late.popleft()
         if self._schedule.due(PICTURE_QUEUE, now_ns):
-            self._tell()
+            self._tell(jpeg_only=jpeg_only, waits=waits or any(pictures.waits for pictures in self._pictures))
 
     def age_s(self, now_ns: int) -> float | None:
         """Of what the youngest picture shows, as far as it can be known [s]; None before the first picture."""
         return (now_ns - self._captured_ns) / 1e9 if self._captured_ns is not None else None
 
-    def _tell(self) -> None:
+    def _tell(self, *, jpeg_only: bool, waits: bool) -> None:
         """The usual lateness; a picture that was thrown away as stale was as late as that."""
-        stale = sum(pictures.drops.stale for pictures in self._pictures)
+        stale = sum(pictures.stale for pictures in self._pictures)
         late_ns = [late for _, late in self._late]
         if stale > self._stale:
-            late_ns = [limit for pictures in self._pictures if (limit := pictures.topic.stale_after_ns) is not None]
+            late_ns = [limit for pictures in self._pictures if (limit := pictures.limit_ns) is not None]
         self._stale = stale
-        if late_ns:
-            self._bus.publish(PICTURE_QUEUE, PictureQueue(late=median(late_ns) / 1e9))
+        if late_ns or waits or jpeg_only:
+            late_s = median(late_ns or (0,)) / 1e9
+            self._bus.publish(PICTURE_QUEUE, PictureQueue(late=late_s, waits=waits, jpeg_only=jpeg_only))

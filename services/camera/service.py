@@ -9,15 +9,14 @@ import logging
 from collections import deque
 from statistics import median
 
-import cv2
-import numpy as np
-
 from protocol.messages import CameraImage, Figure, PointCloud, Pose, SceneState, WorldState
 from protocol.topics import HEAD_IMAGE, POINT_CLOUD, SCENE_STATE, WORLD_STATE, WRIST_IMAGE, Topic
 from services.bus.arrays import Floats, NotFinite, from_wire, points_to_wire, quaternion, vector3
 from services.bus.bus import Bus
 from services.camera.cloud import cloud
+from services.camera.coding import coder
 from services.camera.pacing import Pacing
+from services.camera.wishes import Wish, Wishes
 from services.process.clock import Clock
 from services.process.config import CameraSection, Configuration
 from services.process.runner import Service
@@ -26,7 +25,6 @@ from sim.exceptions import UnknownScene, UnknownVariant
 from sim.robots.description import prepare
 from sim.tasks import scene
 from sim.world.cameras import Cameras
-from sim.world.drawing import Image
 from sim.world.staging import HEAD_CAMERA, WRIST_CAMERA
 
 log = logging.getLogger(__name__)
@@ -41,6 +39,8 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> Service:
         DrawingLibraryMissing: nothing on this machine can draw without a display.
         DescriptionMissing: the robot's meshes are not installed.
         UnknownScene: the configuration names a scene that is not there.
+        RoomMissing: the library for the codec is not installed.
+        UnusableSetting: the codec cannot code pictures of this size.
     """
     return CameraService(bus, clock, configuration)
 
@@ -60,6 +60,9 @@ class CameraService:
         self._section: CameraSection = configuration.camera
         self._world = bus.subscribe(WORLD_STATE)
         self._scene = bus.subscribe(SCENE_STATE)
+        self._coders = {camera: coder(self._section) for camera, _ in _TOPICS}
+        self._wishes = Wishes(bus)
+        self._wish = Wish()
         self._description = prepare()
         self._cameras = self._open(configuration.robot.scene)
         self._refused = ("", "")
@@ -67,6 +70,8 @@ class CameraService:
         self._drawn_ns = 0
         self._durations_ns: deque[int] = deque(maxlen=256)
         self._ages_ns: deque[int] = deque(maxlen=256)
+        self._codings_ns: deque[int] = deque(maxlen=512)
+        self._sizes: deque[int] = deque(maxlen=512)
         self._pacing = Pacing(bus, self._section.rate_hz, self._section.quality)
         self._unusable = 0
         self._counted_from_ns = clock.now_ns()
@@ -80,6 +85,7 @@ class CameraService:
         """Draw the newest state, unless it is drawn already or too old to show, or pictures queue on their way."""
         if not self._pacing.due(now_ns):
             return
+        self._wish = self._wishes.at(now_ns)
         arrangement = self._scene.latest()
         world = self._world.fresh(now_ns)
         if arrangement is None or world is None or world.stamp_ns == self._drawn_ns:
@@ -99,18 +105,20 @@ class CameraService:
         self._ages_ns.append(ended_ns - world.stamp_ns)
 
     def figures(self) -> tuple[Figure, ...]:
-        """Rate, duration of drawing and age of the pictures since the last call, states that were no use, the pace."""
+        """Of the pictures since the last call, and states that were no use; what share of them is sent."""
         now_ns = self._clock.now_ns()
         elapsed_s = max(now_ns - self._counted_from_ns, 1) / 1e9
         result = (
             Figure("picture_rate", len(self._durations_ns) / elapsed_s, "Hz"),
             Figure("draw_p50", median(self._durations_ns or (0,)) / 1e9, "s"),
+            Figure("encode_p50", median(self._codings_ns or (0,)) / 1e9, "s"),
+            Figure("picture_size_p50", float(median(self._sizes or (0,))), "B"),
             Figure("picture_age_p50", median(self._ages_ns or (0,)) / 1e9, "s"),
             Figure("unusable_states", float(self._unusable), "1"),
             Figure("sent_share", self._pacing.share, "1"),
         )
-        self._durations_ns.clear()
-        self._ages_ns.clear()
+        for figures in (self._durations_ns, self._ages_ns, self._codings_ns, self._sizes):
+            figures.clear()
         self._counted_from_ns = now_ns
         return result
 
@@ -142,27 +150,25 @@ class CameraService:
         at = self._cameras.pose(camera, qpos)
         pose = Pose(vector3(at.position), quaternion(at.orientation))
         (fx, _, cx), (_, fy, cy), _ = intrinsics.tolist()
+        began_ns = self._clock.now_ns()
+        coded = self._coders[camera].encode(image, self._pacing.quality, now_ns, self._wish)
+        self._codings_ns.append(self._clock.now_ns() - began_ns)
+        self._sizes.append(len(coded.data))
         self._bus.publish(
             topic,
             CameraImage(
                 camera=camera,
                 width=self._section.width,
                 height=self._section.height,
-                data=encode(image, self._pacing.quality),
+                data=coded.data,
                 intrinsics=(fx, fy, cx, cy),
                 pose=pose,
                 captured_ns=world.stamp_ns,
                 object_pose=world.object_pose,
+                coding=coded.coding,
+                after_key=coded.after_key,
             ),
         )
         if camera == HEAD_CAMERA and self._schedule.due(POINT_CLOUD, now_ns, self._pacing.share):
             points = points_to_wire(*cloud(image, self._cameras.depth(), intrinsics, pose))
             self._bus.publish(POINT_CLOUD, PointCloud(camera=camera, data=points, captured_ns=world.stamp_ns))
-
-
-def encode(image: Image, quality: int) -> bytes:
-    """The picture, RGB of shape (height, width, 3), as a JPEG file of this quality, 10 to 100."""
-    _, data = cv2.imencode(
-        ".jpg", cv2.cvtColor(np.ascontiguousarray(image), cv2.COLOR_RGB2BGR), [cv2.IMWRITE_JPEG_QUALITY, quality]
-    )
-    return data.tobytes()

@@ -11,16 +11,19 @@ from statistics import median
 
 import cv2
 
-from protocol.messages import CameraImage, Figure, ObjectPose, Pose
-from protocol.topics import HEAD_IMAGE, OBJECT_POSE
+from protocol.messages import CameraImage, Coding, Figure, ObjectPose, PictureQueue, Pose
+from protocol.topics import HEAD_IMAGE, OBJECT_POSE, PICTURE_QUEUE
 from services.bus.arrays import quaternion, vector3
 from services.bus.bus import Bus
+from services.bus.picture_stream import PictureStream
 from services.perception.filter import PoseFilter
 from services.perception.placement import Matrix, placement, quaternion_from_rotation
-from services.perception.tags import TagFinder, candidates, choose, decode
+from services.perception.tags import Picture, TagFinder, candidates, choose, decode
 from services.process.clock import Clock
 from services.process.config import Configuration
 from services.process.runner import Service
+from services.process.schedule import Schedule
+from services.video.decoder import Decoder
 from sim.tasks.scene import TAG_ID
 
 RATE_HZ = 30.0
@@ -47,7 +50,9 @@ class PerceptionService:
     def __init__(self, bus: Bus, clock: Clock, window: int) -> None:
         self._bus = bus
         self._clock = clock
-        self._images = bus.subscribe(HEAD_IMAGE)
+        self._images = PictureStream(bus.subscribe(HEAD_IMAGE))
+        self._decoder = Decoder()
+        self._schedule = Schedule()
         self._finder = TagFinder()
         self._filter = PoseFilter(window)
         self._previous: Matrix | None = None
@@ -64,6 +69,7 @@ class PerceptionService:
     def step(self, now_ns: int) -> None:
         """Process the newest picture, once."""
         image = self._images.fresh(now_ns)
+        self._ask(now_ns)
         if image is None or (image.publisher, image.sequence) == self._seen:
             return
         self._seen = (image.publisher, image.sequence)
@@ -88,8 +94,17 @@ class PerceptionService:
     def close(self) -> None:
         """Nothing to give back."""
 
+    def _ask(self, now_ns: int) -> None:
+        """For pictures that can be decoded here, where they cannot; how late they come is others' to tell."""
+        waits = self._images.waits or self._decoder.waits
+        if (waits or not self._decoder.is_able) and self._schedule.due(PICTURE_QUEUE, now_ns):
+            self._bus.publish(PICTURE_QUEUE, PictureQueue(waits=waits, jpeg_only=not self._decoder.is_able))
+
+    def _picture(self, image: CameraImage) -> Picture | None:
+        return decode(image.data) if image.coding is Coding.JPEG else self._decoder.grey(self._images.group)
+
     def _locate(self, image: CameraImage) -> Matrix | None:
-        picture = decode(image.data)
+        picture = self._picture(image)
         if picture is None:
             self._undecodable += 1
             return None

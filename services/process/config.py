@@ -7,6 +7,7 @@ from typing import Annotated
 
 import msgspec
 
+from protocol.messages import Coding
 from protocol.queries import Adapt
 from services.process import endpoint
 from services.process.exceptions import BadEndpoint, ConfigurationError
@@ -52,12 +53,13 @@ class RobotSection(Section, frozen=True):
 
 
 class CameraSection(Section, frozen=True):
-    """The camera process: pictures a second and their size [pixel], JPEG quality."""
+    """The camera process: pictures a second, their size [pixel] and quality, as of JPEG, and how they are coded."""
 
     rate_hz: Positive = 15.0
     width: Annotated[int, msgspec.Meta(ge=64, le=1920)] = 320
     height: Annotated[int, msgspec.Meta(ge=48, le=1080)] = 240
     quality: Annotated[int, msgspec.Meta(ge=10, le=100)] = 80
+    codec: Coding = Coding.JPEG
 
 
 class PerceptionSection(Section, frozen=True):

@@ -13,12 +13,13 @@ from protocol.messages import Message
 from services.bus.bus import Bus
 from services.bus.identity import same_clock
 from services.bus.picture_queue import QueueReport
+from services.bus.picture_stream import PictureStream
 from services.bus.predictions import Predictions
 from services.bus.subscription import Received, Subscription
 from services.station.page.view import Picture
 
 M = TypeVar("M", bound=Message)
-Captured = TypeVar("Captured", messages.CameraImage, messages.PointCloud)
+Camera = PictureStream | Subscription[messages.PointCloud]
 
 _FORWARD, _UP = (0.0, 0.0, 1.0), (0.0, -1.0, 0.0)
 """Of an optical frame."""
@@ -58,8 +59,8 @@ class Ears:
         self.master = bus.subscribe(topics.MASTER_STATE)
         self.execution = bus.subscribe(topics.EXECUTION)
         self.predictions = Predictions(bus)
-        self.head = bus.subscribe(topics.HEAD_IMAGE)
-        self.wrist = bus.subscribe(topics.WRIST_IMAGE)
+        self.head = PictureStream(bus.subscribe(topics.HEAD_IMAGE))
+        self.wrist = PictureStream(bus.subscribe(topics.WRIST_IMAGE))
         self.queue = QueueReport(bus, self.head, self.wrist)
         self.cloud = bus.subscribe(topics.POINT_CLOUD)
 
@@ -101,7 +102,7 @@ def came_s(received: Received[M] | None) -> float:
     return received.received_ns / 1e9 if received is not None else 0.0
 
 
-def picture(camera: Subscription[Captured], now_ns: int, own: int, clock: RobotClock | None = None) -> Picture | None:
+def picture(camera: Camera, now_ns: int, own: int, clock: RobotClock | None = None) -> Picture | None:
     """What a camera showed last, and how old that is since it was captured.
 
     A camera stands beside its robot, by whose clock it says when: what passed there until it sent is known wherever it
@@ -122,7 +123,10 @@ def picture(camera: Subscription[Captured], now_ns: int, own: int, clock: RobotC
     if clock is not None and same_clock(shown.publisher, clock.publisher):
         under_way_ns = max(0, received.received_ns - shown.stamp_ns + round(1e9 * clock.ahead_s))
     age_s = (there_ns + under_way_ns) / 1e9 + received.age_s(now_ns)
-    return Picture(shown.data, age_s, heading(shown.pose) if isinstance(shown, messages.CameraImage) else 0.0)
+    if not isinstance(shown, messages.CameraImage):
+        return Picture(shown.data, age_s)
+    group = camera.group if isinstance(camera, PictureStream) and shown.coding is not messages.Coding.JPEG else None
+    return Picture(shown.data, age_s, heading(shown.pose), group)
 
 
 def heading(camera: messages.Pose) -> float:

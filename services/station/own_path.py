@@ -6,8 +6,7 @@ import msgspec
 
 from protocol.messages import AuthorityState, Figure, OperatorInput, RobotState
 from services.bus.stages import Lasting, Stages, stages
-from services.bus.subscription import Subscription
-from services.station.ears import Captured, Ears, message, picture
+from services.station.ears import Camera, Ears, message, picture
 from services.station.page.view import Picture
 
 
@@ -51,6 +50,6 @@ class OwnPath:
         """What this process alone knows of it."""
         return stages(OperatorInput(drawn=self._drawn)).figures()
 
-    def picture(self, camera: Subscription[Captured], now_ns: int) -> Picture | None:
+    def picture(self, camera: Camera, now_ns: int) -> Picture | None:
         """See `picture`."""
         return picture(camera, now_ns, self._own, self._ears.robot_clock(self._own))

@@ -5,31 +5,28 @@ from __future__ import annotations
 import logging
 
 import numpy as np
-import rerun as rr
 
-from protocol.messages import CameraImage, Figure, Pose, Prediction, Recording
+from protocol.messages import Figure, Pose, Prediction, Recording
 from protocol.topics import (
     EXECUTION,
-    HEAD_IMAGE,
     OBJECT_POSE,
     POINT_CLOUD,
     RECORDING,
     SCENE_STATE,
     VERDICT,
     WORLD_STATE,
-    WRIST_IMAGE,
 )
 from services.bus.arrays import drawable, vector3
 from services.bus.bus import Bus
-from services.bus.picture_queue import QueueReport
 from services.bus.predictions import Predictions
 from services.bus.trace import Trace
 from services.process.clock import Clock
 from services.process.config import Configuration
 from services.process.runner import Service
-from services.viewer import entities, motions, scene, series
+from services.viewer import motions, scene, series
 from services.viewer.journal import Journal
 from services.viewer.news import Changes, News
+from services.viewer.pictures import Pictures
 from services.viewer.robot import Robot
 from services.viewer.robot_model import RobotModel
 from services.viewer.run import Run
@@ -102,9 +99,7 @@ class ViewerService:
         self._execution = bus.subscribe(EXECUTION)
         self._trace = Trace()
         self._cloud = News(bus.subscribe(POINT_CLOUD))
-        pictures = (bus.subscribe(HEAD_IMAGE), bus.subscribe(WRIST_IMAGE))
-        self._images = tuple(News(camera) for camera in pictures)
-        self._queue = QueueReport(bus, *pictures)
+        self._pictures = Pictures(bus, run)
         self._changes = Changes(_REPEAT_S)
         self._tracing = Changes(_TRACE_S)
         self._announcing = Changes(_ANNOUNCE_S)
@@ -125,7 +120,6 @@ class ViewerService:
     def step(self, now_ns: int) -> None:
         """Draw what is new."""
         self._run.at(now_ns)
-        self._queue.step(now_ns)
         robot = self._robot.draw(now_ns)
         if robot is not None:
             self._trace.see(robot)
@@ -133,10 +127,7 @@ class ViewerService:
         self._teleoperation.draw(known.measured.position if known is not None else None, now_ns)
         self._log_scene(now_ns)
         self._log_verdict(now_ns)
-        for images in self._images:
-            image = images.take(now_ns)
-            if image is not None:
-                _log_image(self._run, image)
+        self._pictures.draw(now_ns)
         cloud = self._cloud.take(now_ns)
         if cloud is not None and self._changes.due("cloud", cloud.data, now_ns):
             scene.log_cloud(self._run, cloud)
@@ -151,7 +142,7 @@ class ViewerService:
         """Size of the recording so far, and messages that could not be drawn."""
         return (
             Figure("recording_size", float(self._run.parts.size), "B"),
-            Figure("unusable_messages", float(self._unusable), "1"),
+            Figure("unusable_messages", float(self._unusable + self._pictures.undecodable), "1"),
         )
 
     def close(self) -> None:
@@ -230,11 +221,6 @@ class ViewerService:
 def _sendable(text: str) -> str:
     """The text as a message can hold it: bytes of a path that are no text become question marks."""
     return text.encode(errors="replace").decode()[:_TEXT_LENGTH]
-
-
-def _log_image(stream: Run, image: CameraImage) -> None:
-    picture = rr.EncodedImage(contents=image.data, media_type="image/jpeg")
-    stream.log(f"{entities.CAMERAS}/{'head' if image.camera == 'head' else 'wrist'}", picture)
 
 
 def _rounded(pose: Pose) -> tuple[float, ...]:

@@ -14,6 +14,7 @@ sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from protocol import topics
 from services.bus.picture_queue import QueueReport
+from services.bus.picture_stream import PictureStream
 from services.bus.zenoh import Lanes, ZenohBus, open_session
 from services.process.clock import SystemClock
 
@@ -42,7 +43,7 @@ class Ear:
         self._clock = SystemClock()
         self._bus = ZenohBus(Lanes(open_session(endpoint, OPEN_S)), ROBOT, f"ear-{secrets.token_hex(4)}", self._clock)
         heard = {topic: self._listen(topic) for topic in listens}
-        self._queue = QueueReport(self._bus, *(heard[topic] for topic in PICTURES if topic in heard))
+        self._queue = QueueReport(self._bus, *(PictureStream(heard[topic]) for topic in PICTURES if topic in heard))
 
     def __enter__(self):
         return self

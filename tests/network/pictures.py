@@ -16,8 +16,8 @@ sys.path.insert(0, str(Path(__file__).parents[2]))
 from protocol import topics
 from protocol.messages import CameraImage, Pose
 from services.bus.zenoh import connect
+from services.camera.coding import jpeg
 from services.camera.pacing import Pacing
-from services.camera.service import encode
 from services.process.clock import SystemClock
 
 ROBOT = "robot1"
@@ -38,7 +38,7 @@ def main(endpoint):
     clock = SystemClock()
     bus = connect(endpoint, ROBOT, "camera", clock)
     pacing = Pacing(bus, RATE_HZ, QUALITY)
-    encoded = functools.cache(functools.partial(encode, scene()))
+    encoded = functools.cache(functools.partial(jpeg, scene()))
     due, never = clock.now_ns(), threading.Event()
     while True:
         if pacing.due(clock.now_ns()):

@@ -24,6 +24,7 @@ from protocol.messages import (
     Vector3,
     Verdict,
 )
+from services.bus.picture_stream import Group
 from services.bus.stages import Stages
 from services.process.clock import Clock
 from services.process.load import Load, Loads, no_load
@@ -45,14 +46,16 @@ class Picture:
     """What a camera showed last.
 
     Attributes:
-        data: a JPEG file, or the points of a `PointCloud`; a new object means a new picture.
+        data: as it came, or the points of a `PointCloud`; a new object means a new picture.
         age_s: since it was captured [s].
         yaw: by which the camera looks to the left of the base's x axis [rad].
+        group: what it needs, itself included; None of a JPEG file and of points.
     """
 
     data: bytes
     age_s: float
     yaw: float = 0.0
+    group: Group | None = None
 
 
 @dataclass(frozen=True)

@@ -2,12 +2,13 @@
 
 import pytest
 
-from protocol.messages import CameraImage, Pose
+from protocol.messages import CameraImage, Coding, Pose
 from protocol.topics import HEAD_IMAGE, PICTURE_QUEUE
 from services.bus.identity import new_publisher
 from services.bus.memory import MemoryNetwork
 from services.bus.outbox import Outbox
 from services.bus.picture_queue import REMEMBERED_NS, QueueReport
+from services.bus.picture_stream import PictureStream
 from services.process.clock import ManualClock
 
 PERIOD_S = 1.0 / HEAD_IMAGE.rate_hz
@@ -22,11 +23,11 @@ class Looking:
         self.clock = ManualClock()
         self._network = MemoryNetwork(self.clock)
         bus = self._network.bus("station")
-        self.report = QueueReport(bus, bus.subscribe(HEAD_IMAGE))
+        self.report = QueueReport(bus, PictureStream(bus.subscribe(HEAD_IMAGE)))
         self._told = self._network.bus("camera").subscribe(PICTURE_QUEUE)
         self._camera = Outbox(new_publisher() ^ (1 << 50), self._network.robot, "camera")
 
-    def look(self, seconds, transit_s, drawn_s=0.0):
+    def look(self, seconds, transit_s, drawn_s=0.0, **coded):
         """Pictures come, each so long after it was sent."""
         for _ in range(round(seconds / PERIOD_S)):
             self.clock.advance(PERIOD_S)
@@ -41,13 +42,18 @@ class Looking:
                 intrinsics=(1.0, 1.0, 0.0, 0.0),
                 pose=NOWHERE,
                 captured_ns=captured_ns,
+                **coded,
             )
             self._network.deliver(HEAD_IMAGE, self._camera.pack(HEAD_IMAGE, image, stamp_ns))
             self.report.step(now)
 
     @property
+    def told(self):
+        return self._told.latest().message
+
+    @property
     def told_s(self):
-        return self._told.latest().message.late
+        return self.told.late
 
 
 @pytest.fixture
@@ -86,3 +92,19 @@ def test_the_age_of_what_is_seen_counts_the_drawing_the_queue_and_the_silence_si
     looking.look(2.0, 0.15, 0.02)
     looking.clock.advance(0.5)
     assert looking.report.age_s(looking.clock.now_ns()) == pytest.approx(0.02 + 0.1 + 0.5, abs=1e-6)
+
+
+def test_pictures_that_cannot_be_shown_are_told_and_make_nothing_younger(looking):
+    looking.look(1.0, 0.05, coding=Coding.JPEG)
+    assert not looking.told.waits
+    looking.look(1.5, 0.05, coding=Coding.H264, after_key=3)
+    assert looking.told.waits
+    assert looking.told_s == 0.0
+    assert looking.report.age_s(looking.clock.now_ns()) == pytest.approx(1.5, abs=PERIOD_S)
+    looking.look(0.5, 0.05, coding=Coding.H264)
+    assert not looking.told.waits
+
+
+def test_who_can_show_only_jpeg_tells_so_before_anything_has_come(looking):
+    looking.report.step(looking.clock.now_ns(), jpeg_only=True)
+    assert looking.told.jpeg_only

@@ -3,13 +3,21 @@
 import numpy as np
 import pytest
 
-from protocol.messages import Pose, SceneState, WorldState
-from protocol.topics import HEAD_IMAGE, OBJECT_POSE, POINT_CLOUD, SCENE_STATE, WORLD_STATE, WRIST_IMAGE
+from protocol.messages import Coding, PictureQueue, Pose, SceneState, WorldState
+from protocol.topics import (
+    HEAD_IMAGE,
+    OBJECT_POSE,
+    PICTURE_QUEUE,
+    POINT_CLOUD,
+    SCENE_STATE,
+    WORLD_STATE,
+    WRIST_IMAGE,
+)
 from services.bus.arrays import points_from_wire, quaternion, to_wire, vector3
 from services.bus.memory import MemoryNetwork
 from services.perception.service import build as build_perception
 from services.process.clock import ManualClock
-from services.process.config import Configuration
+from services.process.config import CameraSection, Configuration
 
 pytestmark = pytest.mark.sim
 
@@ -157,3 +165,74 @@ def test_the_particles_plane_is_drawn_and_perception_finds_no_object_in_it(syste
         pictures += [heads.latest().message.data, wrists.latest().message.data]
     assert len(set(pictures)) == len(pictures)
     assert found.latest() is None
+
+
+@pytest.fixture
+def filming():
+    pytest.importorskip("av")
+    from services.camera.service import build
+
+    clock = ManualClock()
+    network = MemoryNetwork(clock)
+    service = build(network.bus("camera"), clock, Configuration(camera=CameraSection(codec=Coding.H264)))
+    yield network, clock, service
+    service.close()
+
+
+def film(network, clock, service, world, pictures):
+    """So many more pictures; how each of the head camera's is coded, and how far from a key picture it is."""
+    robot, heads = network.bus("robot"), network.bus().subscribe(HEAD_IMAGE)
+    robot.publish(SCENE_STATE, scene_state())
+    for _ in range(pictures):
+        clock.advance(1 / 15)
+        robot.publish(WORLD_STATE, world_state(world))
+        service.step(clock.now_ns())
+    came = [received.message for received in heads.take()]
+    assert len(came) == pictures
+    return [(one.coding, one.after_key) for one in came]
+
+
+def test_as_h264_perception_finds_the_object_too_in_fewer_bytes(filming, world):
+    network, clock, camera = filming
+    perception = build_perception(network.bus(), clock, Configuration())
+    found = network.bus().subscribe(OBJECT_POSE)
+    for _ in range(15):
+        film(*filming, world, 1)
+        perception.step(clock.now_ns())
+    assert found.latest().message.sequence == 15
+    assert found.latest().message.error < 0.006
+    assert 0 < figures(camera)["picture_size_p50"] < 4_000
+
+
+def test_who_has_lost_a_picture_gets_a_key_picture_and_who_can_show_only_jpeg_gets_that(filming, world):
+    network, clock, _ = filming
+    assert film(*filming, world, 6) == [(Coding.H264, place) for place in range(6)]
+    looker = network.bus("station")
+    looker.publish(PICTURE_QUEUE, PictureQueue(waits=True))
+    assert film(*filming, world, 1) == [(Coding.H264, 0)]
+    looker.publish(PICTURE_QUEUE, PictureQueue())
+    assert film(*filming, world, 2) == [(Coding.H264, 1), (Coding.H264, 2)]
+    looker.publish(PICTURE_QUEUE, PictureQueue(jpeg_only=True))
+    assert film(*filming, world, 2) == [(Coding.JPEG, 0)] * 2
+    clock.advance(3.0)  # who fell silent looks no more
+    assert film(*filming, world, 2) == [(Coding.H264, 0), (Coding.H264, 1)]
+
+
+def test_where_pictures_queue_h264_is_made_smaller_at_once(filming, world):
+    network, clock, camera = filming
+    robot, looker, heads = network.bus("robot"), network.bus("station"), network.bus().subscribe(HEAD_IMAGE)
+    film(*filming, world, 15)
+    full = max(len(received.message.data) for received in heads.take())
+    shares = []
+    for _ in range(30):
+        looker.publish(PICTURE_QUEUE, PictureQueue(late=1.0))
+        clock.advance(1 / 15)
+        robot.publish(WORLD_STATE, world_state(world))
+        if not shares or shares[-1] == 1.0:
+            heads.take()
+        camera.step(clock.now_ns())
+        shares.append(figures(camera)["sent_share"])
+    fewer = [received.message for received in heads.take()]
+    assert shares[-1] < 0.1
+    assert fewer[0].after_key == 0
+    assert max(len(one.data) for one in fewer) < 0.5 * full

@@ -8,10 +8,11 @@ from hypothesis import strategies as st
 from lfd.motion.rotations import exp_map, multiply
 from protocol import topics
 from protocol.codec import encode
-from protocol.messages import CameraImage, Pose
+from protocol.messages import CameraImage, Coding, Pose
 from services.bus.arrays import quaternion
 from services.bus.clocks import Clocks
 from services.bus.memory import MemoryNetwork
+from services.bus.picture_stream import PictureStream
 from services.bus.subscription import Subscription
 from services.process.clock import ManualClock
 from services.station.ears import PICTURES_WITHIN_S, Ears, heading, picture
@@ -24,14 +25,14 @@ DOWN = (0.0, 0.70710678, -0.70710678, 0.0)  # straight down, what lies ahead at 
 
 def heard(publisher, *, captured_ms, sent_ms, came_ms):
     """A camera's subscription to which one picture has come."""
-    camera = Subscription(topics.HEAD_IMAGE, "robot1", HERE, Clocks(HERE))
+    came = Subscription(topics.HEAD_IMAGE, "robot1", HERE, Clocks(HERE))
     shown = CameraImage(
         camera="head", width=1, height=1, data=b"x", intrinsics=(1.0,) * 4, pose=Pose((0.0,) * 3, LEVEL),
         captured_ns=captured_ms * MS, robot="robot1", topic="cam/head", process="camera", publisher=publisher,
         sequence=1, stamp_ns=sent_ms * MS,
     )  # fmt: skip
-    camera.receive(encode(topics.HEAD_IMAGE, shown), topics.HEAD_IMAGE.schema, came_ms * MS)
-    return camera
+    came.receive(encode(topics.HEAD_IMAGE, shown), topics.HEAD_IMAGE.schema, came_ms * MS)
+    return PictureStream(came)
 
 
 def test_a_picture_is_as_old_as_what_it_shows():
@@ -51,7 +52,8 @@ def test_of_a_camera_that_does_not_say_when_the_age_since_it_was_sent_is_known()
 
 
 def test_before_the_first_picture_there_is_none():
-    assert picture(Subscription(topics.HEAD_IMAGE, "robot1", HERE, Clocks(HERE)), MS, HERE) is None
+    nothing = PictureStream(Subscription(topics.HEAD_IMAGE, "robot1", HERE, Clocks(HERE)))
+    assert picture(nothing, MS, HERE) is None
 
 
 @pytest.mark.parametrize("camera", [LEVEL, DOWN], ids=["level", "straight down"])
@@ -67,11 +69,11 @@ def looking():
     clock = ManualClock()
     network = MemoryNetwork(clock)
     ears, camera = Ears(network.bus("station")), network.bus("camera")
-    shown = CameraImage(
-        camera="head", width=1, height=1, data=b"x", intrinsics=(1.0,) * 4, pose=Pose((0.0,) * 3, LEVEL)
-    )
 
-    def show():
+    def show(**coded):
+        shown = CameraImage(
+            camera="head", width=1, height=1, data=b"x", intrinsics=(1.0,) * 4, pose=Pose((0.0,) * 3, LEVEL), **coded
+        )
         camera.publish(topics.HEAD_IMAGE, shown)
         ears.queue.step(clock.now_ns())
 
@@ -88,4 +90,23 @@ def test_by_pictures_that_were_there_and_are_too_old_nobody_corrects(looking):
     clock.advance(0.001)
     assert ears.blind(clock.now_ns())
     show()
+    assert not ears.blind(clock.now_ns())
+
+
+def test_of_pictures_that_need_others_all_of_them_are_there(looking):
+    ears, clock, show = looking
+    show(coding=Coding.H264)
+    show(coding=Coding.H264, after_key=1)
+    assert len(picture(ears.head, clock.now_ns(), HERE).group.pictures) == 2
+    show()
+    assert picture(ears.head, clock.now_ns(), HERE).group is None
+
+
+def test_by_pictures_that_come_and_cannot_be_shown_nobody_corrects_either(looking):
+    ears, clock, show = looking
+    show()
+    clock.advance(PICTURES_WITHIN_S + 0.001)
+    show(coding=Coding.H264, after_key=1)
+    assert ears.blind(clock.now_ns())
+    show(coding=Coding.H264)
     assert not ears.blind(clock.now_ns())

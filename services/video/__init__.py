@@ -1,0 +1,1 @@
+"""Pictures as H.264: an option, by PyAV."""
