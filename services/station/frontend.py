@@ -24,6 +24,11 @@ class Frontend(Protocol):
         """Set where something was pressed or let go."""
         ...
 
+    @property
+    def jpeg_only(self) -> bool:
+        """Somebody looks whose browser draws pictures of no other coding."""
+        ...
+
     def show(self, view: PageView) -> None:
         """Show this from now on."""
         ...

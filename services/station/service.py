@@ -126,7 +126,7 @@ class StationService:
 
     def step(self, now_ns: int) -> None:
         """A stop before all; then look, advance the workflow, ask, tell."""
-        self._ears.queue.step(now_ns)
+        self._ears.queue.step(now_ns, jpeg_only=self._page is not None and self._page.jpeg_only)
         self._tell(now_ns, self._act(now_ns))
 
     def _act(self, now_ns: int) -> View:

@@ -145,7 +145,7 @@ class Onlooker(threading.Thread):
                 frame = link.recv()
                 if isinstance(frame, str):
                     continue
-                kind, number, _ = FRAME_HEADER.unpack_from(frame)
+                kind, _, number, _ = FRAME_HEADER.unpack_from(frame)
                 drawn[kind], said = number, said + 1
                 held = Held(said, time.monotonic() * 1e3, (), True, False, (), tuple(drawn))
                 link.send(msgspec.json.encode(held).decode())

@@ -6,6 +6,8 @@ from protocol.messages import Attendance
 class QuietPage:
     """Shows nothing and lists nobody; see `Frontend`. Who takes it says what is held and pressed."""
 
+    jpeg_only = False
+
     def attendance(self):
         return Attendance(holder="")
 

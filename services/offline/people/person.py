@@ -114,6 +114,7 @@ class Person:
 
     def __init__(self, bus: Bus, clock: Clock, teaching: Teaching, device: Device, character: Character) -> None:
         self.effects = NoEffects()
+        self.jpeg_only = False
         self.call = threading.Event()
         self.teaching: TeachingState | None = None
         self._clock = clock

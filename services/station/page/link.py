@@ -12,6 +12,7 @@ from typing import Any
 import msgspec
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from services.bus.picture_stream import Group
 from services.process.clock import Clock
 from services.station.live_view.drawing import Point, has_moved, packed
 from services.station.page.glance import Glances
@@ -32,11 +33,16 @@ FRAMES_IN_FLIGHT = 2
 """As many pictures may be under way to a browser, and moments, and clouds; a thin link, or a browser that draws slowly,
 then gets fewer of them, not older ones."""
 
-FRAME_HEADER = struct.Struct("<BxxxIf")
-"""Before a JPEG, a moment or a cloud: what it is (0 head camera, 1 wrist camera, 2 moment, 3 point cloud), its number,
-its age [s]."""
+FRAME_HEADER = struct.Struct("<BBxxIf")
+"""Before a picture, a moment or a cloud: what it is (0 head camera, 1 wrist camera, 2 moment, 3 point cloud), how it is
+coded (0 a JPEG file, or what is no picture, 1 H.264 that goes on, 2 H.264 from a key picture on), its number, its age
+[s]."""
 
 HEAD, WRIST, MOMENT, CLOUD = range(4)
+WHOLE, GOES_ON, FROM_KEY = range(3)
+
+LENGTH = struct.Struct("<I")
+"""Before each picture of H.264; all but the last are only there because that one needs them [byte]."""
 
 TABS_AT_MOST = 8
 TRY_AGAIN_LATER = 1013
@@ -83,6 +89,7 @@ class _Tab:
     Attributes:
         dismissed: set where the session has ended.
         wants_cloud: it shows the point cloud.
+        jpeg_only: its browser draws no H.264.
         heard: the tab's clock when it sent its newest state [ms], and ours when that came [ns].
     """
 
@@ -92,33 +99,46 @@ class _Tab:
         self.session = session
         self.dismissed = asyncio.Event()
         self.drawn = (0, 0, 0, 0)
-        self.wants_cloud = False
+        self.wants_cloud = self.jpeg_only = False
         self.heard = (0.0, 0)
         self.values: Sent[str | bool] = Sent()
         self.drawing: Sent[Any] = Sent()
         self.history: Sent[Any] = Sent()
         self._numbers = [0, 0, 0, 0]
         self._last: dict[int, bytes] = {}
+        self._decoded: dict[int, Group] = {}
         self._moment: Point = ()
 
     async def send_picture(self, kind: int, picture: Picture | None, elapsed_s: float) -> None:
         """Send a picture that the tab does not have; one that looks the same is a newer one all the same."""
         if picture is None or picture.data is self._last.get(kind):
             return
-        if await self._send(kind, picture.data, picture.age_s + elapsed_s):
+        if picture.group is not None:
+            await self._send_group(kind, picture.data, picture.group, picture.age_s + elapsed_s)
+        elif await self._send(kind, picture.data, picture.age_s + elapsed_s):
             self._last[kind] = picture.data
+
+    async def _send_group(self, kind: int, newest: bytes, group: Group, age_s: float) -> None:
+        """Send a picture with all that the tab does not have of what it needs, where its browser can draw it."""
+        if self.jpeg_only:
+            return
+        missing = group.after(self._decoded.get(kind))
+        content = b"".join(LENGTH.pack(len(picture)) + picture for picture in missing)
+        coding = FROM_KEY if len(missing) == len(group.pictures) else GOES_ON
+        if await self._send(kind, content, age_s, coding):
+            self._last[kind], self._decoded[kind] = newest, group
 
     async def send_moment(self, values: Point, age_s: float) -> None:
         """Send what moves, where it has moved."""
         if has_moved(values, self._moment) and await self._send(MOMENT, packed(values), age_s):
             self._moment = values
 
-    async def _send(self, kind: int, content: bytes, age_s: float) -> bool:
+    async def _send(self, kind: int, content: bytes, age_s: float, coding: int = WHOLE) -> bool:
         """Whether it was sent: not where too many are under way."""
         if self._numbers[kind] - self.drawn[kind] >= FRAMES_IN_FLIGHT:
             return False
         self._numbers[kind] += 1
-        await self.socket.send_bytes(FRAME_HEADER.pack(kind, self._numbers[kind], age_s) + content)
+        await self.socket.send_bytes(FRAME_HEADER.pack(kind, coding, self._numbers[kind], age_s) + content)
         return True
 
 
@@ -140,6 +160,11 @@ class Link:
         self._version = version
         self._numbers = itertools.count(1)
         self._tabs: set[_Tab] = set()
+
+    @property
+    def jpeg_only(self) -> bool:
+        """A tab is open in whose browser H.264 cannot be drawn."""
+        return any(tab.jpeg_only for tab in tuple(self._tabs))
 
     @property
     def tabs(self) -> int:
@@ -187,7 +212,7 @@ class Link:
             if session is not None and (isinstance(message, Pressed) or (isinstance(message, Held) and message.keys)):
                 session.used_ns = now_ns
             if isinstance(message, Held):
-                tab.drawn, tab.wants_cloud = message.drawn, message.cloud
+                tab.drawn, tab.wants_cloud, tab.jpeg_only = message.drawn, message.cloud, message.jpeg_only
                 tab.heard = (message.stamp_ms, now_ns)
 
     async def _send(self, tab: _Tab) -> None:

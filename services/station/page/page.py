@@ -127,6 +127,11 @@ class Page:
         """Set where something was pressed or let go."""
         return self._desk.call
 
+    @property
+    def jpeg_only(self) -> bool:
+        """A tab is open in whose browser H.264 cannot be drawn."""
+        return self._link.jpeg_only
+
     def show(self, view: PageView) -> None:
         """Show this from now on; a stop that was pressed here is confirmed by what the robot says."""
         self._board.put(view)

@@ -52,6 +52,7 @@ class Held(_FromBrowser, frozen=True, tag="held"):
         drawn: number of the newest picture that was drawn, by camera, and in the live view of the newest moment and of
             the newest point cloud.
         cloud: the live view shows the point cloud.
+        jpeg_only: the browser draws no H.264.
         yaw: by which the person's forward is turned to the left from the robot's, as far as the keys are to follow the
             view [rad].
         waited_ms: how long what changed it has waited in the browser [ms].
@@ -67,6 +68,7 @@ class Held(_FromBrowser, frozen=True, tag="held"):
     controllers: Annotated[tuple[Controller, ...], msgspec.Meta(max_length=4)]
     drawn: tuple[Count, Count, Count, Count]
     cloud: bool = False
+    jpeg_only: bool = False
     yaw: Yaw = 0.0
     waited_ms: Milliseconds = 0.0
     way_ms: Milliseconds | None = None

@@ -36,6 +36,7 @@ class Tab:
     """Stands in for the browser's page: what it says was pressed and held."""
 
     def __init__(self):
+        self.jpeg_only = False
         self.pressed = []
         self.held = OperatorInput(keys=("KeyE",), focused=True, present=True)
         self.shown = None

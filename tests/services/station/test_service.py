@@ -258,3 +258,14 @@ def test_the_page_tells_the_way_from_hand_to_eye_of_who_commands():
     site.run(0.1)
     assert page.shown.path == Stages(way=0.4, apply=pytest.approx(0.1), picture=0.03)
     assert site.service.figures()[-1].name == "stage_picture"
+
+
+def test_a_browser_that_draws_no_h264_is_heard_by_the_cameras():
+    page = Tab()
+    site = Site(page)
+    told = site.other.subscribe(topics.PICTURE_QUEUE)
+    site.run(0.5)
+    assert told.latest() is None
+    page.jpeg_only = True
+    site.run(0.5)
+    assert told.latest().message.jpeg_only

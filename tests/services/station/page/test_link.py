@@ -1,7 +1,6 @@
 """The page's link, as a browser has it: what is drawn slowly is sent less often, and nothing piles up."""
 
 import json
-import struct
 import time
 from dataclasses import replace
 
@@ -9,11 +8,13 @@ import msgspec
 import pytest
 from websockets.sync.client import connect
 
-from protocol.messages import Phase, Pose, RobotState
+from protocol.messages import Coding, Phase, Pose, RobotState
+from services.bus.picture_stream import Group
 from services.process.clock import SystemClock
 from services.process.config import StationSection
 from services.station.live_view.description import described
 from services.station.live_view.drawing import Drawing
+from services.station.page.link import CLOUD, FRAME_HEADER, FROM_KEY, GOES_ON, HEAD, LENGTH, MOMENT, WHOLE
 from services.station.page.page import Page
 from services.station.page.said import Held, Hello
 from services.station.page.view import PageView, Picture
@@ -22,7 +23,6 @@ from tests.ports import free_port
 
 pytestmark = pytest.mark.sim  # in real time
 
-MOMENT, CLOUD = 2, 3
 UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 
 
@@ -38,6 +38,7 @@ class Browser:
         self._socket.send(msgspec.json.encode(Hello("seat-0001", "load-0001")).decode())
         self._said = 0
         self.drawing = {}
+        self.pictures = []
 
     def hear(self, seconds, *, drawing=True, kind=MOMENT):
         """The numbers of the moments that come within this time, or of what else is asked for."""
@@ -50,18 +51,31 @@ class Browser:
             if isinstance(frame, str):
                 self.drawing.update(json.loads(frame)["drawing"])
                 continue
-            came, number, _ = struct.unpack_from("<BxxxIf", frame)
+            came, coding, number, _ = FRAME_HEADER.unpack_from(frame)
+            if came == HEAD:
+                self.pictures.append((coding, split(frame[FRAME_HEADER.size :]) if coding else frame[-1:]))
             if came == kind:
                 numbers.append(number)
             if drawing and came == MOMENT:
                 self.say(moment=number)
         return numbers
 
-    def say(self, *, moment=0, cloud=False, clouds=0):
-        """What it has drawn, and whether it shows the point cloud."""
+    def say(self, *, head=0, moment=0, cloud=False, clouds=0, jpeg_only=False):
+        """What it has drawn, whether it shows the point cloud, and whether it draws no H.264."""
         self._said += 1
-        held = Held(self._said, time.monotonic() * 1e3, (), True, True, (), (0, 0, moment, clouds), cloud)
+        drawn = head, 0, moment, clouds
+        held = Held(self._said, time.monotonic() * 1e3, (), True, True, (), drawn, cloud, jpeg_only)
         self._socket.send(msgspec.json.encode(held).decode())
+
+
+def split(content):
+    """The pictures of a frame of H.264."""
+    pictures = []
+    while content:
+        (length,) = LENGTH.unpack_from(content)
+        pictures.append(content[LENGTH.size :][:length])
+        content = content[LENGTH.size + length :]
+    return pictures
 
 
 @pytest.fixture
@@ -134,3 +148,43 @@ def test_the_cloud_comes_to_a_tab_that_shows_it_and_no_faster_than_it_draws(page
     assert clouds(5) == [3, 4]
     browser.say()
     assert clouds(3) == []
+
+
+def show(page, number, *pictures):
+    """The newest of a group of pictures."""
+    page.show(PageView(head=Picture(bytes(pictures[-1]), 0.1, 0.0, Group(number, Coding.H264, pictures))))
+
+
+def test_pictures_that_need_others_come_with_what_the_tab_does_not_have_of_them(page, browser):
+    show(page, 1, b"key", b"a")
+    browser.hear(0.1)
+    show(page, 1, b"key", b"a", b"b")
+    browser.hear(0.1)
+    show(page, 1, b"key", b"a", b"b", b"c")
+    browser.hear(0.1)  # two are under way
+    show(page, 1, b"key", b"a", b"b", b"c", b"d")
+    browser.say(head=2)
+    browser.hear(0.1)
+    show(page, 2, b"key2", b"e")
+    browser.say(head=3)
+    browser.hear(0.1)
+    assert browser.pictures == [
+        (FROM_KEY, [b"key", b"a"]),
+        (GOES_ON, [b"b"]),
+        (GOES_ON, [b"c", b"d"]),
+        (FROM_KEY, [b"key2", b"e"]),
+    ]
+
+
+def test_a_tab_that_draws_none_of_them_gets_jpeg_files_alone_and_the_cameras_are_asked_for_them(page, browser):
+    browser.say()
+    browser.hear(0.1)
+    assert not page.jpeg_only
+    browser.say(jpeg_only=True)
+    browser.hear(0.1)
+    assert page.jpeg_only
+    show(page, 1, b"key")
+    browser.hear(0.1)
+    page.show(PageView(head=Picture(b"j", 0.1)))
+    browser.hear(0.1)
+    assert browser.pictures == [(WHOLE, b"j")]

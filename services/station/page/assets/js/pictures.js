@@ -1,16 +1,29 @@
 // The cameras' pictures onto their canvases, with the age that they have now.
 
+import { Video, drawsVideo } from "/assets/js/video.js";
 import { say } from "/assets/js/words.js";
 
 const CAMERAS = ["head", "wrist"];
 const HEADER_BYTES = 12;
 const STALE_S = 1;
+const JPEG = 0;
+const FROM_KEY = 2; // as the station's link says how a picture is coded
+const MOST_FAILED = 3; // key pictures one after another: a decoder that should decode them does not
 
 export class Pictures {
   constructor() {
     this.drawn = [0, 0];
     this.captured = [-Infinity, -Infinity];
     this.age = null;
+    this.videos = CAMERAS.map(() => new Video());
+    this.canVideo = true; // until it is known
+    this.failed = 0;
+    drawsVideo().then((can) => (this.canVideo = can));
+  }
+
+  // What cannot be drawn is asked for as JPEG files.
+  get jpegOnly() {
+    return !this.canVideo || this.failed >= MOST_FAILED;
   }
 
   // A new connection counts its pictures anew; those still being decoded count for the old one.
@@ -24,25 +37,27 @@ export class Pictures {
     const drawn = this.drawn;
     const header = new DataView(buffer, 0, HEADER_BYTES);
     const camera = header.getUint8(0);
+    const coding = header.getUint8(1);
     const number = header.getUint32(4, true);
     const captured = performance.now() - way - header.getFloat32(8, true) * 1000;
+    const content = new Uint8Array(buffer, HEADER_BYTES);
     try {
-      const bitmap = await createImageBitmap(new Blob([new Uint8Array(buffer, HEADER_BYTES)], { type: "image/jpeg" }));
-      if (drawn === this.drawn && number > drawn[camera]) this.draw(camera, bitmap, captured);
-      bitmap.close();
+      const picture = await (coding === JPEG ? still(content) : this.videos[camera].decode(content, coding === FROM_KEY));
+      if (drawn === this.drawn && number > drawn[camera]) this.draw(camera, picture, captured);
+      picture.close();
+      if (coding !== JPEG) this.failed = 0;
     } catch {
       // What is no picture is not drawn; the age tells that none came.
+      if (coding === FROM_KEY) this.failed += 1;
     }
     drawn[camera] = Math.max(drawn[camera], number);
   }
 
-  draw(camera, bitmap, captured) {
+  draw(camera, picture, captured) {
     const canvas = panelOf(camera).querySelector("canvas");
-    if (canvas.width !== bitmap.width || canvas.height !== bitmap.height) {
-      canvas.width = bitmap.width;
-      canvas.height = bitmap.height;
-    }
-    canvas.getContext("2d").drawImage(bitmap, 0, 0);
+    const { displayWidth: width = picture.width, displayHeight: height = picture.height } = picture;
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    canvas.getContext("2d").drawImage(picture, 0, 0);
     this.captured[camera] = captured;
     this.age = Math.max(0, performance.now() - captured); // of the newest when it had been drawn [ms]
     canvas.dataset.ageMs = this.age.toFixed(1); // for whoever measures
@@ -57,6 +72,10 @@ export class Pictures {
       panel.querySelector(".camera-age").textContent = ageInWords(age);
     }
   }
+}
+
+function still(content) {
+  return createImageBitmap(new Blob([content], { type: "image/jpeg" }));
 }
 
 function ageInWords(age) {

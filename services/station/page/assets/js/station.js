@@ -113,9 +113,10 @@ function onSilence() {
 
 function say() {
   const { drawn, clouds, wantsCloud } = liveView;
-  const seen = { drawn: [...pictures.drawn, drawn, clouds], cloud: wantsCloud, picture_ms: pictures.age };
+  const shown = { drawn: [...pictures.drawn, drawn, clouds], picture_ms: pictures.age };
+  const wanted = { cloud: wantsCloud, jpeg_only: pictures.jpegOnly };
   const when = { waited_ms: held.waited(), way_ms: roundTrip.told };
-  link.sayHeld({ ...held.state(), ...seen, ...when, yaw: following.yaw });
+  link.sayHeld({ ...held.state(), ...shown, ...wanted, ...when, yaw: following.yaw });
 }
 
 function changed() {
