@@ -24,27 +24,24 @@ class Pictures:
 
     def __init__(self, bus: Bus, run: Run) -> None:
         self._run = run
-        self._head, self._wrist = (_Camera(PictureStream(bus.subscribe(topic))) for topic in (HEAD_IMAGE, WRIST_IMAGE))
-        self._queue = QueueReport(bus, self._head.stream, self._wrist.stream)
+        topics = {"head": HEAD_IMAGE, "wrist": WRIST_IMAGE}
+        self._cameras = {name: _Camera(PictureStream(bus.subscribe(topic))) for name, topic in topics.items()}
+        self._queue = QueueReport(bus, *(camera.stream for camera in self._cameras.values()))
 
     @property
     def undecodable(self) -> int:
         """How many were no use so far."""
-        return self._head.decoder.undecodable + self._wrist.decoder.undecodable
+        return sum(camera.decoder.undecodable for camera in self._cameras.values())
 
     def draw(self, now_ns: int) -> None:
         """Draw what is new."""
-        decoders = self._head.decoder, self._wrist.decoder
+        decoders = [camera.decoder for camera in self._cameras.values()]
         able, waits = all(one.is_able for one in decoders), any(one.waits for one in decoders)
         self._queue.step(now_ns, jpeg_only=not able, waits=waits)
-        for camera in (self._head, self._wrist):
-            self._draw(camera)
-
-    def _draw(self, camera: _Camera) -> None:
-        data = camera.take()
-        if data is not None:
-            name = "head" if camera is self._head else "wrist"
-            self._run.log(f"{entities.CAMERAS}/{name}", rr.EncodedImage(contents=data, media_type="image/jpeg"))
+        for name, camera in self._cameras.items():
+            data = camera.take()
+            if data is not None:
+                self._run.log(f"{entities.CAMERAS}/{name}", rr.EncodedImage(contents=data, media_type="image/jpeg"))
 
 
 class _Camera:

@@ -4,6 +4,7 @@ import pytest
 
 from services.bus.zenoh import connect
 from services.process.clock import SystemClock
+from tests.system.exposed import exposed, nothing_changes
 from tests.system.harness import Command, free_endpoint, reachable
 
 
@@ -28,3 +29,17 @@ def bus(router):
     yield open_one
     for one in opened:
         one.close()
+
+
+@pytest.fixture(scope="module")
+def network(tmp_path_factory):
+    """A whole system, exposed to whatever comes."""
+    with exposed(tmp_path_factory.mktemp("exposed")) as network:
+        yield network
+
+
+@pytest.fixture
+def unmoved(network):
+    """The heartbeats from before; nothing may change meanwhile."""
+    with nothing_changes(network) as before:
+        yield before

@@ -13,7 +13,7 @@ from protocol.exceptions import ProtocolError
 from services.process.processes import PROCESS_NAMES
 from tests.protocol.filled import filled
 from tests.protocol.mutation import mutated
-from tests.system.exposed import TOPICS, drops, exposed, nothing_changes
+from tests.system.exposed import TOPICS, drops
 from tests.system.harness import eventually
 
 pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.sim, pytest.mark.alone]
@@ -28,20 +28,6 @@ AT_ONCE_BYTES = 300_000
 """Then it is waited until all has passed: a link that is full for long is closed."""
 
 COUNTED_S = 120.0
-
-
-@pytest.fixture(scope="module")
-def network(tmp_path_factory):
-    """Exposed to whatever comes."""
-    with exposed(tmp_path_factory.mktemp("fuzz")) as network:
-        yield network
-
-
-@pytest.fixture
-def unmoved(network):
-    """The heartbeats from before; nothing may change meanwhile."""
-    with nothing_changes(network) as before:
-        yield before
 
 
 def same(topic, sample, payload):

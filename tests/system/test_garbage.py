@@ -13,27 +13,13 @@ from protocol.codec import decode_reply
 from protocol.messages import Array, Purpose
 from services.process.processes import PROCESS_NAMES
 from tests.system import garbage
-from tests.system.exposed import TOPICS, drops, exposed, nothing_changes
+from tests.system.exposed import TOPICS, drops
 from tests.system.harness import eventually
 
 pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.sim, pytest.mark.alone]
 
 ROUNDS = 12
 QUIET_BEATS = 4
-
-
-@pytest.fixture(scope="module")
-def network(tmp_path_factory):
-    """Exposed to whatever comes."""
-    with exposed(tmp_path_factory.mktemp("garbage")) as network:
-        yield network
-
-
-@pytest.fixture
-def unmoved(network):
-    """The heartbeats from before; nothing may change meanwhile."""
-    with nothing_changes(network) as before:
-        yield before
 
 
 def test_every_topic_drops_and_counts_what_is_no_message(network, unmoved):
