@@ -15,7 +15,7 @@ from typing import Protocol
 
 from services.bus.reach import Silence, fits, probe
 from services.bus.zenoh.dialling import Dialling, Opened
-from services.bus.zenoh.transport import POLL_S
+from services.bus.zenoh.transport import POLL_S, redial_ms
 from services.certificates.credentials import Credentials
 from services.process.endpoint import Endpoint
 from services.process.exceptions import BadEndpoint
@@ -25,11 +25,22 @@ log = logging.getLogger(__name__)
 LOOK_S = 0.25
 """Between two looks whether the link was lost meanwhile."""
 
-GRACE_S = 1.0
-"""How long nobody else dials once the way is there, where Zenoh's pace fits it: a stop that waits comes first."""
+OWN_ATTEMPTS = 2
+"""Of Zenoh's own, which nobody else dials beside once the way is there, where its pace fits it: a stop that waits comes
+first. One began too early to find the way, the next finds it."""
 
 AGAIN_S = 0.2
 """Between two looks whether the way is there."""
+
+
+def grace_s(pace_ms: int, credentials: Credentials | None) -> float:
+    """How long a link is left to Zenoh once the way is there [s].
+
+    Args:
+        pace_ms: how long each attempt to open it again may take [ms].
+        credentials: that are shown; None where there are none.
+    """
+    return OWN_ATTEMPTS * (pace_ms + redial_ms(credentials)) / 1e3
 
 
 class Redialled(Protocol):
@@ -85,7 +96,7 @@ class Redialling(threading.Thread):
         if trip is None:
             return False
         if fits(self._link.pace_ms, trip):
-            self._end.wait(GRACE_S)
+            self._end.wait(grace_s(self._link.pace_ms, self._link.credentials))
         dialling = Dialling(self._link.endpoint, self._link.credentials)
         dialling.start()
         while dialling.is_alive() and not self._end.wait(POLL_S):

@@ -42,6 +42,15 @@ def configuration(made: dict[str, Any]) -> zenoh.Config:
     return zenoh.Config.from_json5(json.dumps(made))
 
 
+def redial_ms(credentials: Credentials | None) -> int:
+    """Between two attempts of Zenoh's to open a link again [ms].
+
+    Args:
+        credentials: that are shown; None where there are none.
+    """
+    return REDIAL_MS if credentials is None else SECURE_REDIAL_MS
+
+
 def settings(
     mode: str,
     connect: str | None,
@@ -61,6 +70,7 @@ def settings(
         within_ms: a session that has no link by then does not open [ms]; -1 to open it without.
         credentials: which both ends show; a router lets in whom its register names, and denies what is not granted.
     """
+    again_ms = redial_ms(credentials)
     config: dict[str, Any] = {
         "mode": mode,
         "scouting": {"multicast": {"enabled": False}, "gossip": {"enabled": False}},
@@ -69,7 +79,7 @@ def settings(
             "endpoints": _lanes(mode, connect) if connect else [],
             "timeout_ms": within_ms,
             "exit_on_failure": within_ms >= 0,
-            "retry": {"period_init_ms": REDIAL_MS, "period_max_ms": REDIAL_MS, "period_increase_factor": 1.0},
+            "retry": {"period_init_ms": again_ms, "period_max_ms": again_ms, "period_increase_factor": 1.0},
         },
         "transport": {
             "unicast": {"open_timeout": pace_ms, "max_links": MOST_LINKS if mode == "router" else 1},
@@ -83,7 +93,6 @@ def settings(
     }
     if credentials is not None:
         config["transport"]["link"]["tls"] = _mutual(credentials)
-        config["connect"]["retry"] |= {"period_init_ms": SECURE_REDIAL_MS, "period_max_ms": SECURE_REDIAL_MS}
     if credentials is not None and listen and parse(listen).secure:
         subjects = [(one.common_name, one.subject) for one in credentials.register().admitted()]
         config |= {"access_control": access_control(subjects), **quotas(subjects)}

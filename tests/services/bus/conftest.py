@@ -7,4 +7,4 @@ import pytest
 def soon(monkeypatch):
     """What is waited for in a real outage is waited for shortly."""
     monkeypatch.setattr("services.bus.zenoh.redialling.LOOK_S", 0.05)
-    monkeypatch.setattr("services.bus.zenoh.redialling.GRACE_S", 0.1)
+    monkeypatch.setattr("services.bus.zenoh.redialling.OWN_ATTEMPTS", 0.5)

@@ -4,6 +4,7 @@ import pytest
 
 from services.bus.reach import OPEN_LEAST_MS, Silence
 from services.bus.zenoh import redialling
+from services.bus.zenoh.transport import REDIAL_MS, SECURE_REDIAL_MS
 from services.process.endpoint import parse
 
 
@@ -97,13 +98,19 @@ class At:
 def test_a_way_that_has_become_too_long_is_dialled_as_soon_as_it_is_there(looked_after):
     link = Link()
     assert looked_after(link, [Silence("no route"), Silence("no answer"), 0.3]) == [Link.endpoint.text]
-    assert redialling.GRACE_S not in link.end.waited
+    assert redialling.grace_s(Link.pace_ms, None) not in link.end.waited
 
 
 def test_a_way_that_is_as_before_is_left_to_the_transport_first(looked_after):
     link = Link()
     assert looked_after(link, [0.0]) == [Link.endpoint.text]
-    assert link.end.waited.count(redialling.GRACE_S) == 1
+    assert link.end.waited.count(redialling.grace_s(Link.pace_ms, None)) == 1
+
+
+@pytest.mark.parametrize(("credentials", "between_ms"), [(None, REDIAL_MS), (object(), SECURE_REDIAL_MS)])
+def test_a_deaf_link_is_opened_anew_after_two_attempts_of_the_transport(credentials, between_ms):
+    """The first may have begun before the way was there; a link that the second found may be deaf."""
+    assert redialling.grace_s(300, credentials) == pytest.approx(2 * (300 + between_ms) / 1e3)
 
 
 def test_a_way_that_is_not_there_is_not_dialled(looked_after):
