@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from protocol.commander import EVERYBODY, commander_keys
 from protocol.exceptions import InvalidName
 from protocol.names import checked_name, process_name
 from protocol.queries import QUERIES, REVOKE, Query
@@ -32,6 +33,7 @@ class Act(enum.Enum):
     ASK = "ask"
     ANSWER = "answer"
     BE_THERE = "be there"
+    SEE = "see who is there"
 
 
 @dataclass(frozen=True)
@@ -132,12 +134,15 @@ def rights(one: Subject) -> Iterator[Right]:
         return
     if one.kind.person:
         yield Right(Act.READ, f"retouch/{VERSION}/**")
+        yield Right(Act.SEE, EVERYBODY)
     for topic in TOPICS:
         yield from _on_topic(one, topic)
     for query in QUERIES:
         yield from _on_query(one, query)
     for role in one.kind.roles:
         yield Right(Act.BE_THERE, f"retouch/{VERSION}/{one.robot}/alive/{one.process(role)}")
+    if "robot" in one.kind.roles:
+        yield Right(Act.BE_THERE, commander_keys(one.robot))
 
 
 def _on_topic(one: Subject, topic: Topic[Any]) -> Iterator[Right]:

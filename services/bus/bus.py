@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Generic, Protocol, TypeVar
 
@@ -66,8 +67,15 @@ class Bus(Protocol):
         """Ask; returns at once."""
         ...
 
-    def neighbours(self) -> frozenset[str]:
-        """Names of the other robots that were heard on this network since the first call."""
+    def neighbours(self) -> Mapping[str, str]:
+        """The other robots that were there since the first call, and the operator who commands each; empty for nobody.
+
+        One that has gone is as it was told last.
+        """
+        ...
+
+    def tell_commander(self, operator: str) -> None:
+        """Say, for this robot, that it is there and who commands it; empty for nobody."""
         ...
 
     def neighbour(self, robot: str) -> Bus:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Mapping
 from typing import Any, TypeVar
 
 import msgspec
@@ -38,6 +39,7 @@ class MemoryNetwork:
         self.clock = clock
         self.robot = robot
         self.others: dict[str, MemoryNetwork] = {}
+        self.commander = ""
         self.subscriptions: list[Subscription[Any]] = []
         self.servers: dict[str, Server[Any, Any]] = {}
 
@@ -113,9 +115,13 @@ class MemoryBus:
         server.receive(payload, announced, lambda reply: pending.settle(decode_reply(query, reply)), self._process)
         return pending
 
-    def neighbours(self) -> frozenset[str]:
+    def neighbours(self) -> Mapping[str, str]:
         """The robots whose networks are one with this one's."""
-        return frozenset(self._network.others)
+        return {robot: network.commander for robot, network in self._network.others.items()}
+
+    def tell_commander(self, operator: str) -> None:
+        """Say who commands the network's robot."""
+        self._network.commander = operator
 
     def neighbour(self, robot: str) -> MemoryBus:
         """The same process' way to another robot."""

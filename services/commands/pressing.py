@@ -73,7 +73,7 @@ class PressAll:
     def step(self, now_ns: int) -> str:
         """Press where it is not confirmed; what is waited for, empty once every robot stands."""
         self._began_ns = now_ns if self._began_ns is None else self._began_ns
-        for robot in self._bus.neighbours() - self._presses.keys():
+        for robot in self._bus.neighbours().keys() - self._presses.keys():
             self._presses[robot] = Press(self._bus.neighbour(robot), self._operator)
         waits_for = {robot: press.step(now_ns) for robot, press in sorted(self._presses.items())}
         if not self._presses[self._own].heard:  # nobody said that it is there

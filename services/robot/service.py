@@ -184,8 +184,9 @@ class RobotService:
         return covers
 
     def _tell_who_commands(self) -> None:
-        """Log who took the authority from whom, and why."""
+        """Tell the network, and log who took the authority from whom, and why."""
         lease = self._control.lease
+        self._bus.tell_commander(lease.operator)
         if self._told_epoch != lease.epoch and lease.reason:
             event = lease.event.value.replace("_", " ")
             log.warning("%s", one_line(f"{lease.before}'s authority was {event} by {lease.by}: {lease.reason}"))

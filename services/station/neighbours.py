@@ -15,7 +15,7 @@ from services.station.press import STOP, STOP_OTHER, Press
 from services.station.stop import StopButton
 
 NEIGHBOURS_KEPT = 8
-"""So many other robots are shown at most, the first that were heard."""
+"""So many other robots are shown at most: the first that were there, before them those whose stop is not confirmed."""
 
 
 @dataclass(frozen=True)
@@ -90,20 +90,25 @@ class Neighbours:
         """A button was pressed here; a stop is meant for every robot that its operator commands, wherever they do."""
         if press.action == STOP_OTHER:
             self.press_stop(press.argument, now_ns, by)
-        elif press.action == STOP:
-            for ear in self._ears.values():
-                authority = ear.authority.latest()
-                if authority is not None and by and authority.message.operator == by:
-                    ear.stop.press(now_ns, by)
+        elif press.action == STOP and by:
+            for robot, operator in sorted(self._bus.neighbours().items()):
+                if operator == by:
+                    self._ear(robot).stop.press(now_ns, by)
 
     def step(self, now_ns: int) -> None:
         """Say the stops on that are not confirmed, and listen to who has come."""
         for ear in self._ears.values():
             ear.stop.step(now_ns)
-        for robot in sorted(self._bus.neighbours() - self._ears.keys()):
+        for robot in sorted(self._bus.neighbours().keys() - self._ears.keys()):
             if len(self._ears) < NEIGHBOURS_KEPT:
-                self._ears[robot] = _Ear(self._bus.neighbour(robot), self._holder)
+                self._ear(robot)
 
     def there(self, now_ns: int) -> tuple[Neighbour, ...]:
-        """All that were heard of, in the order of their names; one that fell silent can be stopped all the same."""
-        return tuple(ear.now(robot, now_ns) for robot, ear in sorted(self._ears.items()))
+        """Those that are shown, in the order of their names; one that fell silent can be stopped all the same."""
+        shown = sorted(self._ears, key=lambda robot: not self._ears[robot].stop.unconfirmed)[:NEIGHBOURS_KEPT]
+        return tuple(self._ears[robot].now(robot, now_ns) for robot in sorted(shown))
+
+    def _ear(self, robot: str) -> _Ear:
+        if robot not in self._ears:
+            self._ears[robot] = _Ear(self._bus.neighbour(robot), self._holder)
+        return self._ears[robot]

@@ -1,11 +1,13 @@
 """A real router decides on every key of the tables, for every kind of certificate, as the tables say."""
 
 import itertools
+import threading
 import time
 
 import pytest
 import zenoh
 
+from protocol.commander import EVERYBODY, commander_key
 from protocol.queries import QUERIES
 from protocol.rights import Act, rights, subject
 from protocol.topics import HEARTBEAT, TOPICS, VERSION
@@ -157,6 +159,20 @@ def test_being_there(one, everybody):
     assert there() & keys == expected
     for token in tokens:
         token.undeclare()
+
+
+def test_seeing_who_commands(one, everybody):
+    session, whom = one
+    token = everybody.current.liveliness().declare_token(commander_key(ROBOTS[0], "anna"))
+    seen = threading.Event()
+    subscriber = session.liveliness().declare_subscriber(EVERYBODY, lambda _: seen.set(), history=True)
+    if allowed(whom, Act.SEE, {EVERYBODY}):
+        assert seen.wait(WITHIN_S)
+    else:
+        assert not [reply for reply in session.liveliness().get(EVERYBODY, timeout=2.0) if reply.ok is not None]
+        assert not seen.is_set()
+    subscriber.undeclare()
+    token.undeclare()
 
 
 def test_the_transports_own_administration_is_nobodys(one):

@@ -4,6 +4,7 @@ import itertools
 
 import pytest
 
+from protocol.commander import EVERYBODY, commander_key
 from protocol.exceptions import InvalidName
 from protocol.queries import QUERIES, REVOKE
 from protocol.rights import KINDS, Act, rights, subject
@@ -76,6 +77,15 @@ def test_nobody_announces_another_process(name):
     for robot, process in itertools.product(ROBOTS, PROCESSES):
         expected = own(one, process) and reaches(one, robot)
         assert may(one, Act.BE_THERE, f"retouch/{VERSION}/{robot}/alive/{process}") == expected
+
+
+@pytest.mark.parametrize("name", SUBJECTS)
+def test_a_robot_s_own_process_says_who_commands_it_and_people_see_that_of_all(name):
+    one = subject(name)
+    assert may(one, Act.SEE, EVERYBODY) == one.kind.person
+    for robot, operator in itertools.product(ROBOTS, ("", "anna")):
+        expected = one.kind.name == "robot" and robot == one.name
+        assert may(one, Act.BE_THERE, commander_key(robot, operator)) == expected
 
 
 @pytest.mark.parametrize("name", SUBJECTS)

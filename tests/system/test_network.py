@@ -238,10 +238,11 @@ def test_the_other_robots_of_a_network_are_heard_and_stopped_each_by_itself(bus)
 
     def seen():
         for robot in (garage, kitchen):
+            robot.tell_commander("")
             robot.publish(topics.SAFETY_STATE, SafetyState(emergency_stop=False))
         return station.neighbours()
 
-    assert eventually(seen, WITHIN_S, "the garage is heard") == {"garage"}
+    assert eventually(seen, WITHIN_S, "the garage is there") == {"garage": ""}
     other = station.neighbour("garage")
     safety = other.subscribe(topics.SAFETY_STATE)
     message = heard(other, topics.EMERGENCY_STOP, EmergencyStop(pressed=True, by="ann"), stops)

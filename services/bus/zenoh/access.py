@@ -18,6 +18,7 @@ _WORDS: dict[Act, dict[str, tuple[str, ...]]] = {
     Act.ASK: {"ingress": ("query",), "egress": ("reply",)},
     Act.ANSWER: {"ingress": ("declare_queryable", "reply"), "egress": ("query",)},
     Act.BE_THERE: {"ingress": ("liveliness_token", "liveliness_query"), "egress": ("liveliness_token",)},
+    Act.SEE: {"ingress": ("declare_liveliness_subscriber", "liveliness_query"), "egress": ("liveliness_token",)},
 }
 """Seen from the router: what comes in from whom the rule is about, and what goes out to them."""
 

@@ -5,31 +5,31 @@ from __future__ import annotations
 import contextlib
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 import msgspec
 import zenoh
 
 from protocol.codec import decode_reply, encode_request
-from protocol.exceptions import InvalidName, ProtocolError
+from protocol.exceptions import ProtocolError
 from protocol.messages import Message, TopicFigures
 from protocol.names import checked_name
 from protocol.placement import announcement, check_announced
 from protocol.queries import Query
-from protocol.topics import SAFETY_STATE, VERSION, QoS, Topic
+from protocol.topics import VERSION, QoS, Topic
 from services.bus.bus import Failed, Pending
 from services.bus.clocks import Clocks
 from services.bus.identity import new_publisher
 from services.bus.outbox import Outbox
 from services.bus.server import Server
 from services.bus.subscription import Subscription
+from services.bus.zenoh.commanders import Commanders, CommanderToken
 from services.bus.zenoh.dialling import Opened
 from services.bus.zenoh.encoding import announced, encoding
 from services.bus.zenoh.lanes import Lanes, comes_again
 from services.bus.zenoh.qos import MANNERS
 from services.bus.zenoh.session import open_session
-from services.bus.zenoh.watch import watch
 from services.certificates.credentials import Credentials
 from services.process.clock import Clock
 from services.process.exceptions import NameTaken, RouterUnreachable
@@ -43,9 +43,6 @@ NAME_WAIT_S = 3.0
 """How long the token of a killed predecessor may linger before its name counts as taken."""
 
 NAME_ASK_S = 0.5
-
-ROBOTS_KEPT = 64
-"""So many robots of one network are told apart."""
 
 
 class ZenohBus:
@@ -70,7 +67,8 @@ class ZenohBus:
         self._outbox = Outbox(new_publisher(), self._robot, self._process)
         self._clocks = Clocks(self.identity)
         self._inlets: list[Subscription[Any] | Server[Any, Any]] = []
-        self._robots: set[str] | None = None
+        self._commanders: Commanders | None = None
+        self._token: CommanderToken | None = None
 
     @property
     def identity(self) -> int:
@@ -181,13 +179,17 @@ class ZenohBus:
         )
         return pending
 
-    def neighbours(self) -> frozenset[str]:
-        """Names of the other robots that were heard on this network since the first call."""
-        if self._robots is None:
-            self._robots = robots = {self._robot}
-            key_expression = f"retouch/{VERSION}/*/{SAFETY_STATE.name}/*"
-            watch(self._session, key_expression, lambda passing: _note(robots, passing.key))
-        return frozenset(self._robots.copy() - {self._robot})
+    def neighbours(self) -> Mapping[str, str]:
+        """The other robots that were there since the first call, and the operator who commands each."""
+        self._commanders = self._commanders or Commanders(self._session)
+        return {robot: operator for robot, operator in self._commanders.now().items() if robot != self._robot}
+
+    def tell_commander(self, operator: str) -> None:
+        """Say, for this robot, that it is there and who commands it."""
+        if self._token is None:
+            self._token = CommanderToken(self._session, self._robot)
+            self._token.start()
+        self._token.tell(operator)
 
     def neighbour(self, robot: str) -> ZenohBus:
         """This process' way to another robot, over the same lanes."""
@@ -204,6 +206,8 @@ class ZenohBus:
 
     def close(self) -> None:
         """Leave the network."""
+        if self._token is not None:
+            self._token.end()
         self._lanes.close()
 
     def _put(self, session: zenoh.Session, topic: Topic[Any], payload: bytes) -> None:
@@ -238,13 +242,6 @@ def _reliability(topic: Topic[Any]) -> zenoh.Reliability:
     """Between routers, what comes again within a moment travels as datagrams; a stop does not count on that."""
     again = comes_again(topic) and topic.qos is not QoS.SAFETY
     return zenoh.Reliability.BEST_EFFORT if again else zenoh.Reliability.RELIABLE
-
-
-def _note(robots: set[str], key: str) -> None:
-    """Remember whose key it is; bounded, since a stranger may invent more."""
-    with contextlib.suppress(InvalidName):
-        if len(robots) < ROBOTS_KEPT:
-            robots.add(checked_name(key.split("/")[2]))
 
 
 def _responder(call: zenoh.Query, key: str, says: str) -> Callable[[bytes], None]:

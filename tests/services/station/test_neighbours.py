@@ -61,11 +61,24 @@ def test_its_light_its_commander_and_its_page_are_seen():
 @pytest.mark.parametrize(("commander", "stops"), [("ann", True), ("bob", False), ("", False)])
 def test_one_press_stops_whatever_its_operator_commands_and_nobody_else_s(commander, stops):
     site = Site()
-    authority = AuthorityState(operator=commander, holder="station-2", epoch=1, expires_in=1.0)
-    site.robot.publish(topics.AUTHORITY_STATE, authority)
-    site.run(PERIOD_S)
+    site.robot.tell_commander(commander)
     site.neighbours.hear(Press("stop"), "ann", site.clock.now_ns())
     assert bool(site.run(0.2)) == stops
+
+
+def test_one_press_stops_all_that_its_operator_commands_more_than_are_shown_too_and_shows_those_that_do_not_stand():
+    site = Site()
+    garages = [MemoryNetwork(site.clock, f"robot-{number:02}") for number in range(3 * NEIGHBOURS_KEPT)]
+    heard = {network.robot: network.bus().subscribe(topics.EMERGENCY_STOP) for network in garages}
+    for number, network in enumerate(garages):
+        site.kitchen.join(network)
+        network.bus().tell_commander("ann" if number >= 2 * NEIGHBOURS_KEPT else "bob")
+    site.run(PERIOD_S)
+    site.neighbours.hear(Press("stop"), "ann", site.clock.now_ns())
+    site.run(PERIOD_S)
+    stopped = [robot for robot, stops in heard.items() if stops.take()]
+    assert stopped == [network.robot for network in garages[2 * NEIGHBOURS_KEPT :]]
+    assert [(neighbour.robot, neighbour.stopping) for neighbour in site.seen()] == [(robot, True) for robot in stopped]
 
 
 def test_its_stop_is_said_to_it_alone_until_it_stands():
