@@ -5,7 +5,8 @@ period by period; in contact the correction is let no further against the force 
 for. The first sample of a touch cannot be foreseen: what it takes, at most `LARGEST` times the step, is a debt, and
 while there is one the correction goes no further against the force. What was withheld is caught up with at the pace of
 an unhurried hand, so that nothing jumps where a contact ends. Where none is felt, and for a device that renders no
-contact force, nothing is changed at all.
+contact force, nothing is changed at all. The correction's turn has no port: no torque is shown to a hand, so nothing
+that the turn does comes back through the network.
 """
 
 from __future__ import annotations
