@@ -155,20 +155,27 @@ class Arm:
         self._q = self.observation.q
         return episode.outcome(self._verdict, self.measured, reason) if episode is not None else None
 
-    def tick(self, wanted: Correction, hold_reason: str = "", given: Callable[[], None] = lambda: None) -> Tick:
+    def tick(
+        self,
+        wanted: Correction,
+        hold_reason: str = "",
+        given: Callable[[], None] = lambda: None,
+        leeway: float = 1.0,
+    ) -> Tick:
         """Give one command and see what it did.
 
         Args:
             wanted: the correction that the operator asks for, or by how much a hand moves the gripper that leads alone.
             hold_reason: why a running episode may not go on, empty where it may.
             given: called when the command has been handed over, before the period passes in which it acts.
+            leeway: see `Watchdog.leeway`.
         """
         episode = self._episode
         holding = bool(episode is not None and hold_reason)
         clamped: tuple[str, ...] = ()
         fault = ""
         try:
-            previous_q, clamped = self._decide(episode, wanted, holding=holding)
+            previous_q, clamped = self._decide(episode, wanted, leeway, holding=holding)
             self._backend.command(self._q, (self._q - previous_q) / CONTROL_PERIOD)
             given()
             self._backend.elapse()
@@ -197,12 +204,14 @@ class Arm:
             fault=fault,
         )
 
-    def _decide(self, episode: Episode | None, wanted: Correction, *, holding: bool) -> tuple[Array, tuple[str, ...]]:
+    def _decide(
+        self, episode: Episode | None, wanted: Correction, leeway: float, *, holding: bool
+    ) -> tuple[Array, tuple[str, ...]]:
         """Choose the next command; the joints that it starts from, and what was clamped."""
         if episode is None:
             return self._q, ()
         if not holding:
-            return self._follow(episode, wanted)
+            return self._follow(episode, wanted, leeway)
         if not episode.holding:
             # A blocked arm's command lies ahead of it: the arm must not creep there while it holds.
             self._q = self.observation.q
@@ -218,12 +227,12 @@ class Arm:
         self._said = fault
         return fault
 
-    def _follow(self, episode: Episode, wanted: Correction) -> tuple[Array, tuple[str, ...]]:
+    def _follow(self, episode: Episode, wanted: Correction, leeway: float) -> tuple[Array, tuple[str, ...]]:
         """Command the next reference; the joints that it started from, and what was clamped."""
         within, too_far = safety.clamp_correction(self._kinematics.admitted(wanted))
         if episode.holding:
             self._q, self._reference = self.observation.q, self.measured
-        reference = episode.advance(within, self.measured)
+        reference = episode.advance(within, self.measured, leeway)
         self._reference, too_fast = safety.clamp_reference(self._reference, reference, CONTROL_PERIOD)
         clamped = [*too_far, *too_fast]
         q, target = self._q, self._reference

@@ -9,12 +9,12 @@ from datetime import datetime
 import numpy as np
 from numpy.typing import NDArray
 
-from protocol import messages
 from protocol.messages import AuthorityEvent, Cut, MasterState, Mode, Phase, Prediction
 from protocol.queries import AcquireAuthority, Adapt, Execute, Finish, Pace, ReleaseStop, Reset, Resume, Teleoperate
 from services.bus.arrays import motion_from_wire
 from services.bus.subscription import Received
 from services.process.exceptions import ServiceError
+from services.robot import wire
 from services.robot.admission import admit_pace, admit_prediction, admit_reset, admit_target
 from services.robot.arm import Arm
 from services.robot.authority import NOBODY, Lease
@@ -33,7 +33,6 @@ from services.robot.safety import Watchdog
 from services.robot.starts import StartImpossible
 from services.robot.teleoperation import Coupling
 from services.robot.tick import Tick
-from sim.pose import Pose
 from sim.tasks import AnyScene
 
 Array = NDArray[np.float64]
@@ -150,7 +149,7 @@ class Control:
         variant = self.arm.variant if request.variant is None else request.variant
         asked = admit_target(self.scene, request)
         place = self._place if asked is None else asked
-        start = None if request.start is None else _pose(request.start)
+        start = None if request.start is None else wire.pose_of(request.start)
         admit_reset(self.scene, variant, place, start)
         try:
             self.arm.reset(place, variant, start)
@@ -189,7 +188,7 @@ class Control:
         reason = self._hold_reason(now_ns, sample, way_s)
         refined = self.arm.episode if self.mode is Mode.REFINE else None
         wanted = self.contact.limited(self._wanted(sample, reason), sample and sample.message, refined)
-        tick = self.arm.tick(wanted, reason, given)
+        tick = self.arm.tick(wanted, reason, given, self._leeway(now_ns, sample, way_s))
         self.contact.observe(tick.observation.contact_force)
         self._end(tick.outcome)
         if tick.fault:
@@ -243,6 +242,13 @@ class Control:
             cause = self._watchdog.hand(age_s, engaged=engaged, way_s=way_s)
         return self._hold.reason(now_ns, cause, self.lease.epoch)
 
+    def _leeway(self, now_ns: int, sample: Received[MasterState] | None, way_s: float) -> float:
+        """See `Watchdog.leeway`."""
+        absence_s = self.lease.silence_s(now_ns)
+        if self.mode is Mode.AUTONOMOUS or sample is None:
+            return self._watchdog.leeway(absence_s)
+        return self._watchdog.leeway(absence_s, sample.age_s(now_ns), way_s)
+
     def _wanted(self, sample: Received[MasterState] | None, hold_reason: str) -> Correction:
         """What the operator asks for: a correction, or by how much to move where the hand leads alone."""
         episode = self.arm.episode
@@ -256,6 +262,8 @@ class Control:
         if not execution.corrects:
             self._clutch.rest()
         if hold_reason:
+            # What the hand did meanwhile is not caught up with at once.
+            self._clutch.let_go()
             self._coupling.decouple()
         if hold_reason or not execution.corrects:
             return execution.correction
@@ -289,9 +297,3 @@ class Control:
 
     def _now(self) -> str:
         return self._utc().isoformat(timespec="seconds")
-
-
-def _pose(pose: messages.Pose) -> Pose:
-    """A pose from the wire, its quaternion normalised."""
-    orientation = np.array(pose.orientation)
-    return Pose(np.array(pose.position), orientation / np.linalg.norm(orientation))

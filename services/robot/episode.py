@@ -70,8 +70,8 @@ class Course(Protocol):
         """What is wanted is more than a device's noise."""
         ...
 
-    def advance(self, wanted: Correction) -> Pose:
-        """Go on by one control period as the operator wants; the reference at its end."""
+    def advance(self, wanted: Correction, leeway: float = 1.0) -> Pose:
+        """Go on by one control period as the operator wants, within the watchdog's leeway; the reference at its end."""
         ...
 
     def rejoin(self, measured: Pose, *, at_once: bool) -> None:
@@ -172,12 +172,13 @@ class Episode:
         self._held += 1
         self._settled += self.settling
 
-    def advance(self, wanted: Correction, measured: Pose) -> Pose:
+    def advance(self, wanted: Correction, measured: Pose, leeway: float = 1.0) -> Pose:
         """Go on by one control period.
 
         Args:
             wanted: the correction that the operator asks for.
             measured: pose of the grasping frame, from where a hold is left.
+            leeway: see `Watchdog.leeway`.
 
         Returns:
             The reference at the end of the period.
@@ -192,7 +193,7 @@ class Episode:
             self.execution.rejoin(measured, at_once=duration <= LONG_HOLD_S)
         if self.execution.corrects:
             self._input |= self.execution.is_input(wanted)
-        return self.execution.advance(wanted)
+        return self.execution.advance(wanted, leeway)
 
     def record(self, reference: Pose, commanded: Pose, measured: Pose, *, clamped: bool) -> None:
         """Keep what this period's command was and did."""

@@ -33,6 +33,7 @@ from lfd.motion.part import WHOLE, Part
 from lfd.motion.rotations import conjugate, log_map, multiply, slerp
 from lfd.motion.trajectory import Trajectory
 from services.robot.correction import UNCORRECTED, Correction
+from services.robot.easing import Easing, eased
 from services.robot.pace import Pace
 from services.robot.passage import Passage
 from services.robot.path import Path
@@ -57,7 +58,8 @@ def look_ahead(prediction: Trajectory) -> float:
 class Execution:
     """One prediction on its way: first a ramp from where the arm is, then the prediction plus the correction.
 
-    Not calling `advance` is a hold: time stands still, the correction is frozen, the reference stays.
+    Not calling `advance` is a hold: time stands still, the correction is frozen, the reference stays. From a hold
+    in the middle of the way the motion goes on from rest, see `Easing`.
 
     Args:
         measured: pose of the grasping frame now.
@@ -79,6 +81,7 @@ class Execution:
         self.prediction = prediction
         self.correction: Correction = UNCORRECTED
         self.pace = Pace(period)
+        self._easing = Easing(period)
         self._ramp = Ramp(measured, self.nominal, period)
 
     @property
@@ -132,32 +135,37 @@ class Execution:
         """
         self.pace.ask(rate, None if until is None else until * self._path.end)
 
-    def advance(self, wanted: Correction) -> Pose:
+    def advance(self, wanted: Correction, leeway: float = 1.0) -> Pose:
         """Go on by one control period.
 
         Args:
             wanted: the correction that the operator asks for; ignored on the ramp, on the way back, and outside the
                 part that is corrected.
+            leeway: see `Watchdog.leeway`.
 
         Returns:
             The reference at the end of the period.
         """
         if self.finished:
             return self.reference
-        step = self.pace.step(self._at)
+        paced = self.pace.step(self._at)
+        step = paced * self._easing.share(leeway)
         if self.ramping:
             self._ramp.advance(min(1.0, abs(step)))
+            if not self.ramping and self._at > 0.0:
+                self._easing.rest()
         elif step > 0.0:
-            self._go_on(step, wanted)
+            self._go_on(step, wanted, paced * eased(leeway))
         elif step < 0.0:
             self._at = max(0.0, self._at + step)
             self.correction = self._passage.go_back(self._at)
         return self.reference
 
-    def _go_on(self, step: float, wanted: Correction) -> None:
+    def _go_on(self, step: float, wanted: Correction, following: float) -> None:
+        """By a step, in which the correction follows for another one [control periods]."""
         first, last = self.part
         asked = wanted if first <= self.progress <= last else UNCORRECTED
-        gain = -math.expm1(-step * self._period / self.look_ahead) if self.look_ahead > 0.0 else 1.0
+        gain = -math.expm1(-following * self._period / self.look_ahead) if self.look_ahead > 0.0 else 1.0
         self._at += step
         if self._path.is_over(self._at):
             self._at = float(self._path.end)
@@ -179,6 +187,10 @@ class Execution:
         """
         if not (at_once and _close(measured, self.reference)):
             self._ramp = Ramp(measured, self._corrected(), self._period)
+        if self._ramp.begun:
+            self._easing.rest()
+        else:
+            self._easing.begin()
 
     def _corrected(self) -> Pose:
         return self.correction.of(self.nominal)
@@ -200,6 +212,11 @@ class Ramp:
         angle = angle_between(start.orientation, goal.orientation)
         self._ticks = round(max(RAMP_MIN_S, distance / RAMP_SPEED, angle / RAMP_TURN_SPEED) / period)
         self._tick = 0.0
+
+    @property
+    def begun(self) -> bool:
+        """The start was left."""
+        return self._tick > 0.0
 
     @property
     def finished(self) -> bool:

@@ -21,6 +21,7 @@ REFERENCE_TURN_SPEED = 1.5  # [rad/s] that it turns at most: at twice as much th
 DISPLACEMENT_REACH = 0.3  # [m] of the operator's correction
 ROTATION_REACH = 1.0  # [rad] of the operator's correction
 STANDING_SPEED = 0.01  # [rad/s, torso m/s] of the fastest joint, below which the robot stands
+SLOWING_S = 0.05  # [s] before a silence becomes a hold, in which the motion comes to rest; five of the master's samples
 ROUNDING = 1e-9  # by which a limit may be exceeded: less than any joint or gripper shows
 FORCE_STOP = 300.0  # [N] of a touch, above which the arm stops; running into a wall gives half of it
 
@@ -69,6 +70,28 @@ class Watchdog:
         if not silence_s + way_s <= LONGEST_SILENCE_S:
             return f"the operator's keys or device are heard more than {LONGEST_SILENCE_S * 1e3:.0f} ms late"
         return "" if engaged else "no hand is at the operator's keys or device"
+
+    def leeway(self, absence_s: float | None, silence_s: float | None = 0.0, way_s: float = 0.0) -> float:
+        """How far the silence is from a hold: 1 where the motion may go at its pace, falling to 0 where it is to stand.
+
+        Args:
+            absence_s: time since the authority's newest renewal [s]; None without any.
+            silence_s: age of the master's newest state, where that counts [s]; None without any.
+            way_s: how long it took to come, as far as that is known [s].
+        """
+        if absence_s is None or silence_s is None:
+            return 0.0
+        return min(
+            _left(absence_s, self.presence_after_s),
+            _left(silence_s, self.hold_after_s),
+            _left(silence_s + way_s, LONGEST_SILENCE_S),
+        )
+
+
+def _left(silence_s: float, limit_s: float) -> float:
+    """Share of the slowing down that lies ahead; where next to no silence is tolerated half of that is left for it."""
+    limit_s = min(LONGEST_SILENCE_S, limit_s)
+    return min(1.0, max(0.0, (limit_s - silence_s) / min(SLOWING_S, 0.5 * limit_s)))
 
 
 @dataclass(frozen=True, eq=False)

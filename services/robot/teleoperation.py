@@ -111,15 +111,17 @@ class Teleoperation:
         """The hand moves."""
         return bool(wanted.offset.any() or wanted.turn.any())
 
-    def advance(self, wanted: Correction) -> Pose:
+    def advance(self, wanted: Correction, leeway: float = 1.0) -> Pose:
         """Go on by one control period.
 
         Args:
             wanted: by how much the hand moves the reference, see `Coupling.step`.
+            leeway: see `Watchdog.leeway`; a hand that is not heard moves nothing anyway.
 
         Returns:
             The reference at the end of the period.
         """
+        del leeway
         if not self.finished:
             self._ticks += 1
             self.reference = _leashed(self.reference, wanted.of(self.reference), self._measured())

@@ -25,6 +25,12 @@ def pose(value: Pose) -> messages.Pose:
     return messages.Pose(position=vector3(value.position), orientation=quaternion(value.orientation))
 
 
+def pose_of(message: messages.Pose) -> Pose:
+    """A pose from the wire, its quaternion normalised."""
+    turned = np.array(message.orientation)
+    return Pose(np.array(message.position), turned / np.linalg.norm(turned))
+
+
 def motion(value: Trajectory) -> messages.Motion:
     """A trajectory."""
     return motion_to_wire(value.positions, value.orientations, value.duration)

@@ -9,6 +9,7 @@ from scipy.spatial.transform import Rotation
 from lfd.motion.rotations import exp_map, multiply
 from lfd.motion.trajectory import Trajectory
 from services.robot.correction import UNCORRECTED, Correction
+from services.robot.easing import EASE_S
 from services.robot.execution import (
     RAMP_MIN_S,
     RAMP_SPEED,
@@ -210,10 +211,10 @@ def test_a_ramp_that_was_held_for_a_moment_goes_on_where_it_was():
     execution, ticks = Execution(start, motion, look_ahead(motion), PERIOD), 0
     while execution.ramping:
         execution.advance(UNCORRECTED)
-        if ticks % 3 == 0:
+        if ticks in (30, 70):
             execution.rejoin(execution.reference, at_once=True)
         ticks += 1
-    assert ticks == round(0.2 / RAMP_SPEED / PERIOD)
+    assert ticks == pytest.approx((0.2 / RAMP_SPEED + 2 * 0.5 * EASE_S) / PERIOD, abs=2)
 
 
 def test_a_long_hold_on_the_first_ramp_lets_it_begin_anew():
