@@ -6,8 +6,9 @@ day. A reader drops a message with one text too long as malformed, so the sender
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cache
+from operator import attrgetter
 from typing import Any, TypeVar
 
 import msgspec
@@ -32,20 +33,49 @@ def fit(value: S) -> S:
 def _of_struct(type_: type[msgspec.Struct]) -> Fit | None:
     info = inspect.type_info(type_)
     assert isinstance(info, inspect.StructType)  # for the type checker: a struct has no other
-    fits = {field.name: fit_ for field in info.fields if (fit_ := _of(field.type)) is not None}
-    if not fits:
+    texts = {
+        field.name: field.type.max_length
+        for field in info.fields
+        if isinstance(field.type, inspect.StrType) and field.type.max_length is not None
+    }
+    others = {
+        field.name: fit_ for field in info.fields if field.name not in texts and (fit_ := _of(field.type)) is not None
+    }
+    if not texts and not others:
         return None
+    texts_fit = _all_shorter(texts)
+    fits_of_texts = {name: _of_text(longest) for name, longest in texts.items()}
 
     def fitted(value: Any) -> Any:
-        changed = {}
-        for name, fit_ in fits.items():
-            before = getattr(value, name)
-            after = fit_(before)
-            if after is not before:
-                changed[name] = after
+        changed = {} if texts_fit(value) else _changed(value, fits_of_texts)
+        if others:
+            changed |= _changed(value, others)
         return msgspec.structs.replace(value, **changed) if changed else value
 
     return fitted
+
+
+def _all_shorter(texts: Mapping[str, int]) -> Callable[[Any], bool]:
+    """Whether none of a struct's texts is longer than the shortest bound of them: what of most messages is so.
+
+    It is asked before every message that is sent, all texts at once: one by one takes several times as long.
+    """
+    if not texts:
+        return lambda value: True
+    shortest, first = min(texts.values()), next(iter(texts))
+    read = attrgetter(first, *texts)  # of one name alone it would give no tuple
+    return lambda value: len(max(read(value), key=len)) <= shortest
+
+
+def _changed(value: Any, fits: Mapping[str, Fit]) -> dict[str, Any]:
+    """The fields of a struct that were too long, as they fit."""
+    changed = {}
+    for name, fit_ in fits.items():
+        before = getattr(value, name)
+        after = fit_(before)
+        if after is not before:
+            changed[name] = after
+    return changed
 
 
 def _of(info: inspect.Type) -> Fit | None:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import threading
-from typing import Any, TypeVar
+from collections.abc import Iterator
+from typing import Any, NamedTuple, TypeVar
 
 import msgspec
 
@@ -14,6 +16,13 @@ from protocol.topics import Topic
 from services.bus.tally import Drops
 
 M = TypeVar("M", bound=Message)
+
+
+class _Sender(NamedTuple):
+    """Of one topic: what names its sender in every message, and the numbers of these."""
+
+    names: dict[str, Any]
+    numbers: Iterator[int]
 
 
 class Outbox:
@@ -30,7 +39,7 @@ class Outbox:
         self._robot = robot
         self._process = process
         self._lock = threading.Lock()
-        self._sequences: dict[str, int] = {}
+        self._senders: dict[str, _Sender] = {}
         self._unsent: dict[str, Drops] = {}
         self._faults: dict[str, str] = {}
 
@@ -50,21 +59,17 @@ class Outbox:
         Raises:
             Misplaced: this process does not publish the topic.
         """
+        sender = self._senders.get(topic.name)
+        if sender is None:  # of two threads one begins to count
+            sender = self._senders.setdefault(topic.name, self._sender(topic))
+        return msgspec.structs.replace(message, **sender.names, sequence=next(sender.numbers), stamp_ns=now_ns)
+
+    def _sender(self, topic: Topic[Any]) -> _Sender:
         process = self._process or (topic.publisher if topic.publisher != "any" else "anybody")
         if not topic.published_by(process):
             raise Misplaced(topic.name, f"comes from {process!r}: only the {topic.publisher} publishes it")
-        with self._lock:
-            sequence = self._sequences.get(topic.name, 0) + 1
-            self._sequences[topic.name] = sequence
-        changes: dict[str, Any] = {
-            "robot": self._robot,
-            "topic": topic.name,
-            "process": process,
-            "publisher": self.identity,
-            "sequence": sequence,
-            "stamp_ns": now_ns,
-        }
-        return msgspec.structs.replace(message, **changes)
+        names = {"robot": self._robot, "topic": topic.name, "process": process, "publisher": self.identity}
+        return _Sender(names, itertools.count(1))
 
     def figures(self) -> tuple[TopicFigures, ...]:
         """Of the topics on which messages could not be sent: how many so far, by cause."""

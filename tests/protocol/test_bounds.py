@@ -81,3 +81,10 @@ def test_what_is_cut_says_so_and_what_fits_is_left_alone():
     read = decode(topics.EMERGENCY_STOP, encode(topics.EMERGENCY_STOP, stop))
     assert read.reason == "x" * 4095 + "…"
     assert (read.by, read.pressed) == ("ann", True)
+
+
+def test_a_text_between_two_bounds_is_whole_and_only_what_is_too_long_is_cut():
+    """All texts of a message are looked at together, each is cut by its own bound."""
+    stop = messages.EmergencyStop(pressed=True, by="b" * 65, reason="x" * 200)
+    read = decode(topics.EMERGENCY_STOP, encode(topics.EMERGENCY_STOP, stop))
+    assert (read.by, read.reason) == ("b" * 63 + "…", "x" * 200)

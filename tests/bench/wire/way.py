@@ -14,7 +14,7 @@ from protocol import topics
 from protocol.codec import encode
 from services.bus.identity import new_publisher
 from services.bus.outbox import Outbox
-from tests.bench.wire.carriers.ours import MOVED, ROBOT
+from tests.bench.wire.command import MASTER, MOVED, ROBOT
 from tests.bench.wire.peers import python_of
 from tests.bench.wire.program import now_ns
 from tests.ports import free_port
@@ -50,6 +50,7 @@ class Carrier:
 CARRIERS = (
     Carrier("raw_zenoh", "raw Zenoh", routed=True, secure=True),
     Carrier("ours", "the bus", routed=True, secure=True),
+    Carrier("bare_zenoh", "raw Zenoh, bare bytes", routed=True, secure=True),
     Carrier("udp", "UDP sockets"),
     Carrier("tcp", "TCP sockets", secure=True),
     Carrier("pyzmq", "pyzmq"),
@@ -81,7 +82,7 @@ class Burst:
 
 def payload():
     """An encoded state of a master, as it is sent."""
-    outbox = Outbox(new_publisher(), ROBOT, "master-anna")
+    outbox = Outbox(new_publisher(), ROBOT, MASTER)
     return encode(topics.MASTER_STATE, outbox.stamp(topics.MASTER_STATE, MOVED, now_ns()))
 
 

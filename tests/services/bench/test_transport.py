@@ -9,7 +9,7 @@ from services.certificates.authority import make_authority
 from tests.bench import transport
 from tests.bench.wire.way import CARRIERS, Burst, Way, payload
 
-RAW, OURS, _, TCP, *_ = CARRIERS
+RAW, OURS, BARE, _, TCP, *_ = CARRIERS
 
 
 class Named:
@@ -47,7 +47,7 @@ def test_what_all_carry_is_a_state_of_a_master():
 
 @pytest.mark.zenoh
 @pytest.mark.parametrize("secure", [False, True], ids=["clear", "tls"])
-@pytest.mark.parametrize("carrier", [RAW, OURS, TCP], ids=lambda carrier: carrier.name)
+@pytest.mark.parametrize("carrier", [RAW, OURS, BARE, TCP], ids=lambda carrier: carrier.name)
 def test_each_way_carries_commands_and_pictures(carrier, secure, tmp_path):
     certificates = None
     if secure:

@@ -1,63 +1,44 @@
-"""Zenoh by itself: a router, and clients that put bytes on the keys of ours with its manners. No codec, no rules."""
+"""Zenoh by itself, with the least that makes messages of bytes: each is stamped, encoded and decoded, and that is all.
+
+A program that uses Zenoh without the bus has to do as much: what it can use is a message, not bytes. It judges nothing:
+no rules, no numbers, no freshness, no names that are compared.
+"""
 
 import contextlib
-import json
+import itertools
 
-import zenoh
+import msgspec
 
-KEYS = {"command": "retouch/@v1/kitchen/cmd/master_state/master-anna", "picture": "retouch/@v1/kitchen/cam/head/camera"}
-PRIORITIES = {"command": zenoh.Priority.INTERACTIVE_HIGH, "picture": zenoh.Priority.DATA_LOW}
+from protocol import topics
+from tests.bench.wire.carriers import bare_zenoh
+from tests.bench.wire.command import MASTER, MOVED, ROBOT
+from tests.bench.wire.program import now_ns
 
+NAMED = msgspec.structs.replace(MOVED, robot=ROBOT, topic=topics.MASTER_STATE.name, process=MASTER, publisher=2**62)
 
-@contextlib.contextmanager
-def routing(settings):
-    """Passes on what comes."""
-    with _opened(settings, "router", "router.kitchen"):
-        yield
+routing = bare_zenoh.routing
 
 
 @contextlib.contextmanager
 def sending(settings, kind):
-    """Sends messages of a kind."""
-    with _opened(settings, "client", "operator.anna" if kind == "command" else "camera.kitchen") as session:
-        publisher = session.declare_publisher(
-            KEYS[kind],
-            priority=PRIORITIES[kind],
-            congestion_control=zenoh.CongestionControl.DROP,
-            express=kind == "command",
-        )
-        yield publisher.put
+    """Sends messages of a kind; a command is encoded when it is sent."""
+    encode, numbers = msgspec.msgpack.Encoder().encode, itertools.count(1)
+    with bare_zenoh.sending(settings, kind) as put:
+        if kind == "command":
+            yield lambda _: put(encode(msgspec.structs.replace(NAMED, sequence=next(numbers), stamp_ns=now_ns())))
+        else:
+            yield put
 
 
 @contextlib.contextmanager
 def receiving(settings, notes):
-    """Hands what comes to the notes."""
-    with _opened(settings, "client", "operator.bob") as session:
-        session.declare_subscriber(KEYS["command"], lambda sample: notes.hear(sample.payload.to_bytes()))
-        session.declare_subscriber(KEYS["picture"], lambda sample: notes.see(sample.payload.to_bytes()))
+    """Hands what comes to the notes, commands decoded."""
+    decode = msgspec.msgpack.Decoder(topics.MASTER_STATE.type).decode
+
+    def hear(sample):
+        command = decode(sample.payload.to_bytes())
+        came_ns = now_ns()
+        notes.note(command.stamp_ns, came_ns)
+
+    with bare_zenoh.subscribed(settings, hear, notes):
         yield
-
-
-def _opened(settings, mode, name):
-    certificates, port = settings["certificates"], settings["ports"][0]
-    endpoint = f"{'tcp' if certificates is None else 'tls'}/127.0.0.1:{port}"
-    made = {
-        "mode": mode,
-        "scouting": {"multicast": {"enabled": False}},
-        ("listen" if mode == "router" else "connect"): {"endpoints": [endpoint]},
-    }
-    if certificates is not None:
-        file = f"{certificates}/{name}.pem"
-        made["transport"] = {
-            "link": {
-                "tls": {
-                    "root_ca_certificate": f"{certificates}/ca.pem",
-                    "enable_mtls": True,
-                    "listen_private_key": file,
-                    "listen_certificate": file,
-                    "connect_private_key": file,
-                    "connect_certificate": file,
-                }
-            }
-        }
-    return zenoh.open(zenoh.Config.from_json5(json.dumps(made)))
