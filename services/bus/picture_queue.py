@@ -22,21 +22,20 @@ REMEMBERED_NS = 60_000_000_000
 SPAN_NS = 1_000_000_000
 """Of each of these the fastest one; and what came longer ago says nothing of the queue now."""
 
+NEWEST = 3
+"""Pictures of a camera that say how late they come: few enough to tell of what is sent now, not of what was before."""
+
 
 class Lateness:
-    """Of one camera's pictures, as they come."""
+    """Of one process' pictures, as they come."""
 
     def __init__(self) -> None:
-        self._publisher = 0
         self._fastest: deque[tuple[int, int]] = deque()
 
     def late_ns(self, newest: Received[CameraImage]) -> int:
         """By how much a picture came later than the fastest one [ns]."""
-        message, came_ns = newest.message, newest.received_ns
-        if message.publisher != self._publisher:
-            self._publisher = message.publisher
-            self._fastest.clear()
-        transit_ns, span = came_ns - message.stamp_ns, came_ns // SPAN_NS
+        came_ns = newest.received_ns
+        transit_ns, span = came_ns - newest.message.stamp_ns, came_ns // SPAN_NS
         if self._fastest and self._fastest[-1][0] == span:
             _, fastest = self._fastest.pop()
             self._fastest.append((span, min(fastest, transit_ns)))
@@ -57,10 +56,11 @@ class QueueReport:
 
     def __init__(self, bus: Bus, *pictures: PictureStream) -> None:
         self._bus = bus
-        self._pictures = {one: Lateness() for one in pictures}
+        self._pictures = pictures
+        self._lateness: dict[int, Lateness] = {}
         self._schedule = Schedule()
         self._seen: dict[PictureStream, Received[CameraImage]] = {}
-        self._late: deque[tuple[int, int]] = deque()
+        self._late: dict[PictureStream, deque[tuple[int, int]]] = {one: deque(maxlen=NEWEST) for one in pictures}
         self._captured_ns: int | None = None
         self._stale = 0
 
@@ -72,34 +72,46 @@ class QueueReport:
             jpeg_only: nothing else can be shown here.
             waits: what came is no use, and a key picture is needed; what was lost on the way is noticed here.
         """
-        for pictures, lateness in self._pictures.items():
+        for pictures in self._pictures:
             shown, newest = pictures.latest(), pictures.newest
             if newest is None or newest is self._seen.get(pictures):
                 continue
             self._seen[pictures] = newest
-            late_ns = lateness.late_ns(newest)
-            self._late.append((newest.received_ns, late_ns))
+            late_ns = self._late_ns(newest)
+            self._late[pictures].append((newest.received_ns, late_ns))
             if newest is not shown:  # what cannot be shown makes nothing that is seen any younger
                 continue
             drawn_ns = newest.message.stamp_ns - newest.message.captured_ns if newest.message.captured_ns else 0
             captured_ns = newest.received_ns - late_ns - max(0, drawn_ns)
             self._captured_ns = max(self._captured_ns or captured_ns, captured_ns)
-        while self._late and now_ns - self._late[0][0] > SPAN_NS:
-            self._late.popleft()
         if self._schedule.due(PICTURE_QUEUE, now_ns):
-            self._tell(jpeg_only=jpeg_only, waits=waits or any(pictures.waits for pictures in self._pictures))
+            self._tell(now_ns, jpeg_only=jpeg_only, waits=waits or any(pictures.waits for pictures in self._pictures))
 
     def age_s(self, now_ns: int) -> float | None:
         """Of what the youngest picture shows, as far as it can be known [s]; None before the first picture."""
         return (now_ns - self._captured_ns) / 1e9 if self._captured_ns is not None else None
 
-    def _tell(self, *, jpeg_only: bool, waits: bool) -> None:
-        """The usual lateness; a picture that was thrown away as stale was as late as that."""
+    def _tell(self, now_ns: int, *, jpeg_only: bool, waits: bool) -> None:
+        """How late the pictures of the camera come that come latest; one that was thrown away as stale was that late.
+
+        Whoever begins to look says so before the first picture.
+        """
         stale = sum(pictures.stale for pictures in self._pictures)
-        late_ns = [late for _, late in self._late]
+        late_ns = [late for pictures in self._pictures if (late := self._usual_ns(pictures, now_ns)) is not None]
         if stale > self._stale:
             late_ns = [limit for pictures in self._pictures if (limit := pictures.limit_ns) is not None]
         self._stale = stale
-        if late_ns or waits or jpeg_only:
-            late_s = median(late_ns or (0,)) / 1e9
+        if late_ns or waits or jpeg_only or not self._seen:
+            late_s = max(late_ns, default=0.0) / 1e9
             self._bus.publish(PICTURE_QUEUE, PictureQueue(late=late_s, waits=waits, jpeg_only=jpeg_only))
+
+    def _late_ns(self, newest: Received[CameraImage]) -> int:
+        """Than the fastest of all cameras of that process: pictures that always stand behind another one's are late."""
+        publishers = {seen.message.publisher for seen in self._seen.values()}
+        self._lateness = {one: self._lateness.get(one) or Lateness() for one in publishers}
+        return self._lateness[newest.message.publisher].late_ns(newest)
+
+    def _usual_ns(self, pictures: PictureStream, now_ns: int) -> float | None:
+        """How late one camera's newest pictures came, as a rule [ns]; None where there was none for a while."""
+        late_ns = [late for came_ns, late in self._late[pictures] if now_ns - came_ns <= SPAN_NS]
+        return median(late_ns) if late_ns else None

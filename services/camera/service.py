@@ -46,7 +46,7 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> Service:
 
 
 class CameraService:
-    """One picture a camera and step, of the newest state.
+    """One picture a camera and period, of the newest state.
 
     Args:
         bus: to the robot's other processes.
@@ -67,7 +67,7 @@ class CameraService:
         self._cameras = self._open(configuration.robot.scene)
         self._refused = ("", "")
         self._schedule = Schedule()
-        self._drawn_ns = 0
+        self._drawn_ns = dict.fromkeys(self._coders, 0)
         self._durations_ns: deque[int] = deque(maxlen=256)
         self._ages_ns: deque[int] = deque(maxlen=256)
         self._codings_ns: deque[int] = deque(maxlen=512)
@@ -78,30 +78,31 @@ class CameraService:
 
     @property
     def rate_hz(self) -> float:
-        """Of the pictures."""
-        return self._section.rate_hz
+        """Of the steps: in each period of the pictures as many as there are cameras, see `Pacing.turns`."""
+        return self._section.rate_hz * len(_TOPICS)
 
     def step(self, now_ns: int) -> None:
         """Draw the newest state, unless it is drawn already or too old to show, or pictures queue on their way."""
-        if not self._pacing.due(now_ns):
+        turns = self._pacing.turns(now_ns, _TOPICS)
+        if not turns:
             return
         self._wish = self._wishes.at(now_ns)
         arrangement = self._scene.latest()
         world = self._world.fresh(now_ns)
-        if arrangement is None or world is None or world.stamp_ns == self._drawn_ns:
+        if arrangement is None or world is None or world.stamp_ns == self._drawn_ns[turns[0][0]]:
             return
-        self._drawn_ns = world.stamp_ns
         if not self._arrange(arrangement.message):
             return
         try:
             qpos = from_wire(world.qpos)
-            for camera, topic in _TOPICS:
+            for camera, topic in turns:
+                self._drawn_ns[camera] = world.stamp_ns
                 self._show(camera, topic, qpos, world, now_ns)
         except (NotFinite, ValueError):  # a state of another model, or none at all
             self._unusable += 1
             return
         ended_ns = self._clock.now_ns()
-        self._durations_ns.append(ended_ns - now_ns)
+        self._durations_ns.append((ended_ns - now_ns) * len(_TOPICS) // len(turns))
         self._ages_ns.append(ended_ns - world.stamp_ns)
 
     def figures(self) -> tuple[Figure, ...]:
@@ -109,7 +110,7 @@ class CameraService:
         now_ns = self._clock.now_ns()
         elapsed_s = max(now_ns - self._counted_from_ns, 1) / 1e9
         result = (
-            Figure("picture_rate", len(self._durations_ns) / elapsed_s, "Hz"),
+            Figure("picture_rate", len(self._sizes) / len(_TOPICS) / elapsed_s, "Hz"),
             Figure("draw_p50", median(self._durations_ns or (0,)) / 1e9, "s"),
             Figure("encode_p50", median(self._codings_ns or (0,)) / 1e9, "s"),
             Figure("picture_size_p50", float(median(self._sizes or (0,))), "B"),

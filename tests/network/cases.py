@@ -5,6 +5,7 @@ import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from protocol.messages import Coding
 from tests.network.link import Link
 from tests.network.record import Figures, Record
 from tests.network.sites import Sites
@@ -24,7 +25,7 @@ class Case:
     Attributes:
         name: for people.
         shape: of the link, see `forwarder.Shape`; it is as good as none before.
-        pictures: two cameras share it.
+        pictures: how two cameras code what they send over it; None without any.
         cut_s: how long it is cut in the middle of a refinement [s]; 0 where it is not.
         router: the desk has a router of its own, so that nothing crosses the link twice.
         asleep_s: how long the desk sleeps there [s]; 0 where it does not.
@@ -32,7 +33,7 @@ class Case:
 
     name: str
     shape: dict = field(default_factory=dict)
-    pictures: bool = False
+    pictures: Coding | None = None
     router: bool = False
     cut_s: float = 0.0
     asleep_s: float = 0.0
@@ -44,13 +45,16 @@ class Case:
 
 LAN = Case("LAN")
 NEAR = {"delay_s": 0.01}
+THIN = {"delay_s": 0.05, "jitter_s": 0.01, "loss": 0.01, "rate": 3e6}
 CASES = (
     LAN,
     Case("50 +- 10 ms, 1 % lost", {"delay_s": 0.05, "jitter_s": 0.01, "loss": 0.01}),
     Case("150 ms there and back, 3 % lost", {"delay_s": 0.075, "loss": 0.03}),
     Case("reordered and duplicated", {"delay_s": 0.03, "reordered": 0.05, "duplicated": 0.02}),
-    Case("15 Mbit/s, two cameras", {"delay_s": 0.02, "jitter_s": 0.002, "rate": 15e6}, pictures=True),
-    Case("3 Mbit/s, two cameras", {"delay_s": 0.02, "jitter_s": 0.002, "rate": 3e6}, pictures=True, router=True),
+    Case("15 Mbit/s, two cameras", {"delay_s": 0.02, "jitter_s": 0.002, "rate": 15e6}, pictures=Coding.JPEG),
+    Case("3 Mbit/s, two cameras", {"delay_s": 0.02, "jitter_s": 0.002, "rate": 3e6}, pictures=Coding.JPEG, router=True),
+    Case("3 Mbit/s, 50 ms, 1 % lost, JPEG", THIN, pictures=Coding.JPEG, router=True),
+    Case("3 Mbit/s, 50 ms, 1 % lost, H.264", THIN, pictures=Coding.H264, router=True),
     Case("cut for 0.7 s", NEAR, cut_s=0.7),
     Case("cut for 2 s", NEAR, cut_s=2.0),
     Case("cut for 15 s", NEAR, cut_s=15.0),

@@ -31,7 +31,7 @@ class Figures:
         oldest_ms: age of a sample when it shaped a command, at most.
         jerk: of the refinements' paths, root of the mean square [m/s^3].
         unasked_mm: how far the robot moved in a hold, at most.
-        pictures_hz: of both cameras together at the desk.
+        pictures_hz: of both cameras together at the desk, those that could be shown.
         pictures_ms: median and 99th percentile of their age there.
     """
 
@@ -63,7 +63,7 @@ class Record:
         self._came = {sample.sequence: at for at, sample in reversed(heard)}
         self._up = np.array([at - sample.stamp_ns + ahead for at, sample in heard]) / 1e6
         self._down = np.array([at - ahead - state.stamp_ns for at, state in _of(far, topics.WORLD_STATE)]) / 1e6
-        shown = [(at - ahead, at - ahead - image.captured_ns) for topic in PICTURES for at, image in _of(far, topic)]
+        shown = [(at - ahead, at - ahead - image.captured_ns) for topic in PICTURES for at, image in _shown(far, topic)]
         self._shown = np.array(shown).reshape(-1, 2)
 
     def figures(self):
@@ -131,6 +131,19 @@ class Record:
 def _of(heard, topic):
     """One topic's messages, and when each came [ns]."""
     return ((at, decode(topic, raw)) for at, name, raw in heard if name == topic.name)
+
+
+def _shown(heard, topic):
+    """The pictures of a camera that need none that is missing, and when each came [ns]."""
+    before = None
+    for at, image in _of(heard, topic):
+        follows = before is not None and (image.sequence, image.after_key) == (
+            before.sequence + 1,
+            before.after_key + 1,
+        )
+        if image.after_key == 0 or follows:
+            before = image
+            yield at, image
 
 
 def _squared_jerk(path):

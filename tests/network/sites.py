@@ -9,6 +9,7 @@ import msgpack
 import psutil
 
 from protocol import topics
+from protocol.messages import Coding
 from tests.network.ear import NEAR, Ear
 from tests.network.link import Link
 from tests.ports import free_port
@@ -26,7 +27,7 @@ class Sites:
     Args:
         link: between them.
         folder: where they run.
-        pictures: two cameras send.
+        pictures: how two cameras code what they send; None without any.
         router: the desk has a router of its own, which joins the robot's.
 
     Attributes:
@@ -34,7 +35,7 @@ class Sites:
         desk: the operator's command, which teaches until the loop has closed.
     """
 
-    def __init__(self, link: Link, folder: Path, *, pictures: bool, router: bool = False) -> None:
+    def __init__(self, link: Link, folder: Path, *, pictures: Coding | None, router: bool = False) -> None:
         self._link = link
         self._folder = folder
         self._pictures = pictures
@@ -53,8 +54,8 @@ class Sites:
             robot = stack.enter_context(Command("up", *arguments, folder=near))
             robot.until(lambda: reachable(here), START_S, "the router listens")
             self.ear = stack.enter_context(Ear(here, NEAR))
-            if self._pictures:
-                stack.enter_context(running([sys.executable, _HERE / "pictures.py", here]))
+            if self._pictures is not None:
+                stack.enter_context(running([sys.executable, _HERE / "pictures.py", here, self._pictures.value]))
             if self._router:
                 endpoint = stack.enter_context(self._joined(endpoint, far))
             program = [*self._link.there, sys.executable, _HERE / "ear.py", endpoint, self._far_file]

@@ -66,6 +66,17 @@ def test_before_the_first_picture_nothing_is_known(looking):
     assert looking.report.age_s(looking.clock.now_ns()) is None
 
 
+def test_who_begins_to_look_says_so_before_the_first_picture(looking):
+    looking.report.step(looking.clock.now_ns())
+    assert looking.told_s == 0.0
+
+
+def test_what_comes_late_now_is_told_whatever_came_before(looking):
+    looking.look(2.0, 0.05)
+    looking.look(0.4, 0.1)
+    assert looking.told_s == pytest.approx(0.05)
+
+
 def test_what_every_picture_takes_is_no_queue(looking):
     looking.look(3.0, 0.15)
     assert looking.told_s == 0.0

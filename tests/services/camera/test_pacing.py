@@ -41,6 +41,15 @@ class Paced:
         return sent
 
 
+def turns(paced, steps):
+    """Whose pictures are sent, step by step."""
+    taken = []
+    for _ in range(steps):
+        paced.clock.advance(0.5 / RATE_HZ)
+        taken.append("".join(paced.pacing.turns(paced.clock.now_ns(), "hw")))
+    return taken
+
+
 @pytest.fixture
 def paced():
     """With nobody who looks."""
@@ -77,12 +86,20 @@ def test_a_queue_makes_it_send_less_and_worse_pictures_but_never_none(paced):
     assert sent > 10.0
 
 
-def test_between_long_and_short_it_stays_as_it_is(paced):
-    paced.run(1.0, 0.0)
-    paced.run(2.0, LONG_S + 0.01)
-    before = paced.pacing.share
+def test_on_one_machine_all_cameras_send_at_once(paced):
+    assert turns(paced, 6) == ["hw", "", "hw", "", "hw", ""]
+
+
+def test_on_a_link_each_camera_has_its_turn(paced):
+    paced.run(6.0, 0.0)
+    paced.tell(0.0)
+    assert "".join(turns(paced, 9)).lstrip("w").startswith("hwhwhwh")
+
+
+def test_between_long_and_short_it_sends_a_little_less(paced):
+    paced.run(6.0, 0.0)
     paced.run(2.0, (LONG_S + SHORT_S) / 2.0)
-    assert paced.pacing.share == before
+    assert 0.7 < paced.pacing.share < 1.0
 
 
 def test_the_worst_of_those_who_look_counts_until_it_has_gone(paced):
