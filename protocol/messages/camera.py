@@ -30,7 +30,7 @@ class PictureQueue(Message, frozen=True, kw_only=True):
     """How long pictures queue on their way to one who looks at them, and what s/he needs of the cameras.
 
     Attributes:
-        late: than the fastest samples of the same machine the newest pictures came, as a rule [s].
+        late: than the fastest samples of the same machine the newest pictures came, at least [s].
         waits: a picture is missing that others need: a key picture would help.
         jpeg_only: pictures of another coding cannot be shown.
     """

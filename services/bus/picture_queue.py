@@ -1,13 +1,14 @@
 """How late pictures come, and what is missing: who looks at them tells the cameras, which send what comes through.
 
 A queue on the way fills little by little and may stand for long, so that a picture is compared with the fastest of a
-whole minute. The clocks need not agree; where one jumps, that is learnt within the minute.
+whole minute. The clocks need not agree; where one jumps, that is learnt within the minute. What stands makes every
+picture late: one that waited for a packet that was lost has others behind it that did not wait, so that of the newest
+the least lateness counts (K. Nichols and V. Jacobson, Controlling Queue Delay, ACM Queue 2012).
 """
 
 from __future__ import annotations
 
 from collections import deque
-from statistics import median
 
 from protocol.messages import CameraImage, PictureQueue
 from protocol.topics import PICTURE_QUEUE
@@ -22,7 +23,7 @@ REMEMBERED_NS = 60_000_000_000
 SPAN_NS = 1_000_000_000
 """Of each of these the fastest one; and what came longer ago says nothing of the queue now."""
 
-NEWEST = 3
+NEWEST = 2
 """Pictures of a camera that say how late they come: few enough to tell of what is sent now, not of what was before."""
 
 
@@ -97,7 +98,7 @@ class QueueReport:
         Whoever begins to look says so before the first picture.
         """
         stale = sum(pictures.stale for pictures in self._pictures)
-        late_ns = [late for pictures in self._pictures if (late := self._usual_ns(pictures, now_ns)) is not None]
+        late_ns = [late for pictures in self._pictures if (late := self._standing_ns(pictures, now_ns)) is not None]
         if stale > self._stale:
             late_ns = [limit for pictures in self._pictures if (limit := pictures.limit_ns) is not None]
         self._stale = stale
@@ -111,7 +112,6 @@ class QueueReport:
         self._lateness = {one: self._lateness.get(one) or Lateness() for one in publishers}
         return self._lateness[newest.message.publisher].late_ns(newest)
 
-    def _usual_ns(self, pictures: PictureStream, now_ns: int) -> float | None:
-        """How late one camera's newest pictures came, as a rule [ns]; None where there was none for a while."""
-        late_ns = [late for came_ns, late in self._late[pictures] if now_ns - came_ns <= SPAN_NS]
-        return median(late_ns) if late_ns else None
+    def _standing_ns(self, pictures: PictureStream, now_ns: int) -> int | None:
+        """How late one camera's newest pictures came at least [ns]; None where there was none for a while."""
+        return min((late for came_ns, late in self._late[pictures] if now_ns - came_ns <= SPAN_NS), default=None)

@@ -115,6 +115,8 @@ class Pacing:
         elif late_s > LONG_S:
             self.share = self._until = max(LEAST, LESS * self.share)
         elif late_s < SHORT_S:
+            if late_s > 0.5 * SHORT_S:
+                self._until = min(self._until, self.share)
             self.share = min(1.0, max(MORE * self.share, min(TWICE * self.share, self.share + MOST, self._until)))
         else:
-            self.share = self._until = max(LEAST, self.share / MORE)
+            self.share = self._until = max(LEAST, self.share / MORE**2)

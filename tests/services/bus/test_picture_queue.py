@@ -77,6 +77,13 @@ def test_what_comes_late_now_is_told_whatever_came_before(looking):
     assert looking.told_s == pytest.approx(0.05)
 
 
+def test_what_waits_for_a_packet_that_was_lost_is_no_queue(looking):
+    looking.look(2.0 + 3.0 * PERIOD_S, 0.05)
+    for transit_s in (0.25, 0.183, 0.117, 0.05):  # one waits, and those behind it with it
+        looking.look(PERIOD_S, transit_s)
+    assert looking.told_s == 0.0
+
+
 def test_what_every_picture_takes_is_no_queue(looking):
     looking.look(3.0, 0.15)
     assert looking.told_s == 0.0
