@@ -10,7 +10,6 @@ from protocol.messages import Mode, Phase
 from tests.network.link import AHEAD_S
 
 PICTURES = (topics.HEAD_IMAGE, topics.WRIST_IMAGE)
-MOVING = (Phase.RAMP, Phase.EXECUTE)
 SETTLED_S = 0.3
 """A robot that began to hold stands after so long."""
 
@@ -59,8 +58,8 @@ class Record:
         ahead = AHEAD_S * 1_000_000_000
         self.states = [state for _, state in _of(near, topics.ROBOT_STATE)]
         heard = list(_of(near, topics.MASTER_STATE))
-        self._sent = {sample.sequence: sample.stamp_ns - ahead for _, sample in heard}
-        self._came = {sample.sequence: at for at, sample in reversed(heard)}
+        self._sent = _Samples((sample, sample.stamp_ns - ahead) for _, sample in heard)
+        self._came = _Samples((sample, at) for at, sample in heard)
         self._up = np.array([at - sample.stamp_ns + ahead for at, sample in heard]) / 1e6
         self._down = np.array([at - ahead - state.stamp_ns for at, state in _of(far, topics.WORLD_STATE)]) / 1e6
         shown = [(at - ahead, at - ahead - image.captured_ns) for topic in PICTURES for at, image in _shown(far, topic)]
@@ -94,7 +93,7 @@ class Record:
     def _applied_ages(self, refining):
         """Of the sample behind each command of a refinement [ms]."""
         for state in refining:
-            sent = self._sent.get(state.applied_sequence)
+            sent = self._sent.newest(state.applied_sequence, state.stamp_ns)
             if state.phase is Phase.EXECUTE and sent is not None:
                 yield (state.stamp_ns - sent) / 1e6
 
@@ -102,20 +101,20 @@ class Record:
         """From the coming of the last sample that took effect to each hold of a refinement [ms]."""
         for before, after in zip(self.states, self.states[1:], strict=False):
             begins = before.phase is Phase.EXECUTE and after.phase is Phase.HOLD
-            came = self._came.get(before.applied_sequence)
+            came = self._came.newest(before.applied_sequence, before.stamp_ns)
             if begins and after.mode is Mode.REFINE and came is not None:
                 yield (after.stamp_ns - came) / 1e6
 
     def _drifts(self):
         """How far it moved in each hold, once it had settled [m]."""
-        began_ns = None
+        began_ns, episode = None, 0
         for state in self.states:
-            if state.phase in MOVING:
+            if state.phase is not Phase.HOLD:
                 began_ns = None
                 continue
-            if began_ns is None:
-                began_ns, start = state.stamp_ns, None
-            if state.phase is Phase.HOLD and state.stamp_ns - began_ns > SETTLED_S * 1e9:
+            if began_ns is None or state.episode != episode:
+                began_ns, start, episode = state.stamp_ns, None, state.episode
+            if state.stamp_ns - began_ns > SETTLED_S * 1e9:
                 start = state.measured.position if start is None else start
                 yield float(np.linalg.norm(np.subtract(state.measured.position, start)))
 
@@ -126,6 +125,23 @@ class Record:
             path = [state for state in refining if state.episode == episode]
             squares.extend(_squared_jerk(np.array([state.reference.position for state in path])))
         return float(np.sqrt(np.mean(squares))) if squares else np.nan
+
+
+class _Samples:
+    """When something happened to each of a hand's samples [ns]; another process counts them from the first again.
+
+    Args:
+        known: samples, and when it happened; what comes twice happened when it came first.
+    """
+
+    def __init__(self, known):
+        self._known = {}
+        for sample, at_ns in known:
+            self._known.setdefault(sample.sequence, {}).setdefault(sample.publisher, at_ns)
+
+    def newest(self, sequence, now_ns):
+        """Of the newest sample of the number, as it was then; None where there was none."""
+        return max((at for at in self._known.get(sequence, {}).values() if at <= now_ns), default=None)
 
 
 def _of(heard, topic):
