@@ -33,11 +33,11 @@ PLACED = """() => Object.fromEntries([...document.querySelectorAll(".action:enab
 
 
 @pytest.fixture
-def say(tab, station):
-    """A function that changes what the workflow says, until the page shows it."""
+def say(station):
+    """A function that changes what the workflow says, until a tab shows it."""
     _, feed = station
 
-    def change(text, **teaching):
+    def change(tab, text, **teaching):
         view = feed.view
         feed.view = replace(view, teaching=msgspec.structs.replace(view.teaching, text=text, **teaching))
         tab.wait(f".light-text:text-is('{text}')")
@@ -75,10 +75,10 @@ ELSEWHERE = {
 
 @pytest.mark.parametrize("change", ELSEWHERE.values(), ids=ELSEWHERE)
 def test_a_button_that_is_moved_while_it_is_pressed_is_pressed_once(tab, say, pressed, change):
-    say("Which?", phase="deciding", actions=IN_HAND, recommended="refine")
+    say(tab, "Which?", phase="deciding", actions=IN_HAND, recommended="refine")
     at = middle(tab, "execute")
     point(tab, "execute")
-    say("That one.", **change)
+    say(tab, "That one.", **change)
     assert under_the_pointer(tab, at) != "execute"
     tab.page.mouse.up()
     assert pressed() == ["execute"]
@@ -88,9 +88,9 @@ def test_a_button_that_is_moved_while_it_is_pressed_is_pressed_once(tab, say, pr
 
 
 def test_a_button_that_may_not_be_pressed_any_more_is_not_and_nor_is_what_came_in_its_place(tab, say, pressed):
-    say("Watch.", phase="executing", actions=("finish",))
+    say(tab, "Watch.", phase="executing", actions=("finish",))
     point(tab, "finish")
-    say("Which?", phase="deciding", actions=("execute", "teach"), recommended="execute")
+    say(tab, "Which?", phase="deciding", actions=("execute", "teach"), recommended="execute")
     tab.page.mouse.up()
     point(tab, "teach")
     tab.page.mouse.up()
@@ -98,7 +98,7 @@ def test_a_button_that_may_not_be_pressed_any_more_is_not_and_nor_is_what_came_i
 
 
 def test_who_leads_the_pointer_away_presses_nothing(tab, say, pressed):
-    say("Which?", phase="deciding", actions=IN_HAND, recommended="refine")
+    say(tab, "Which?", phase="deciding", actions=IN_HAND, recommended="refine")
     point(tab, "execute")
     tab.page.mouse.move(*middle(tab, "refine"))
     tab.page.mouse.up()
@@ -130,9 +130,9 @@ def test_whoever_hammers_on_the_stop_does_not_release_it(open_seated, station):
 
 
 @pytest.mark.parametrize("size", [(1600, 900), (1280, 720)])
-def test_the_buttons_stay_where_they_are_when_the_words_change(tab, say, station, size):
+def test_the_buttons_stay_where_they_are_when_the_words_change(viewed, say, station, size):
     _, feed = station
-    tab.page.set_viewport_size({"width": size[0], "height": size[1]})
+    viewed.page.set_viewport_size({"width": size[0], "height": size[1]})
     places = set()
     for text, notice in (
         ("Short.", ""),
@@ -140,31 +140,31 @@ def test_the_buttons_stay_where_they_are_when_the_words_change(tab, say, station
         ("Finished: the robot has learnt from the correction. Press Next object to begin again.", ""),
     ):
         feed.view = replace(feed.view, notice=notice)
-        say(text)
-        tab.wait(f".notice:text-is('{notice}')", state="attached")
-        places.add(middle(tab, "finish"))
+        say(viewed, text)
+        viewed.wait(f".notice:text-is('{notice}')", state="attached")
+        places.add(middle(viewed, "finish"))
     assert len(places) == 1
 
 
 @pytest.mark.parametrize("size", [(1600, 900), (1366, 768), (1280, 720)])
-def test_every_small_button_has_its_place_in_every_state_and_lies_on_no_other(tab, station, size):
+def test_every_small_button_has_its_place_in_every_state_and_lies_on_no_other(viewed, station, size):
     _, feed = station
-    tab.page.set_viewport_size({"width": size[0], "height": size[1]})
+    viewed.page.set_viewport_size({"width": size[0], "height": size[1]})
     places = {}
     for name, view in states().items():
         if view.teaching is None:
             continue
         feed.view = view
-        tab.wait(f".light-text:text-is('{view.teaching.text}')")
-        boxes = tab.page.evaluate(PLACED)
+        viewed.wait(f".light-text:text-is('{view.teaching.text}')")
+        boxes = viewed.page.evaluate(PLACED)
         for action, box in boxes.items():
             assert places.setdefault(action, box) == pytest.approx(box, abs=1.0), name
         assert len({tuple(box) for box in boxes.values()}) == len(boxes), name
 
 
-def test_the_buttons_stay_where_they_are_when_a_waypoint_is_stored(tab, say):
+def test_the_buttons_stay_where_they_are_when_a_waypoint_is_stored(viewed, say):
     places = set()
     for count in (0, 1, 6):
-        say(f"{count} stored.", method=Method.WAYPOINTS, waypoints=(WAYPOINT,) * count)
-        places.add(middle(tab, "finish"))
+        say(viewed, f"{count} stored.", method=Method.WAYPOINTS, waypoints=(WAYPOINT,) * count)
+        places.add(middle(viewed, "finish"))
     assert len(places) == 1

@@ -175,10 +175,10 @@ def test_a_finger_on_the_pad_leads_nothing_and_is_told_what_does(tab, station, e
         (Trouble.ABSENT, "spacemouse", "No 3-D mouse here"),
     ],
 )
-def test_what_is_wrong_with_a_device_is_said_with_what_to_do(tab, calm_station, trouble, device, said):
-    _, feed = calm_station
+def test_what_is_wrong_with_a_device_is_said_with_what_to_do(viewed, station, trouble, device, said):
+    _, feed = station
     feed.view = replace(feed.view, master=MasterState(device="gamepad", trouble=trouble, trouble_with=device))
-    tab.wait(f".device-trouble:has-text('{said}')")
+    viewed.wait(f".device-trouble:has-text('{said}')")
 
 
 def test_the_pad_of_the_device_that_is_taken_into_use_comes_forward(tab, calm_station):

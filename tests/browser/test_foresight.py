@@ -14,9 +14,9 @@ TOUCHING = 'await import("/assets/js/drawing/touching.js")'
 
 
 @pytest.fixture
-def reckoned(tab):
+def reckoned(viewed):
     """A function that has the page reckon something out of arguments."""
-    return lambda module, expression, *given: tab.page.evaluate(
+    return lambda module, expression, *given: viewed.page.evaluate(
         f"async (given) => {{ const m = {module}; return {expression}; }}", list(given)
     )
 
@@ -158,11 +158,11 @@ def test_where_there_is_no_surface_there_is_no_distance(reckoned, origin, direct
     )
 
 
-def test_the_dishwasher_s_prediction_is_foreseen_to_touch_its_basket(tab, eventually):
-    tab.wait(".scene[data-view=live]")
-    tab.wait(".mark-foreseen:visible:has-text('basket')")
+def test_the_dishwasher_s_prediction_is_foreseen_to_touch_its_basket(viewed):
+    viewed.wait(".scene[data-view=live]")
+    viewed.wait(".mark-foreseen:visible:has-text('basket')")
 
 
-def test_the_surface_below_the_gripper_is_as_far_as_the_label_says(tab):
-    tab.wait(".scene[data-view=live]")
-    tab.wait(".mark-below:visible:has-text('32 cm')")
+def test_the_surface_below_the_gripper_is_as_far_as_the_label_says(viewed):
+    viewed.wait(".scene[data-view=live]")
+    viewed.wait(".mark-below:visible:has-text('32 cm')")

@@ -8,7 +8,7 @@ import pytest
 from protocol.messages import Method, Pose
 from services.station.press import Press
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.undrawn]
 
 WAYPOINTS = tuple(Pose((0.5 + 0.1 * i, 0.0, 0.6), (1.0, 0.0, 0.0, 0.0)) for i in range(3))
 EDITS = ("store", "delete", "earlier", "later", "clear", "method")

@@ -6,6 +6,7 @@ import pytest
 from protocol.messages import Mode
 from services.process.config import load
 from sim.tasks import TABLE
+from tests.browser.scripts import UNDRAWN
 from tests.system.harness import START_S, Command, Witness, configured, free_endpoint
 from tests.system.teacher import Teacher
 
@@ -21,10 +22,11 @@ def teacher(tmp_path, browser):
     configuration = configured(tmp_path, endpoint)
     station = load(configuration).station
     up = ("up", "--fresh", "--untaught", "--no-browser", "--scene", "table", "--config", configuration)
+    up += ("--only", "robot,camera,perception,master,model,station")  # nobody looks at a recording
     with Command(*up, folder=tmp_path) as command, Witness(endpoint) as witness:
         command.until(lambda: witness.teaching, START_S, "the station is there")
         page = browser.new_page(viewport={"width": 1280, "height": 720})
-        page.add_init_script("localStorage.setItem('retouch-tour', 'seen');")
+        page.add_init_script(f"localStorage.setItem('retouch-tour', 'seen'); {UNDRAWN}")
         page.goto(f"http://{station.host}:{station.port}/")
         yield Teacher(page, witness)
         page.close()
