@@ -64,10 +64,12 @@ class Table:
     Attributes:
         columns: That are there, of those that were asked for.
         rows: In their order.
+        others: Columns that are there and were not asked for.
     """
 
     columns: tuple[str, ...]
     rows: list[Row]
+    others: tuple[str, ...] = ()
 
     def numbers(self, columns: Sequence[str]) -> Array:
         """The numbers of columns, shape (rows, columns).
@@ -113,7 +115,8 @@ def read_table(
     rows = [
         Row(path, line, {name: cells[i] if i < len(cells) else "" for i, name in asked}) for line, cells in lines[1:]
     ]
-    return Table(tuple(name for name in units if name in names), rows)
+    others = tuple(name for name in names if name and name not in units)
+    return Table(tuple(name for name in units if name in names), rows, others)
 
 
 def _check_length(path: Path, line: int, cells: list[str], names: list[str], separator: str) -> None:

@@ -1,0 +1,1 @@
+"""The human-factors study: people, methods, measurements, and what they come to."""
