@@ -21,5 +21,8 @@ COMMANDS: tuple[Command, ...] = (
     Command("accounts", "services.commands.accounts", "who may log in at the page, as what", needs="station"),
     Command("topics", "services.commands.topics", "print the table of topics and queries", needs="process"),
     Command("reproduce", "services.commands.reproduce", "the thesis' analyses made again: one report", needs="study"),
+    Command(
+        "study", "services.commands.study.command", "a study with people: its statistics and report", needs="study"
+    ),
     Command("map", "services.commands.map", "where a model succeeds, before and after a correction", needs="study"),
 )

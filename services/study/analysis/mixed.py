@@ -7,6 +7,7 @@ participants (Schluchter and Elashoff 1990): in a balanced study they are those 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -53,6 +54,21 @@ class Coefficient(msgspec.Struct, frozen=True):
     low: float
     high: float
     p: float
+
+    @property
+    def ratio(self) -> float:
+        """What a difference of logarithms comes to."""
+        return math.exp(self.estimate)
+
+    @property
+    def ratio_low(self) -> float:
+        """Its lower end."""
+        return math.exp(self.low)
+
+    @property
+    def ratio_high(self) -> float:
+        """Its upper end."""
+        return math.exp(self.high)
 
 
 class Factor(msgspec.Struct, frozen=True):

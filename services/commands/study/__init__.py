@@ -1,0 +1,1 @@
+"""`retouch study`: the human-factors study, a part a file."""

@@ -1,0 +1,132 @@
+"""`retouch study analyse`: statistics and the report of a study, from anybody's table."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from pathlib import Path
+
+import msgspec
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn
+from rich.table import Table
+
+from services.commands.arguments import add_debug, whole
+from services.commands.terminal import Terminal
+from services.process.exit_codes import Exit
+from services.process.written import read
+from services.study.analysis.analysis import Analysis
+from services.study.analysis.exclusion import Sample
+from services.study.analysis.hypotheses import Plan
+from services.study.analysis.numerals import figure, interval, p_value
+from services.study.analysis.report import REPORT, report
+from services.study.analysis.reporting import Reporting
+from services.study.analysis.rules import NAMES
+from services.study.analysis.table import NEEDED, OPTIONAL, read_observations
+
+_ABOUT = f"""\
+Analyses a study and writes a folder: {REPORT}, which needs nothing else, all its
+numbers as JSON, and tidy tables.
+
+FILE is a CSV of any spreadsheet with a line a participant, method and model.
+Its first line names the columns {", ".join(NEEDED)} [s];
+others are read where they are there:
+  {", ".join(OPTIONAL[:10])},
+  {", ".join(OPTIONAL[10:17])},
+  {", ".join(OPTIONAL[17:])}.
+An empty cell was not measured. What holds for a participant, or for a participant
+and a method (workload, position), stands in one of the lines or in each of them.
+
+Rules: retouch has the participant as the unit, thesis counts each model of each
+participant, as the thesis' Tables II and E.2 do, and says what is wrong with it.
+"""
+
+_EXAMPLES = """\
+examples:
+  retouch study analyse outcomes.csv
+  retouch study analyse data.csv --columns participant=subject,seconds=time --methods OnStyl=online_pen
+  retouch study analyse data.csv --plan plan.toml     # hypotheses of your own
+"""
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """See `Action`."""
+    parser.description, parser.epilog = _ABOUT, _EXAMPLES
+    parser.add_argument("file", type=Path, metavar="FILE", help="of the outcomes, a CSV")
+    parser.add_argument(
+        "--out", type=Path, default=Path("analysis"), metavar="FOLDER", help="of the report (default: ./analysis)"
+    )
+    parser.add_argument("--rules", choices=NAMES, help="of the analysis (default: the plan's, or retouch)")
+    parser.add_argument("--plan", type=Path, metavar="FILE", help="hypotheses, rules, error rate: a TOML file")
+    parser.add_argument("--reporting", type=Path, metavar="FILE", help="what the appendix needs: a TOML file")
+    parser.add_argument(
+        "--columns", type=renamed, default={}, metavar="OURS=THEIRS,...", help="what the file calls the columns"
+    )
+    parser.add_argument(
+        "--methods", type=renamed, default={}, metavar="OURS=THEIRS,...", help="what the file calls the methods"
+    )
+    parser.add_argument("--seed", type=whole(0), metavar="N", help="of resampling (default: the plan's, or 0)")
+    add_debug(parser)
+
+
+def run(arguments: Namespace) -> int:
+    """See `Action`."""
+    plan = read(arguments.plan, Plan, "plan") if arguments.plan else Plan()
+    given = {name: getattr(arguments, name) for name in ("rules", "seed") if getattr(arguments, name) is not None}
+    plan = msgspec.structs.replace(plan, **given)
+    reporting = read(arguments.reporting, Reporting, "reporting file") if arguments.reporting else Reporting()
+    observations = read_observations(arguments.file, arguments.columns, arguments.methods)
+    console = Terminal(stderr=True, highlight=False)
+    for note in observations.notes:
+        console.print(note, markup=False, soft_wrap=True)
+    with Progress(TextColumn("{task.description}"), BarColumn(), console=console, transient=True) as progress:
+        task = progress.add_task("analysing", total=1.0)
+        analysis = report(
+            arguments.out, observations, plan, reporting, lambda share: progress.update(task, completed=share)
+        )
+    summarise(analysis, console)
+    Terminal(highlight=False, soft_wrap=True).print(str((arguments.out / REPORT).resolve()), markup=False)
+    return Exit.DONE
+
+
+def summarise(analysis: Analysis, console: Console) -> None:
+    """Say what came out: who took part, and what became of the hypotheses."""
+    flow = analysis.flow
+    who = "synthetic participants: no person took part" if analysis.synthetic else "participants"
+    console.print(
+        f"{flow.participants} {who}; {flow.included} in the refinement time, {len(flow.excluded)} excluded;"
+        f" rules: {analysis.plan.rules}",
+        soft_wrap=True,
+    )
+    table = Table(
+        "hypothesis", "pairs", "medians", "p", "p, Holm", "rank-biserial", "shift", "", box=None, pad_edge=False
+    )
+    for one in analysis.results:
+        if one.sample is not Sample.PLANNED:
+            continue
+        if one.test is None or one.medians is None:
+            table.add_row(one.hypothesis.name, "0", *[""] * 5, "nobody to compare")
+            continue
+        verdict = {None: "exploratory", True: "[green]supported[/]", False: "[yellow]not shown[/]"}[one.rejected]
+        bounds = [
+            f"{figure(e.value)} ({bounded})" if (bounded := interval(e)) else figure(e.value)
+            for e in (one.effect, one.shift)
+        ]
+        table.add_row(
+            one.hypothesis.name,
+            str(one.pairs),
+            f"{figure(one.medians[0])}, {figure(one.medians[1])}",
+            p_value(one.test.p),
+            p_value(one.adjusted),
+            *bounds,
+            verdict,
+        )
+    console.print(table)
+
+
+def renamed(text: str) -> dict[str, str]:
+    """The type of OURS=THEIRS,..."""
+    pairs = [part.partition("=") for part in text.split(",")]
+    names = {ours.strip(): theirs.strip() for ours, _, theirs in pairs}
+    if not all(names) or not all(names.values()) or len(names) < len(pairs):
+        raise ArgumentTypeError(f"must be OURS=THEIRS,..., each of OURS once, not {text!r}")
+    return names

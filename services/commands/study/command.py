@@ -1,0 +1,30 @@
+"""`retouch study`: the human-factors study, each part in a module of its own."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+
+from services.commands.command import Command
+from services.commands.parser import Parser
+
+PARTS: tuple[Command, ...] = (
+    Command("analyse", "services.commands.study.analyse", "statistics and the report of a study", needs="study"),
+)
+
+_ABOUT = """\
+A study of people who use several methods, from its protocol to its report.
+`retouch study PART --help` tells of each part.
+"""
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """See `Action`."""
+    parser.description = _ABOUT
+    parts = parser.add_subparsers(dest="part", required=True, metavar="PART", parser_class=Parser)
+    for part in PARTS:
+        parts.add_parser(part.name, help=part.help, fill=lambda p, part=part: part.action().add_arguments(p))
+
+
+def run(arguments: Namespace) -> int:
+    """See `Action`."""
+    return next(part for part in PARTS if part.name == arguments.part).action().run(arguments)

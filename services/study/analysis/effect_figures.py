@@ -1,0 +1,86 @@
+"""How large the differences are, and how sure: the figures of intervals, and of who takes part."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from services.reproduction.analysis import Figure
+from services.reproduction.style import TRUTH, panels
+from services.study.analysis.analysis import Analysis
+from services.study.analysis.comparison import Result
+from services.study.analysis.exclusion import Sample
+from services.study.analysis.figures import finished
+from services.study.analysis.hypotheses import Measure
+from services.study.analysis.observations import Observations, in_order
+from services.study.analysis.units import of_people, side
+
+_COLORS = {Sample.PLANNED: TRUTH, Sample.ALL: "#0072b2", Sample.RANKED_LAST: "#d55e00", Sample.SUCCEEDED: "#0072b2"}
+_APART = 0.2
+_ROW = 0.55  # of a hypothesis [inch]
+_COLUMNS = 3
+
+
+def effects(analysis: Analysis) -> Figure | None:
+    """Rank-biserial correlations with their intervals, in every sample; None where there are none."""
+    shown = [one for one in analysis.results if one.effect.value is not None]
+    if not shown:
+        return None
+    names = list(dict.fromkeys(one.hypothesis.name for one in shown))
+    canvas, (pane,) = panels([""], height=0.9 + _ROW * len(names))
+    samples = [one for one in Sample if any(result.sample is one for result in shown)]
+    for i, sample in enumerate(samples):
+        of = [one for one in shown if one.sample is sample]
+        y = [names.index(one.hypothesis.name) + _APART * (i - (len(samples) - 1) / 2.0) for one in of]
+        color = _COLORS[sample]
+        pane.scatter([one.effect.value or 0.0 for one in of], y, s=26, color=color, zorder=3.0, label=sample.value)
+        for one, at in zip(of, y, strict=True):
+            if one.effect.low is not None and one.effect.high is not None:
+                pane.plot([one.effect.low, one.effect.high], [at, at], color=color, linewidth=1.6)
+    pane.axvline(0.0, color="#6b7685", linewidth=0.9)
+    pane.set(xlim=(-1.05, 1.05), xlabel="matched-pairs rank-biserial correlation", yticks=range(len(names)))
+    pane.set_yticklabels([_label(next(one for one in shown if one.hypothesis.name == name)) for name in names])
+    pane.set_ylim(len(names) - 0.5, -0.5)
+    caption = (
+        f"Effect sizes with {100.0 * analysis.plan.confidence:g} % intervals, by sample. −1: everybody has less on the"
+        " first side; 0: no more often or more strongly than on the second. No interval where all differences have one"
+        " sign."
+    )
+    return finished(canvas, "effects", caption, synthetic=analysis.synthetic)
+
+
+def _label(result: Result) -> str:
+    first, second = result.hypothesis.sides
+    return f"{result.hypothesis.name}\n{first} against {second}"
+
+
+def backgrounds(observations: Observations, analysis: Analysis) -> list[Figure]:
+    """Every participant's mean over methods by what the participant said, a figure a measure."""
+    figures = []
+    for measure in (Measure.SECONDS, Measure.WORKLOAD):
+        found = [one for one in analysis.influences if one.measure is measure and len(one.groups) > 1]
+        if not found:
+            continue
+        values = of_people(observations, measure, Sample.PLANNED)
+        rows = -(-len(found) // _COLUMNS)
+        canvas, axes = panels([one.background for one in found], height=2.3, rows=rows)
+        for pane, one in zip(axes, found, strict=True):
+            said = {b.participant: str(getattr(b, one.background)) for b in observations.backgrounds}
+            known = {p: side(values, p, analysis.methods) for p in observations.participants if said.get(p)}
+            texts = in_order(said[p] for p, value in known.items() if value is not None)
+            # Where they are many, as ages are, their names do not fit: each second one, and so on.
+            step = max(1, -(-len(texts) // 8))
+            for x, text in enumerate(texts):
+                of = sorted(value for p, value in known.items() if value is not None and said[p] == text)
+                pane.scatter(x + np.linspace(-0.1, 0.1, len(of)), of, s=13, color="#0072b2", alpha=0.75, linewidths=0.0)
+                pane.plot([x - 0.25, x + 0.25], [np.median(of)] * 2, color=TRUTH, linewidth=2.0)
+            labels = [text if len(text) <= 12 else f"{text[:11]}…" for text in texts]
+            pane.set(xticks=range(0, len(texts), step), xticklabels=labels[::step], xlim=(-0.6, len(texts) - 0.4))
+            pane.set_ylim(bottom=0.0)
+        for pane in axes[::_COLUMNS]:
+            pane.set_ylabel(f"{measure.title.split(' (')[0]}{' [s]' if measure.unit else ''}")
+        caption = (
+            f"{measure.title[0].upper()}{measure.title[1:]} by what participants said of themselves; a point is a"
+            " participant's mean over all methods, a bar the median."
+        )
+        figures.append(finished(canvas, f"background-{measure.value}", caption, synthetic=analysis.synthetic))
+    return figures
