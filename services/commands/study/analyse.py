@@ -20,7 +20,7 @@ from services.study.analysis.hypotheses import Plan
 from services.study.analysis.numerals import figure, interval, p_value
 from services.study.analysis.report import REPORT, report
 from services.study.analysis.reporting import Reporting
-from services.study.analysis.rules import NAMES
+from services.study.analysis.rules import NAMES, RETOUCH
 from services.study.analysis.table import NEEDED, OPTIONAL, read_observations
 
 _ABOUT = f"""\
@@ -97,29 +97,16 @@ def summarise(analysis: Analysis, console: Console) -> None:
         f" rules: {analysis.plan.rules}",
         soft_wrap=True,
     )
-    table = Table(
-        "hypothesis", "pairs", "medians", "p", "p, Holm", "rank-biserial", "shift", "", box=None, pad_edge=False
-    )
+    ours = analysis.plan.rules == RETOUCH.name
+    extra = ("p, Holm", "rank-biserial", "shift, with its interval") if ours else ()
+    table = Table("hypothesis", "pairs", "p", *extra, "", box=None, pad_edge=False)
     for one in analysis.results:
-        if one.sample is not Sample.PLANNED:
-            continue
-        if one.test is None or one.medians is None:
-            table.add_row(one.hypothesis.name, "0", *[""] * 5, "nobody to compare")
+        if one.sample is not Sample.PLANNED or one.test is None:
             continue
         verdict = {None: "exploratory", True: "[green]supported[/]", False: "[yellow]not shown[/]"}[one.rejected]
-        bounds = [
-            f"{figure(e.value)} ({bounded})" if (bounded := interval(e)) else figure(e.value)
-            for e in (one.effect, one.shift)
-        ]
-        table.add_row(
-            one.hypothesis.name,
-            str(one.pairs),
-            f"{figure(one.medians[0])}, {figure(one.medians[1])}",
-            p_value(one.test.p),
-            p_value(one.adjusted),
-            *bounds,
-            verdict,
-        )
+        shift = f"{figure(one.shift.value)} ({bounds})" if (bounds := interval(one.shift)) else figure(one.shift.value)
+        effect = (p_value(one.adjusted), figure(one.effect.value, 2), shift) if ours else ()
+        table.add_row(one.hypothesis.name, str(one.pairs), p_value(one.test.p), *effect, verdict)
     console.print(table)
 
 

@@ -15,7 +15,7 @@ from services.study.analysis.hypotheses import Measure, Plan
 from services.study.analysis.learning import Attempts, Course, attempts, courses
 from services.study.analysis.mixed import MixedModel, fitted
 from services.study.analysis.observations import Observations
-from services.study.analysis.rules import THESIS, rules_of
+from services.study.analysis.rules import RETOUCH, THESIS, rules_of
 from services.study.analysis.summary import Summary, summaries, taken
 from services.study.analysis.thesis import ThesisTables, thesis_tables
 
@@ -46,6 +46,7 @@ class Analysis(msgspec.Struct, frozen=True):
         attempts: how single attempts ended.
         influences: of who takes part.
         thesis: its further tables, by its rules.
+        ours: by its rules: the hypotheses once more, with the participant as the unit.
     """
 
     source: str
@@ -65,6 +66,7 @@ class Analysis(msgspec.Struct, frozen=True):
     attempts: tuple[Attempts, ...]
     influences: tuple[Influence, ...]
     thesis: ThesisTables | None
+    ours: tuple[Result, ...]
 
 
 def analysed(observations: Observations, plan: Plan, progress: Progress = lambda _: None) -> Analysis:
@@ -114,6 +116,12 @@ def analysed(observations: Observations, plan: Plan, progress: Progress = lambda
         attempts=attempts(observations),
         influences=explained,
         thesis=thesis_tables(observations) if rules is THESIS else None,
+        ours=_ours(observations, plan) if rules is THESIS else (),
     )
     progress(1.0)
     return found
+
+
+def _ours(observations: Observations, plan: Plan) -> tuple[Result, ...]:
+    found = compared(observations, msgspec.structs.replace(plan, rules=RETOUCH.name, alpha=None))
+    return tuple(one for one in found if one.sample is Sample.PLANNED)

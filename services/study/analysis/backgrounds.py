@@ -12,6 +12,7 @@ from scipy.stats import rankdata
 from services.study.analysis.effects import Effect, cliffs_delta, shift_between
 from services.study.analysis.exclusion import Sample
 from services.study.analysis.hypotheses import Direction, Measure, Plan
+from services.study.analysis.numerals import figure
 from services.study.analysis.observations import Observations, in_order
 from services.study.analysis.ranks import kruskal_wallis, mann_whitney
 from services.study.analysis.units import of_people, side
@@ -49,6 +50,7 @@ class Influence(msgspec.Struct, frozen=True):
         effect: Spearman's rank correlation, or Cliff's delta of the first group against the second.
         shift: of the first group from the second, where there are two.
         reason: why there is no test; empty where there is one.
+        scale: what they said are numbers.
     """
 
     background: str
@@ -59,6 +61,7 @@ class Influence(msgspec.Struct, frozen=True):
     effect: Effect = Effect(None)
     shift: Effect = Effect(None)
     reason: str = ""
+    scale: bool = False
 
 
 def influences(observations: Observations, plan: Plan, measures: Sequence[Measure]) -> tuple[Influence, ...]:
@@ -106,8 +109,8 @@ def _influence(
         # By their values, so that the permutations are the same whatever the order of the people.
         pairs = sorted((numbers[one], known[one]) for one in known)
         rho, p = spearman([a for a, _ in pairs], [b for _, b in pairs], plan.seed)
-        spoken = f"Spearman's rho = {rho:.2f}, n = {len(pairs)}, 10 000 permutations"
-        return msgspec.structs.replace(found, test=spoken, p=p, effect=Effect(rho))
+        spoken = f"Spearman's rho = {figure(rho, 2)}, n = {len(pairs)}, 10 000 permutations"
+        return msgspec.structs.replace(found, test=spoken, p=p, effect=Effect(rho), scale=True)
     large = [of[text] for text in of if len(of[text]) >= _LEAST]
     if len(large) < 2 or len(large) > len(known) // _LEAST:
         return msgspec.structs.replace(found, reason="fewer than two groups of two people")

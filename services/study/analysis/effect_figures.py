@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from services.reproduction.analysis import Figure
@@ -14,7 +16,8 @@ from services.study.analysis.hypotheses import Measure
 from services.study.analysis.observations import Observations, in_order
 from services.study.analysis.units import of_people, side
 
-_COLORS = {Sample.PLANNED: TRUTH, Sample.ALL: "#0072b2", Sample.RANKED_LAST: "#d55e00", Sample.SUCCEEDED: "#0072b2"}
+_COLORS = {Sample.PLANNED: TRUTH, Sample.ALL: "#0072b2", Sample.RANKED_LAST: "#d55e00", Sample.SUCCEEDED: "#009e73"}
+_POINT = "#0072b2"
 _APART = 0.2
 _ROW = 0.55  # of a hypothesis [inch]
 _COLUMNS = 3
@@ -28,9 +31,9 @@ def effects(analysis: Analysis) -> Figure | None:
     names = list(dict.fromkeys(one.hypothesis.name for one in shown))
     canvas, (pane,) = panels([""], height=0.9 + _ROW * len(names))
     samples = [one for one in Sample if any(result.sample is one for result in shown)]
-    for i, sample in enumerate(samples):
+    for sample in samples:
         of = [one for one in shown if one.sample is sample]
-        y = [names.index(one.hypothesis.name) + _APART * (i - (len(samples) - 1) / 2.0) for one in of]
+        y = [names.index(one.hypothesis.name) + _APART * _place(shown, one) for one in of]
         color = _COLORS[sample]
         pane.scatter([one.effect.value or 0.0 for one in of], y, s=26, color=color, zorder=3.0, label=sample.value)
         for one, at in zip(of, y, strict=True):
@@ -40,12 +43,21 @@ def effects(analysis: Analysis) -> Figure | None:
     pane.set(xlim=(-1.05, 1.05), xlabel="matched-pairs rank-biserial correlation", yticks=range(len(names)))
     pane.set_yticklabels([_label(next(one for one in shown if one.hypothesis.name == name)) for name in names])
     pane.set_ylim(len(names) - 0.5, -0.5)
+    pane.grid(visible=False, axis="y")
+    for between in range(1, len(names)):
+        pane.axhline(between - 0.5, color="#e9edf1", linewidth=0.8)
     caption = (
         f"Effect sizes with {100.0 * analysis.plan.confidence:g} % intervals, by sample. −1: everybody has less on the"
         " first side; 0: no more often or more strongly than on the second. No interval where all differences have one"
         " sign."
     )
     return finished(canvas, "effects", caption, synthetic=analysis.synthetic)
+
+
+def _place(shown: Sequence[Result], one: Result) -> float:
+    """Of a sample among those of the same hypothesis, about zero."""
+    samples = [other.sample for other in shown if other.hypothesis.name == one.hypothesis.name]
+    return samples.index(one.sample) - (len(samples) - 1) / 2.0
 
 
 def _label(result: Result) -> str:
@@ -67,20 +79,24 @@ def backgrounds(observations: Observations, analysis: Analysis) -> list[Figure]:
             said = {b.participant: str(getattr(b, one.background)) for b in observations.backgrounds}
             known = {p: side(values, p, analysis.methods) for p in observations.participants if said.get(p)}
             texts = in_order(said[p] for p, value in known.items() if value is not None)
-            # Where they are many, as ages are, their names do not fit: each second one, and so on.
-            step = max(1, -(-len(texts) // 8))
+            pane.set_ylim(0.0, 1.06 * max(value for value in known.values() if value is not None))
+            if one.scale:
+                pairs = [(float(said[p].replace(",", ".")), value) for p, value in known.items() if value is not None]
+                pane.scatter([x for x, _ in pairs], [y for _, y in pairs], s=15, color=_POINT, alpha=0.75, linewidths=0)
+                continue
             for x, text in enumerate(texts):
                 of = sorted(value for p, value in known.items() if value is not None and said[p] == text)
-                pane.scatter(x + np.linspace(-0.1, 0.1, len(of)), of, s=13, color="#0072b2", alpha=0.75, linewidths=0.0)
+                pane.scatter(x + np.linspace(-0.1, 0.1, len(of)), of, s=15, color=_POINT, alpha=0.75, linewidths=0)
                 pane.plot([x - 0.25, x + 0.25], [np.median(of)] * 2, color=TRUTH, linewidth=2.0)
+            # Where they are many their names do not fit: each second one, and so on.
+            step = max(1, -(-len(texts) // 8))
             labels = [text if len(text) <= 12 else f"{text[:11]}…" for text in texts]
             pane.set(xticks=range(0, len(texts), step), xticklabels=labels[::step], xlim=(-0.6, len(texts) - 0.4))
-            pane.set_ylim(bottom=0.0)
         for pane in axes[::_COLUMNS]:
             pane.set_ylabel(f"{measure.title.split(' (')[0]}{' [s]' if measure.unit else ''}")
         caption = (
             f"{measure.title[0].upper()}{measure.title[1:]} by what participants said of themselves; a point is a"
-            " participant's mean over all methods, a bar the median."
+            " participant's mean over all methods, a bar a group's median."
         )
         figures.append(finished(canvas, f"background-{measure.value}", caption, synthetic=analysis.synthetic))
     return figures

@@ -13,6 +13,7 @@ from services.reproduction.style import TRUTH, drawn, panels
 from services.study.analysis.analysis import Analysis
 from services.study.analysis.exclusion import Sample
 from services.study.analysis.hypotheses import Measure
+from services.study.analysis.learning import in_sequence
 from services.study.analysis.observations import Observations
 from services.study.analysis.units import Values, of_models, of_people
 
@@ -26,7 +27,7 @@ _COLORS = ("#0072b2", "#56b4e9", "#d55e00", "#e69f00", "#009e73", "#cc79a7", "#6
 _LINE = "#9aa4b1"
 _WIDE = 0.30  # of a box, of the distance between two
 _SPREAD = 0.18
-_HEADROOM = 1.06
+_HEADROOM = 1.15
 
 
 def color_of(analysis: Analysis, method: str) -> str:
@@ -55,7 +56,7 @@ def by_model(observations: Observations, analysis: Analysis) -> Figure:
     values = of_models(observations, Measure.SECONDS, Sample.ALL)
     excluded = set(analysis.flow.excluded)
     canvas, axes = panels(list(analysis.methods), height=2.9)
-    top = max((one.value for one in values), default=1.0) * _HEADROOM
+    seconds = [one.value for one in values]
     for pane, method in zip(axes, analysis.methods, strict=True):
         of = {(one.participant, one.model): one.value for one in values if one.method == method}
         for participant in observations.participants:
@@ -74,8 +75,12 @@ def by_model(observations: Observations, analysis: Analysis) -> Figure:
                 [v for (p, m), v in of.items() if m == model and p not in excluded],
                 color_of(analysis, method),
             )
-        pane.set(xlabel="model", ylim=(0.0, top), xticks=list(analysis.models), xlim=_around(len(analysis.models), 1.0))
-    axes[0].set_ylabel(_axis(Measure.SECONDS))
+        pane.set(xlabel="model", xticks=list(analysis.models), xlim=_around(len(analysis.models), analysis.models[0]))
+        pane.set_yscale("log")
+        pane.set_yticks(*_round_times(min(seconds), max(seconds)), minor=False)
+        pane.minorticks_off()
+        pane.set_ylim(min(seconds) / _HEADROOM, max(seconds) * _HEADROOM)
+    axes[0].set_ylabel(f"{_axis(Measure.SECONDS)}, logarithmic")
     caption = (
         "Refinement time of every model that was adapted. Filled: participants who are in the analysis, the boxes are"
         " theirs; open, on dashed lines: who is excluded from it."
@@ -129,15 +134,15 @@ def learning(observations: Observations, analysis: Analysis) -> Figure | None:
     canvas, axes = panels(titles, height=2.8)
     values = of_models(observations, Measure.SECONDS, Sample.PLANNED)
     for pane, course in zip(axes, analysis.courses, strict=False):
+        times = in_sequence(values, course.over)
         for participant in observations.participants:
-            of = [one for one in values if one.participant == participant]
-            times = {n: [v.value for v in of if getattr(v, course.over) == n] for n in course.medians}
-            shown = [(n, float(np.median(times[n]))) for n in course.medians if times[n]]
+            shown = [(n, times[participant, n]) for n in course.medians if (participant, n) in times]
             if shown:
                 pane.plot(*zip(*shown, strict=True), color=_LINE, linewidth=0.8)
         medians = sorted(course.medians.items())
         pane.plot(*zip(*medians, strict=True), "o-", color=TRUTH, linewidth=2.0, markersize=5.0, label="median")
-        pane.set(xlabel=course.over, ylabel=_axis(Measure.SECONDS), xticks=list(course.medians))
+        label = "time / method's median" if course.relative else _axis(Measure.SECONDS)
+        pane.set(xlabel=course.over, ylabel=label, xticks=list(course.medians))
         pane.set_ylim(bottom=0.0)
     if analysis.attempts:
         _attempts(axes[-1], analysis)
@@ -203,6 +208,13 @@ def _jitter(values: Sequence[float]) -> NDArray[np.float64]:
     """Beside each other by the golden ratio, in the order of the values: neighbours are apart, and always the same."""
     ranks = np.argsort(np.argsort(values, kind="stable"), kind="stable")
     return np.asarray(_SPREAD * (2.0 * np.mod(ranks * 0.6180339887, 1.0) - 1.0), dtype=np.float64)
+
+
+def _round_times(low: float, high: float) -> tuple[list[float], list[str]]:
+    """Round numbers among times, for a logarithmic axis, and their labels."""
+    steps = [digit * 10.0**power for power in range(-1, 6) for digit in (1.0, 2.0, 5.0)]
+    ticks = [one for one in steps if low / _HEADROOM <= one <= high * _HEADROOM]
+    return ticks, [f"{one:g}" for one in ticks]
 
 
 def _ticks(analysis: Analysis) -> list[str]:

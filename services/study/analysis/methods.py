@@ -46,13 +46,20 @@ def paragraph(analysis: Analysis) -> str:
             f"Hypotheses ({listed}) were tested by Wilcoxon signed-rank tests on the pooled pairs of methods, by the"
             f" normal approximation, at {analysis.alpha:g} each and without an adjustment.",
         ]
-    sentences += [
+    ordered = any(check.test for check in analysis.checks)
+    position = ", position in the order" if ordered else ""
+    sentences.append(
         "Linear mixed models of the logarithm of the refinement time and of the workload had the participant as a"
-        " random intercept and method, position in the order and model (of the time) as fixed factors; they were"
-        " estimated by restricted maximum likelihood, and tested with degrees of freedom within participants.",
-        "Carry-over was examined by Kruskal-Wallis tests of the sequences' totals, by Mann-Whitney tests between who"
-        " began with either side, and by the method before as a factor of the mixed model; no analysis was chosen"
-        " by them (Freeman 1989).",
+        f" random intercept and method{position} and model (of the time) as fixed factors; they were"
+        " estimated by restricted maximum likelihood, and tested with degrees of freedom within participants."
+    )
+    if ordered:
+        sentences.append(
+            "Carry-over was examined by Kruskal-Wallis tests of the sequences' totals, by Mann-Whitney tests between"
+            " who began with either side, and by the method before as a factor of the mixed model; no analysis was"
+            " chosen by them (Freeman 1989)."
+        )
+    sentences += [
         "Effects of participants' backgrounds are exploratory and not adjusted.",
         f"Resampling was seeded ({plan.seed}). {_software()}.",
     ]

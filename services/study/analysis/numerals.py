@@ -9,6 +9,7 @@ from services.study.analysis.effects import Effect
 _LEAST_P = 0.001
 _LARGE = 100.0
 _MINUS = "−"
+_SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def figure(value: float | None, digits: int | None = None) -> str:
@@ -39,7 +40,15 @@ def exactly(p: float | None) -> str:
     """A p-value with three digits, however small; for tables that others are compared with."""
     if p is None:
         return "–"
-    return f"{p:.3g}" if p >= 1e-4 else f"{p:.2e}".replace("e-0", "e-").replace("e-", " · 10^-")
+    if p >= 1e-4 or p == 0.0:
+        return f"{p:.3g}"
+    digits, exponent = f"{p:.2e}".split("e")
+    return f"{digits} · 10{str(int(exponent)).translate(_SUPERSCRIPT)}"
+
+
+def equals(said: str) -> str:
+    """A value as it follows its letter: "= 0.03", "< 0.001"."""
+    return said if said.startswith("<") else f"= {said}"
 
 
 def interval(effect: Effect, digits: int | None = None) -> str:

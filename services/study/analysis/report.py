@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from datetime import UTC, datetime
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 import jinja2
@@ -12,11 +12,12 @@ from services.reproduction.analysis import Figure
 from services.reproduction.report import address
 from services.study.analysis import effect_figures, figures
 from services.study.analysis.analysis import Analysis, Progress, analysed
+from services.study.analysis.comparison import Result
 from services.study.analysis.exclusion import Sample
 from services.study.analysis.files import write, write_files
 from services.study.analysis.hypotheses import Measure, Plan
 from services.study.analysis.methods import paragraph, software
-from services.study.analysis.numerals import exactly, figure, interval, p_value
+from services.study.analysis.numerals import equals, exactly, figure, interval, p_value
 from services.study.analysis.observations import Observations
 from services.study.analysis.reporting import Reporting, appendix
 from services.study.analysis.rules import THESIS
@@ -80,12 +81,25 @@ def html(
         measures=list(dict.fromkeys(one.measure for one in analysis.summaries)),
         samples=list(dict.fromkeys(one.sample for one in analysis.results)),
         thesis=analysis.plan.rules == THESIS.name,
+        contrasts=list(dict.fromkeys(_stated(one) for one in analysis.results)),
+        results_of=partial(_result, analysis),
         colors={method: figures.color_of(analysis, method) for method in analysis.methods},
         Measure=Measure,
         Sample=Sample,
         made=f"{datetime.now(UTC):%d %B %Y, %H:%M} UTC",
         software=software(),
     )
+
+
+def _stated(result: Result) -> str:
+    first, second = result.hypothesis.sides
+    return f"{first} {result.hypothesis.direction.sign} {second}"
+
+
+def _result(analysis: Analysis, measure: Measure, sample: Sample, stated: str) -> Result | None:
+    """Of the hypothesis that says so of the measure."""
+    of = [one for one in analysis.results if one.hypothesis.measure is measure and one.sample is sample]
+    return next((one for one in of if _stated(one) == stated), None)
 
 
 def _can(name: str, observations: Observations) -> bool:
@@ -107,6 +121,7 @@ def _template() -> jinja2.Template:
     environment.filters |= {
         "figure": figure,
         "p_value": p_value,
+        "equals": equals,
         "exactly": exactly,
         "interval": interval,
         "address": lambda one: address(one.image) if isinstance(one, Figure) else "",

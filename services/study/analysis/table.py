@@ -160,9 +160,9 @@ class _Reading:
             return
         line, before = self.said.setdefault((column, *of), (cells.row.line, value))
         if before != value:
-            whose = ("the study", "participant {}", "participant {} has one for method {}")[len(of)].format(*of)
-            rule = whose if len(of) == 2 else f"{whose} has one"
-            raise cells.wrong(column, f"{_shown(value)} contradicts {_shown(before)} in line {line}: {rule}")
+            whose = ("the study", "a participant", "a participant and method")[len(of)]
+            reason = f"{_shown(value)} contradicts {_shown(before)} in line {line}: {whose} can have only one"
+            raise cells.wrong(column, reason)
 
     def _get(self, type_: type[Value], column: str, *of: str) -> Value | None:
         value = self.said.get((column, *of), (0, None))[1]
