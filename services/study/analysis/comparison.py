@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
 from statistics import median
 
 import msgspec
@@ -15,7 +17,7 @@ from services.study.analysis.hypotheses import Hypothesis, Measure, Plan
 from services.study.analysis.observations import Observations
 from services.study.analysis.ranks import RankTest, holm, signed_rank
 from services.study.analysis.rules import Rules, Unit, rules_of
-from services.study.analysis.units import differences, of_models, of_people, sides
+from services.study.analysis.units import Values, differences, of_models, of_people, sides
 
 
 class Result(msgspec.Struct, frozen=True):
@@ -61,11 +63,16 @@ def compared(observations: Observations, plan: Plan) -> tuple[Result, ...]:
         AnalysisError: there are no such rules, or they cannot test a hypothesis.
     """
     rules = rules_of(plan.rules)
-    found = []
+    for one in plan.hypotheses:
+        one.check(observations)
+    found: list[Result] = []
     for sample in Sample:
-        asked = [one for one in plan.hypotheses if sample in samples_of(one.measure)]
-        tested = [_tested(observations, one, sample, plan, rules) for one in asked]
-        found += _adjusted(tested, rules, plan.alpha or rules.alpha)
+        pairing = _Pairing(observations, sample, rules)
+        tested = [_tested(pairing, one, plan) for one in plan.hypotheses if sample in samples_of(one.measure)]
+        asked = {one.hypothesis.name for one in tested}
+        # Of what the sample has nothing to say the family has what the rules have found.
+        others = [one for one in found if one.sample is Sample.PLANNED and one.hypothesis.name not in asked]
+        found += _adjusted(tested, others, rules, plan.alpha or rules.alpha)
     return tuple(found)
 
 
@@ -76,7 +83,8 @@ def confirmatory(observations: Observations, plan: Plan) -> dict[str, float | No
     """
     rules = rules_of(plan.rules)
     family = [one for one in plan.hypotheses if one.confirmatory]
-    tests = {one.name: _test(_pairs(observations, one, Sample.PLANNED, rules)[0], one, rules) for one in family}
+    pairing = _Pairing(observations, Sample.PLANNED, rules)
+    tests = {one.name: _test(pairing.pairs(one)[0], one, rules) for one in family}
     known = {name: test.p for name, test in tests.items() if test is not None}
     adjusted = holm(list(known.values())) if rules.holm else list(known.values())
     return dict.fromkeys(tests) | dict(zip(known, adjusted, strict=True))
@@ -90,9 +98,63 @@ def samples_of(measure: Measure) -> tuple[Sample, ...]:
     return (Sample.PLANNED, Sample.ALL, *last)
 
 
-def _tested(observations: Observations, hypothesis: Hypothesis, sample: Sample, plan: Plan, rules: Rules) -> Result:
-    hypothesis.check(observations)
-    pairs, people = _pairs(observations, hypothesis, sample, rules)
+@dataclass
+class _Pairing:
+    """The values of one sample, each measure's taken once.
+
+    Attributes:
+        observations: of the study.
+        sample: whom it is about.
+        rules: by which they are paired.
+    """
+
+    observations: Observations
+    sample: Sample
+    rules: Rules
+    _of_people: dict[Measure, Values] = field(default_factory=dict)
+
+    @cached_property
+    def people(self) -> list[str]:
+        """All participants."""
+        return self.observations.participants
+
+    def pairs(self, hypothesis: Hypothesis) -> tuple[Pairs, int]:
+        """The values that are compared, and of how many people.
+
+        Raises:
+            AnalysisError: the rules cannot pair the hypothesis' methods.
+        """
+        if self.rules.unit is Unit.MODEL:
+            return self._of_models(hypothesis)
+        measure = hypothesis.measure
+        if measure not in self._of_people:
+            self._of_people[measure] = of_people(self.observations, measure, self.sample)
+        pairs = sides(self._of_people[measure], self.people, hypothesis.first, hypothesis.second)
+        return pairs, len(pairs)
+
+    def _of_models(self, hypothesis: Hypothesis) -> tuple[Pairs, int]:
+        if len(hypothesis.first) != len(hypothesis.second):
+            raise AnalysisError(
+                f"hypothesis {hypothesis.name!r}: rules {self.rules.name!r} pair the methods of both sides one by one,"
+                f" and there are {len(hypothesis.first)} and {len(hypothesis.second)}: name as many, or use rules"
+                " 'retouch'"
+            )
+        values = of_models(self.observations, hypothesis.measure, self.sample)
+        by = {(one.participant, one.model, one.method): one.value for one in values}
+        keys = [(one, model) for one in self.people for model in self.observations.models]
+        pairs, whose = [], set()
+        for first, second in zip(hypothesis.first, hypothesis.second, strict=True):
+            for participant, model in keys:
+                a, b = by.get((participant, model, first)), by.get((participant, model, second))
+                if a is not None and b is not None:
+                    pairs.append((a, b))
+                    whose.add(participant)
+        return pairs, len(whose)
+
+
+def _tested(pairing: _Pairing, hypothesis: Hypothesis, plan: Plan) -> Result:
+    rules, sample = pairing.rules, pairing.sample
+    pairs, people = pairing.pairs(hypothesis)
     test = _test(pairs, hypothesis, rules)
     if test is None:
         return Result(hypothesis, sample, people, 0, None, None)
@@ -110,38 +172,22 @@ def _test(pairs: Pairs, hypothesis: Hypothesis, rules: Rules) -> RankTest | None
     return signed_rank(differences(pairs), hypothesis.direction, rules.exact_up_to) if pairs else None
 
 
-def _pairs(observations: Observations, hypothesis: Hypothesis, sample: Sample, rules: Rules) -> tuple[Pairs, int]:
-    """The values that are compared, and of how many people."""
-    people = observations.participants
-    if rules.unit is Unit.PARTICIPANT:
-        values = of_people(observations, hypothesis.measure, sample)
-        pairs = sides(values, people, hypothesis.first, hypothesis.second)
-        return pairs, len(pairs)
-    by = {(v.participant, v.model, v.method): v.value for v in of_models(observations, hypothesis.measure, sample)}
-    if len(hypothesis.first) != len(hypothesis.second):
-        raise AnalysisError(
-            f"hypothesis {hypothesis.name!r}: rules {rules.name!r} pair the methods of both sides one by one, and there"
-            f" are {len(hypothesis.first)} and {len(hypothesis.second)}: name as many, or use rules 'retouch'"
-        )
-    keys = [(one, model) for one in people for model in observations.models]
-    pairs, whose = [], set()
-    for first, second in zip(hypothesis.first, hypothesis.second, strict=True):
-        for participant, model in keys:
-            a, b = by.get((participant, model, first)), by.get((participant, model, second))
-            if a is not None and b is not None:
-                pairs.append((a, b))
-                whose.add(participant)
-    return pairs, len(whose)
+def _adjusted(results: Sequence[Result], others: Sequence[Result], rules: Rules, alpha: float) -> list[Result]:
+    """The same results, adjusted in the family that they and the others make."""
 
+    def family(of: Sequence[Result]) -> list[tuple[Result, float]]:
+        return [(one, one.test.p) for one in of if one.hypothesis.confirmatory and one.test is not None]
 
-def _adjusted(results: Sequence[Result], rules: Rules, alpha: float) -> list[Result]:
-    """The same results with their family's adjustment."""
-    family = [i for i, one in enumerate(results) if one.hypothesis.confirmatory and one.test is not None]
-    p = [test.p for i in family if (test := results[i].test) is not None]
-    decided = holm(p) if rules.holm else p
-    adjusted = list(results)
-    for i, value in zip(family, decided, strict=True):
-        adjusted[i] = msgspec.structs.replace(
-            results[i], adjusted=value if rules.holm else None, rejected=value <= alpha
+    mine = family(results)
+    p = [value for _, value in [*mine, *family(others)]]
+    decided = dict(zip((one.hypothesis.name for one, _ in mine), holm(p) if rules.holm else p, strict=False))
+    return [
+        msgspec.structs.replace(
+            one,
+            adjusted=decided[one.hypothesis.name] if rules.holm else None,
+            rejected=decided[one.hypothesis.name] <= alpha,
         )
-    return adjusted
+        if one.hypothesis.name in decided
+        else one
+        for one in results
+    ]
