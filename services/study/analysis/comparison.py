@@ -60,11 +60,10 @@ def compared(observations: Observations, plan: Plan) -> tuple[Result, ...]:
 
     Raises:
         UnknownMethod: a hypothesis is about a method that nobody used.
-        AnalysisError: there are no such rules, or they cannot test a hypothesis.
+        AnalysisError: two hypotheses have one name, there are no such rules, or they cannot test a hypothesis.
     """
     rules = rules_of(plan.rules)
-    for one in plan.hypotheses:
-        one.check(observations)
+    plan.check(observations)
     found: list[Result] = []
     for sample in Sample:
         pairing = _Pairing(observations, sample, rules)

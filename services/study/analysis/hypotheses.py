@@ -7,7 +7,7 @@ from typing import Annotated
 
 import msgspec
 
-from services.study.analysis.exceptions import UnknownMethod
+from services.study.analysis.exceptions import AnalysisError, UnknownMethod
 from services.study.analysis.observations import Observations
 
 Share = Annotated[float, msgspec.Meta(gt=0.0, lt=1.0)]
@@ -138,3 +138,16 @@ class Plan(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     alpha: Share | None = None
     confidence: Share = 0.95
     seed: int = 0
+
+    def check(self, observations: Observations) -> None:
+        """Let pass hypotheses of names of their own about methods that were used.
+
+        Raises:
+            UnknownMethod: one was not.
+            AnalysisError: two have one name.
+        """
+        names = [one.name for one in self.hypotheses]
+        for one in self.hypotheses:
+            if names.count(one.name) > 1:
+                raise AnalysisError(f"two hypotheses are called {one.name!r}: give each a name of its own")
+            one.check(observations)
