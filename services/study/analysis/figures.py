@@ -38,6 +38,18 @@ def color_of(analysis: Analysis, method: str) -> str:
 def by_method(observations: Observations, analysis: Analysis) -> Figure:
     """Box, points and lines of each measure that people are compared in."""
     measures = [one for one in (Measure.SECONDS, Measure.WORKLOAD) if of_people(observations, one, Sample.PLANNED)]
+    return _compared(observations, analysis, measures, "by-method")
+
+
+def other_ratings(observations: Observations, analysis: Analysis) -> Figure | None:
+    """The same of what else was rated; None where nothing was."""
+    measures = [
+        one for one in (Measure.RAW_TLX, Measure.SUS, Measure.TRUST) if of_people(observations, one, Sample.ALL)
+    ]
+    return _compared(observations, analysis, measures, "other-ratings") if measures else None
+
+
+def _compared(observations: Observations, analysis: Analysis, measures: Sequence[Measure], name: str) -> Figure:
     canvas, axes = panels([_titled(one) for one in measures], height=3.4)
     for pane, measure in zip(axes, measures, strict=True):
         values = of_people(observations, measure, Sample.PLANNED)
@@ -48,7 +60,7 @@ def by_method(observations: Observations, analysis: Analysis) -> Figure:
         "A point is a participant: the median over models, or what was rated; a grey line joins the same participant."
         " Boxes have medians and quartiles, whiskers reach to the last value within one and a half of the box's height."
     )
-    return _finished(canvas, analysis, "by-method", caption)
+    return _finished(canvas, analysis, name, caption)
 
 
 def by_model(observations: Observations, analysis: Analysis) -> Figure:

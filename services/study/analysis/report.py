@@ -64,7 +64,7 @@ def html(
 ) -> str:
     """The report as text, see `report`."""
     drawn = {}
-    makers = (figures.by_method, figures.by_model, figures.adaptation, figures.learning)
+    makers = (figures.by_method, figures.other_ratings, figures.by_model, figures.adaptation, figures.learning)
     for i, make in enumerate(makers):
         drawn[make.__name__] = make(observations, analysis) if _can(make.__name__, observations) else None
         progress((i + 1) / (len(makers) + 2))
@@ -105,7 +105,7 @@ def _result(analysis: Analysis, measure: Measure, sample: Sample, stated: str) -
 def _can(name: str, observations: Observations) -> bool:
     """A figure has something to show."""
     timed = any(one.seconds is not None and one.adapted for one in observations.outcomes)
-    return timed or name in ("by_method", "adaptation")
+    return timed or name not in ("by_model", "learning")
 
 
 @cache

@@ -59,6 +59,10 @@ def of_people(observations: Observations, measure: Measure, sample: Sample) -> V
     grouped: dict[tuple[str, str], list[float]] = {}
     for one in of_models(observations, measure, sample):
         grouped.setdefault((one.participant, one.method), []).append(one.value)
+    if sample is Sample.RANKED_LAST:
+        for training in observations.trainings:
+            if not training.passed:  # where it ended there: there is no model to fail
+                grouped.setdefault((training.participant, training.method), [math.inf])
     return {pair: median(values) for pair, values in grouped.items()}
 
 

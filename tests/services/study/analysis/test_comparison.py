@@ -167,6 +167,16 @@ def test_a_failure_can_be_ranked_behind_every_time():
     assert last.people == 18
 
 
+def test_who_did_not_pass_the_training_is_ranked_last_without_a_model_to_fail():
+    made = changed(
+        study(np.random.default_rng(6)),
+        lambda one: None if (one.participant, one.method) == ("P03", "OffStyl") else one,
+    )
+    made = msgspec.structs.replace(made, trainings=(Training(participant="P03", method="OffStyl", passed=False),))
+    found = {r.sample: r for r in compared(made, Plan()) if r.hypothesis.name == "online is faster"}
+    assert (found[Sample.PLANNED].people, found[Sample.ALL].people, found[Sample.RANKED_LAST].people) == (17, 17, 18)
+
+
 def test_nobody_can_be_compared_and_it_is_no_crash():
     made = changed(study(np.random.default_rng(7)), lambda one: msgspec.structs.replace(one, adapted=False))
     found = planned(made)["online is faster"]
