@@ -100,7 +100,9 @@ def test_what_nobody_gave_is_said_to_be_not_given():
 
 
 def test_text_of_a_participant_is_no_markup_and_no_formula(made):
-    assert "<b>1</b>" not in (made[0] / REPORT).read_text()
+    text = (made[0] / REPORT).read_text()
+    assert "<b>1</b>" not in text
+    assert "&amp;" not in text, "nor is it escaped twice"
     assert rows(made[0] / "participants.csv")[0]["field"] == "'=<b>1</b>"
 
 
