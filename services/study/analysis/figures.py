@@ -94,8 +94,8 @@ def by_model(observations: Observations, analysis: Analysis) -> Figure:
         pane.set_ylim(min(seconds) / _HEADROOM, max(seconds) * _HEADROOM)
     axes[0].set_ylabel(_axis(Measure.SECONDS))
     caption = (
-        "Refinement time of every model that was adapted, on a logarithmic axis. Filled: participants who are in the analysis, the boxes are"
-        " theirs; open, on dashed lines: who is excluded from it."
+        "Refinement time of every model that was adapted, on a logarithmic axis. Filled: participants who are in the"
+        " analysis, the boxes are theirs; open, on dashed lines: who is excluded from it."
     )
     return _finished(canvas, analysis, "by-model", caption)
 

@@ -16,7 +16,7 @@ from scipy.special import ndtri
 
 from services.study.analysis.analysis import Analysis
 from services.study.analysis.exclusion import Sample
-from services.study.analysis.hypotheses import Direction
+from services.study.analysis.hypotheses import Direction, Measure
 from services.study.analysis.numerals import figure
 from services.study.analysis.observations import Background, Observations, in_order
 from services.study.analysis.rules import RETOUCH
@@ -96,7 +96,7 @@ def appendix(observations: Observations, analysis: Analysis, reporting: Reportin
         ("Teleoperation experience", _counted(people, "teleoperation")),
         ("Sample size and power", reporting.sample_size),
         ("Sensitivity", _sensitivity(analysis)),
-        ("Rules of exclusion", reporting.exclusion),
+        ("Rules of exclusion", reporting.exclusion or f"refinement time: {Sample.PLANNED.meaning(Measure.SECONDS)}"),
         ("Excluded", excluded),
         ("Declared invalid", f"{invalid} of {sum(cell.models for cell in flow.cells)} models"),
         ("Order of methods", _orders(observations)),
