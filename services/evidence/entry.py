@@ -1,21 +1,12 @@
-"""One line of the log: an event, its number and time, chained to all that came before.
-
-A line is JSON: `{"chain": C, "entry": E}`. E is the entry as it was written, byte for byte, and C the SHA-256 digest of
-the line's predecessor's digest and E, in hexadecimal, so that whoever knows the newest digest knows every line
-(S. Haber, W. S. Stornetta, How to time-stamp a digital document, J. Cryptology 3, 1991, section 5.1).
-"""
+"""One line of the log: an event, its number and time, chained to all that came before (services.process.chained)."""
 
 from __future__ import annotations
-
-import hashlib
 
 import msgspec
 
 from protocol.messages import Count
 from services.evidence.events import Event
-
-ORIGIN = "0" * 64
-"""The digest before the first line."""
+from services.process import chained
 
 LONGEST = 65_536
 """Bytes of a line, at most."""
@@ -41,11 +32,8 @@ class _Numbered(msgspec.Struct, frozen=True):
     number: Count
 
 
-class Line(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class Line(chained.Line, frozen=True, forbid_unknown_fields=True):
     """An entry as it lies in the file."""
-
-    chain: str
-    entry: msgspec.Raw
 
     @property
     def number(self) -> int:
@@ -60,26 +48,10 @@ class Line(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         except (ValueError, RecursionError):
             return None
 
-    def follows(self, chain: str) -> bool:
-        """Whether it was written after the line of this digest, and is as it was written."""
-        return self.chain == digest(chain, bytes(self.entry))
-
 
 _NUMBERS = msgspec.json.Decoder(_Numbered)
 _ENTRIES = msgspec.json.Decoder(Entry)
 _LINES = msgspec.json.Decoder(Line)
-
-
-def digest(chain: str, entry: bytes) -> str:
-    """Of a line, from its predecessor's digest and its entry."""
-    return hashlib.sha256(chain.encode() + entry).hexdigest()
-
-
-def written(entry: Entry, chain: str) -> tuple[bytes, str]:
-    """A line with its end, and its digest, after the line of the digest `chain`."""
-    raw = msgspec.json.encode(entry)
-    after = digest(chain, raw)
-    return msgspec.json.encode(Line(after, msgspec.Raw(raw))) + b"\n", after
 
 
 def read(text: bytes) -> Line | None:

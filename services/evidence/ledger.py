@@ -13,8 +13,9 @@ from pathlib import Path
 from typing import Protocol
 
 from protocol.names import checked_name
-from services.evidence.entry import LONGEST, ORIGIN, Entry, read, written
+from services.evidence.entry import LONGEST, Entry, read
 from services.evidence.events import Event, Repaired
+from services.process.chained import ORIGIN, sealed
 from services.process.files import make_folder, settle_names, state_folder
 
 log = logging.getLogger(__name__)
@@ -108,7 +109,7 @@ class LedgerFile:
         """Write one line: of several that are written at once a power cut may leave the last and not the first."""
         file = self._file = self._opened() if self._file is None else self._file
         at, event = self._waiting[0]
-        line, chain = written(Entry(number=self._number + 1, at=at, event=event), self._chain)
+        line, chain = sealed(Entry(number=self._number + 1, at=at, event=event), self._chain)
         try:
             if os.write(file, line) != len(line):
                 raise OSError(f"no room for {len(line)} bytes")

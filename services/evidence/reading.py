@@ -6,9 +6,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from services.evidence.entry import ORIGIN, Entry, Line, read
+from services.evidence.entry import Entry, Line, read
 from services.evidence.events import Repaired
 from services.evidence.exceptions import NoLog
+from services.process.chained import ORIGIN
 
 
 @dataclass(frozen=True)

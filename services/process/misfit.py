@@ -12,6 +12,7 @@ from services.process.suggestion import right
 
 _UNKNOWN = re.compile(r"Object contains unknown field `(.+)`")
 _PLACE = re.compile(r" - at `\$\.?(.*)`$")
+_COUNTED = re.compile(r"\[(\d+)\]")
 _PATTERN = re.compile(r" matching regex '.*'$")
 _NAMED = re.compile(r"\^\(([\w|]+)\)\$")  # a pattern that is a list of texts
 
@@ -52,10 +53,16 @@ def told(error: msgspec.ValidationError, kind: type) -> str:
 
 
 def _named(keys: list[str]) -> str:
-    """Section and key, as they stand in a file."""
-    section = ".".join(keys[:-1])
-    place = f"[{section}] {keys[-1]}".strip() if section else "".join(keys[-1:])
-    return f"{place}: " if place else ""
+    """Section and key, as they stand in a file; of a list of sections the one that it is, counted from 1."""
+    if not keys:
+        return ""
+    section, key = ".".join(keys[:-1]), _COUNTED.sub(lambda m: f", number {int(m[1]) + 1}", keys[-1])
+    if not section:
+        return f"{key}: "
+    counted = _COUNTED.search(section)
+    if counted is None:
+        return f"[{section}] {key}".strip() + ": "
+    return f"[[{_COUNTED.sub('', section)}]] number {int(counted[1]) + 1}, {key}: "
 
 
 def _type_at(kind: Any, keys: list[str]) -> Any:
@@ -63,7 +70,10 @@ def _type_at(kind: Any, keys: list[str]) -> Any:
     for key in keys:
         if isinstance(kind, inspect.UnionType) and any(key == getattr(one, "tag_field", None) for one in kind.types):
             return kind  # the key says which of them it is
-        kind = next((field.type for field in _fields(kind) if field.encode_name == key), None)
+        name = _COUNTED.sub("", key)
+        kind = next((field.type for field in _fields(kind) if field.encode_name == name), None)
+        if name != key:
+            kind = getattr(kind, "item_type", None)
     return kind
 
 

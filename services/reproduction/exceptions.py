@@ -1,6 +1,6 @@
-"""The study's failures.
+"""The reproduction's failures.
 
-StudyError
+ReproductionError
 ├── UnknownAnalysis  a name that no analysis has
 ├── CannotKeep       a folder that results cannot be kept in (an EnvironmentFault too)
 └── NothingToMap     a model that cannot be mapped
@@ -15,11 +15,11 @@ from pathlib import Path
 from services.process.exceptions import EnvironmentFault, ServiceError
 
 
-class StudyError(ServiceError):
-    """Base of what the study raises for a person to read."""
+class ReproductionError(ServiceError):
+    """Base of what the reproduction raises for a person to read."""
 
 
-class UnknownAnalysis(StudyError):
+class UnknownAnalysis(ReproductionError):
     """There is no analysis of that name."""
 
     def __init__(self, name: str, known: Sequence[str]) -> None:
@@ -29,7 +29,7 @@ class UnknownAnalysis(StudyError):
         super().__init__(f"no analysis is called {name!r}; {hint}")
 
 
-class CannotKeep(StudyError, EnvironmentFault):
+class CannotKeep(ReproductionError, EnvironmentFault):
     """Results cannot be written."""
 
     def __init__(self, folder: Path, reason: str, flag: str = "--out") -> None:
@@ -37,5 +37,5 @@ class CannotKeep(StudyError, EnvironmentFault):
         super().__init__(f"cannot keep results in {folder}: {reason}; choose another folder with {flag}")
 
 
-class NothingToMap(StudyError):
+class NothingToMap(ReproductionError):
     """The model's success cannot be mapped."""

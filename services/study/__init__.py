@@ -1,1 +1,1 @@
-"""The human-factors study: people, methods, measurements, and what they come to."""
+"""The human-factors study: run it, resume it, analyse it, publish it."""

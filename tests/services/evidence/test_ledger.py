@@ -10,11 +10,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from services.evidence.entry import ORIGIN
 from services.evidence.events import Repaired, StopChanged
 from services.evidence.exceptions import NoLog
 from services.evidence.ledger import LedgerFile, ledger_file
 from services.evidence.reading import Reader, verify
+from services.process.chained import ORIGIN
 from tests.services.robot.site import AtOnce, Later
 
 AT = datetime(2026, 3, 1, 8, 0, tzinfo=UTC)

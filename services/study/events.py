@@ -1,0 +1,301 @@
+"""What happens in a study, each an event of the journal: the raw data, from which all else is derived.
+
+Nothing here says who a participant is: names are kept apart (services.study.identities).
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import msgspec
+
+from services.study.protocol.protocol import Teaching
+
+Number = Annotated[int, msgspec.Meta(ge=1, le=9999)]
+Seconds = Annotated[float, msgspec.Meta(ge=0.0, le=1e6)]
+Short = Annotated[str, msgspec.Meta(max_length=200)]
+Long = Annotated[str, msgspec.Meta(max_length=4000)]
+
+Answer = bool | int | float | Annotated[str, msgspec.Meta(max_length=4000)]
+"""To one question."""
+
+
+class _Event(msgspec.Struct, frozen=True, kw_only=True, tag_field="event", forbid_unknown_fields=True):
+    """Base of all of them."""
+
+
+class Opened(_Event, frozen=True, tag="opened"):
+    """A console or a run has begun to write.
+
+    Attributes:
+        protocol: digest of the protocol's file.
+        software: versions, by name.
+        synthetic: all its participants are simulated.
+        resumed: it was open before.
+    """
+
+    protocol: Short
+    software: dict[str, Short]
+    synthetic: bool = False
+    resumed: bool = False
+
+
+class Deviated(_Event, frozen=True, tag="deviated"):
+    """The study is no longer as it was frozen, and somebody says why."""
+
+    changed: tuple[Short, ...]
+    reason: Long
+
+
+class Enrolled(_Event, frozen=True, tag="enrolled"):
+    """Somebody takes part.
+
+    Attributes:
+        participant: number.
+        order: of the methods, their names.
+        group: number of that order, from 0.
+        language: of the pages.
+        synthetic: it is nobody: simulated.
+        seed: of one who is.
+    """
+
+    participant: Number
+    order: tuple[Short, ...]
+    group: int
+    language: Short
+    synthetic: bool = False
+    seed: int = 0
+
+
+class Consented(_Event, frozen=True, tag="consented"):
+    """A participant has agreed to a text.
+
+    Attributes:
+        participant: number.
+        version: of the text.
+        language: of it.
+        text: its digest.
+    """
+
+    participant: Number
+    version: Short
+    language: Short
+    text: Short
+
+
+class Answered(_Event, frozen=True, tag="answered"):
+    """A questionnaire was filled in, complete.
+
+    Attributes:
+        participant: number.
+        instrument: its name.
+        version: of it.
+        language: in which it was read.
+        after: the method that it is about; empty for none.
+        shown: names of its questions, in the order in which they came.
+        answers: by question.
+    """
+
+    participant: Number
+    instrument: Short
+    version: Short
+    language: Short
+    shown: tuple[Short, ...]
+    answers: dict[Short, Answer]
+    after: Short = ""
+
+
+class Began(_Event, frozen=True, tag="began"):
+    """A part of a participant's session begins: see `services.study.session.course`."""
+
+    participant: Number
+    part: Short
+
+
+class Attempted(_Event, frozen=True, tag="attempted"):
+    """One execution, whoever led it, succeeded or not.
+
+    Attributes:
+        participant: number.
+        part: of the session.
+        number: in that part, from 1.
+        teaching: how the operator led; None where the robot moved alone.
+        updates: of the model, before it.
+        success: all criteria are met.
+        reached: the target.
+        kicked_over: what was to stay.
+        collision: with something.
+        active: how long the operator could act [s].
+        began: since the part's begin [s].
+        ended: since the part's begin [s].
+        raw: other times since the part's begin, by name [s].
+        why: it ended otherwise than by itself; empty where it did not.
+        recording: file that holds it, in the study's folder; empty for none.
+    """
+
+    participant: Number
+    part: Short
+    number: Number
+    teaching: Teaching | None
+    updates: Annotated[int, msgspec.Meta(ge=0)]
+    success: bool
+    reached: bool
+    kicked_over: bool
+    collision: bool
+    active: Seconds
+    began: Seconds
+    ended: Seconds
+    raw: dict[Short, Seconds] = msgspec.field(default_factory=dict)
+    why: Short = ""
+    recording: Short = ""
+
+
+class Ended(_Event, frozen=True, tag="ended"):
+    """A part is over.
+
+    Attributes:
+        participant: number.
+        part: of the session.
+        passed: the training was, the model was adapted; true for all other parts.
+        seconds: that the operator could act in it [s].
+    """
+
+    participant: Number
+    part: Short
+    passed: bool = True
+    seconds: Seconds = 0.0
+
+
+class Paused(_Event, frozen=True, tag="paused"):
+    """The experimenter has interrupted."""
+
+    participant: Number
+    reason: Long = ""
+
+
+class GoneOn(_Event, frozen=True, tag="gone_on"):
+    """It goes on after a pause or a crash.
+
+    Attributes:
+        participant: number.
+        part: that begins anew.
+        since: the last checkpoint [s].
+        by_hand: the experimenter has decided it, since that was long ago.
+    """
+
+    participant: Number
+    part: Short
+    since: Seconds
+    by_hand: bool
+
+
+class Invalid(_Event, frozen=True, tag="invalid"):
+    """What was recorded of a part does not count.
+
+    Attributes:
+        participant: number.
+        part: of the session.
+        reason: why.
+        repeat: it is done again.
+    """
+
+    participant: Number
+    part: Short
+    reason: Long
+    repeat: bool = False
+
+
+class Noted(_Event, frozen=True, tag="noted"):
+    """The experimenter has written something down."""
+
+    participant: Number | None
+    text: Long
+
+
+class Dropped(_Event, frozen=True, tag="dropped"):
+    """A participant does not go on.
+
+    Attributes:
+        participant: number.
+        reason: aborted by the experimenter, failed the training, ...
+        replaced: somebody else gets the order.
+    """
+
+    participant: Number
+    reason: Long
+    replaced: bool
+
+
+class Withdrawn(_Event, frozen=True, tag="withdrawn"):
+    """A participant has withdrawn; what was recorded of them is deleted where they want that.
+
+    Attributes:
+        participant: number.
+        delete: they want it.
+    """
+
+    participant: Number
+    delete: bool
+
+
+class Erased(_Event, frozen=True, tag="erased"):
+    """Stands where something was that a participant has had deleted: their tombstone.
+
+    Attributes:
+        participant: number.
+        was: digest of the line that stood there.
+    """
+
+    participant: Number
+    was: Short
+
+
+class Finished(_Event, frozen=True, tag="finished"):
+    """A participant has done all of it."""
+
+    participant: Number
+
+
+class Repaired(_Event, frozen=True, tag="repaired"):
+    """What a power cut left of a line stands before this one.
+
+    Attributes:
+        size: of it [byte].
+    """
+
+    size: int
+
+
+Event = (
+    Opened
+    | Deviated
+    | Enrolled
+    | Consented
+    | Answered
+    | Began
+    | Attempted
+    | Ended
+    | Paused
+    | GoneOn
+    | Invalid
+    | Noted
+    | Dropped
+    | Withdrawn
+    | Erased
+    | Finished
+    | Repaired
+)
+
+
+class Entry(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """An event as it stands in the journal.
+
+    Attributes:
+        number: counts from 1.
+        at: when, UTC, ISO 8601.
+        event: what happened.
+    """
+
+    number: int
+    at: str
+    event: Event

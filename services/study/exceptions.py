@@ -1,0 +1,107 @@
+"""The study's failures.
+
+StudyError
+├── ProtocolUnfit      a protocol or questionnaire that contradicts itself
+├── NoStudy            a folder that holds none
+├── StudyThere         one that holds one already
+├── StudyInUse         another console or run has the study open (an EnvironmentFault too)
+├── StudyFrozen        what was frozen has changed since, and nobody has said why
+├── NotFrozen          a study that has to be frozen before people take part
+├── JournalBroken      a journal that is not as it was written, or of another version
+├── ParticipantUnknown no participant has this number
+├── ParticipantThere   one has it already
+└── AnswerRefused      an answer that is missing, or outside what its question allows
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from services.process.exceptions import EnvironmentFault, ServiceError
+
+
+class StudyError(ServiceError):
+    """Base of what a study raises for a person to read."""
+
+
+class ProtocolUnfit(StudyError):
+    """A file of the study contradicts itself."""
+
+    def __init__(self, path: Path, place: str, reason: str) -> None:
+        self.path, self.place, self.reason = path, place, reason
+        super().__init__(f"{path}: {place}: {reason}")
+
+
+class NoStudy(StudyError):
+    """The folder holds no study."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        super().__init__(f"there is no study in {folder}: make one with 'retouch study new {folder}'")
+
+
+class StudyThere(StudyError):
+    """The folder is not empty."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        super().__init__(f"{folder} is not empty: a new study wants a folder of its own")
+
+
+class StudyInUse(StudyError, EnvironmentFault):
+    """Somebody else writes the journal."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        super().__init__(f"the study in {folder} is open elsewhere: end that console or run first")
+
+
+class StudyFrozen(StudyError):
+    """Something that was frozen is another now."""
+
+    def __init__(self, folder: Path, changed: tuple[str, ...]) -> None:
+        self.folder, self.changed = folder, changed
+        super().__init__(
+            f"the study in {folder} is frozen, and since then changed: {', '.join(changed)};"
+            " put it back, or say why with --deviation 'REASON', which is written down"
+        )
+
+
+class NotFrozen(StudyError):
+    """The protocol may still change."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        super().__init__(f"the study in {folder} is not frozen yet: first say 'retouch study freeze {folder}'")
+
+
+class JournalBroken(StudyError):
+    """The journal is not as it was written."""
+
+    def __init__(self, path: Path, line: int, reason: str) -> None:
+        self.path, self.line, self.reason = path, line, reason
+        super().__init__(f"{path}: line {line}: {reason}; nothing was changed in it")
+
+
+class ParticipantUnknown(StudyError):
+    """Nobody has this number."""
+
+    def __init__(self, number: int) -> None:
+        self.number = number
+        super().__init__(f"there is no participant {number}")
+
+
+class ParticipantThere(StudyError):
+    """The number is taken."""
+
+    def __init__(self, number: int) -> None:
+        self.number = number
+        super().__init__(f"there is a participant {number} already: each number is one person's")
+
+
+class AnswerRefused(StudyError):
+    """An answer does not fit its question."""
+
+    def __init__(self, question: str, reason: str) -> None:
+        self.question, self.reason = question, reason
+        super().__init__(f"{question}: {reason}")

@@ -1,0 +1,200 @@
+"""What a participant goes through, part by part, and how far they are: from the protocol and the journal alone.
+
+Nothing of it lives in a process: whoever opens the journal, after a crash or a week, finds each participant where they
+were.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+from services.study.events import (
+    Answered,
+    Attempted,
+    Consented,
+    Dropped,
+    Ended,
+    Enrolled,
+    Entry,
+    Event,
+    Finished,
+    Invalid,
+    Withdrawn,
+)
+from services.study.protocol.protocol import Protocol
+
+
+@dataclass(frozen=True)
+class Agree:
+    """To the consent text."""
+
+    name: str = "consent"
+
+
+@dataclass(frozen=True)
+class Fill:
+    """A questionnaire.
+
+    Attributes:
+        instrument: its name.
+        after: the method that it is about; empty for none.
+    """
+
+    instrument: str
+    after: str = ""
+
+    @property
+    def name(self) -> str:
+        """Of the part."""
+        return f"{self.instrument}/{self.after}" if self.after else self.instrument
+
+
+@dataclass(frozen=True)
+class Train:
+    """With a method, until it works."""
+
+    method: str
+
+    @property
+    def name(self) -> str:
+        """Of the part."""
+        return f"{self.method}/training"
+
+
+@dataclass(frozen=True)
+class Adapt:
+    """One model, with a method.
+
+    Attributes:
+        method: its name.
+        model: number, from 1.
+    """
+
+    method: str
+    model: int
+
+    @property
+    def name(self) -> str:
+        """Of the part."""
+        return f"{self.method}/{self.model}"
+
+
+@dataclass(frozen=True)
+class Rest:
+    """A break before the next method."""
+
+    after: str
+
+    @property
+    def name(self) -> str:
+        """Of the part."""
+        return f"break/{self.after}"
+
+
+Part = Agree | Fill | Train | Adapt | Rest
+
+
+def course(protocol: Protocol, order: Sequence[str]) -> tuple[Part, ...]:
+    """All parts of a session, in their order.
+
+    Args:
+        protocol: of the study.
+        order: of the methods.
+    """
+    parts: list[Part] = [Agree(), *(Fill(name) for name in protocol.instruments.before)]
+    for number, method in enumerate(order, 1):
+        parts += [Train(method), *(Adapt(method, model + 1) for model in range(protocol.task.models))]
+        parts += [Fill(name, method) for name in protocol.instruments.after_method]
+        if number < len(order) and protocol.breaks.minutes:
+            parts.append(Rest(method))
+    return (*parts, *(Fill(name) for name in protocol.instruments.after))
+
+
+@dataclass
+class Participant:
+    """How far somebody is.
+
+    Attributes:
+        enrolled: as they were.
+        ended: parts that are over, with how they ended.
+        attempts: of each part, the newest round of it; those of invalid rounds are in `void`.
+        void: attempts that do not count, and why.
+        answers: by part.
+        consented: to the text.
+        gone: why they do not go on; empty while they do.
+        finished: they have done all of it.
+    """
+
+    enrolled: Enrolled
+    ended: dict[str, Ended] = field(default_factory=dict)
+    attempts: dict[str, list[Attempted]] = field(default_factory=dict)
+    void: list[tuple[Attempted, str]] = field(default_factory=list)
+    answers: dict[str, Answered] = field(default_factory=dict)
+    invalid: dict[str, str] = field(default_factory=dict)
+    consented: bool = False
+    gone: str = ""
+    finished: bool = False
+
+    @property
+    def number(self) -> int:
+        """Their number."""
+        return self.enrolled.participant
+
+    def next(self, protocol: Protocol) -> Part | None:
+        """The part that comes now; None where they are through, or gone."""
+        if self.gone:
+            return None
+        failed = {
+            part.removesuffix("/training") for part, end in self.ended.items() if not end.passed and "/training" in part
+        }
+        for part in course(protocol, self.enrolled.order):
+            if part.name in self.ended or (isinstance(part, Agree) and self.consented):
+                continue
+            if isinstance(part, Adapt) and part.method in failed:
+                continue  # a method whose training failed is not workable for this person
+            return part
+        return None
+
+    def hear(self, event: Event) -> None:
+        """Something of theirs has happened."""
+        match event:
+            case Consented():
+                self.consented = True
+            case Answered(instrument=instrument, after=after):
+                name = Fill(instrument, after).name
+                self.answers[name] = event
+                self.ended[name] = Ended(participant=self.number, part=name)
+            case Attempted(part=part):
+                self.attempts.setdefault(part, []).append(event)
+            case Ended(part=part):
+                self.ended[part] = event
+            case Invalid(part=part, reason=reason, repeat=repeat):
+                self._void(part, reason, repeat=repeat)
+            case Dropped(reason=reason):
+                self.gone = reason
+            case Withdrawn():
+                self.gone = "withdrawn"
+            case Finished():
+                self.finished = True
+            case _:
+                pass
+
+    def _void(self, part: str, reason: str, *, repeat: bool) -> None:
+        self.void += [(attempt, reason) for attempt in self.attempts.pop(part, [])]
+        if repeat:
+            self.ended.pop(part, None)
+        else:
+            self.invalid[part] = reason
+
+
+def participants(entries: Iterable[Entry]) -> dict[int, Participant]:
+    """All who were enrolled, by their numbers."""
+    found: dict[int, Participant] = {}
+    for entry in entries:
+        event = entry.event
+        if isinstance(event, Enrolled):
+            found[event.participant] = Participant(event)
+        elif (number := getattr(event, "participant", None)) in found:
+            found[number].hear(event)
+    return found
