@@ -266,25 +266,12 @@ class Repaired(_Event, frozen=True, tag="repaired"):
     size: int
 
 
-Event = (
-    Opened
-    | Deviated
-    | Enrolled
-    | Consented
-    | Answered
-    | Began
-    | Attempted
-    | Ended
-    | Paused
-    | GoneOn
-    | Invalid
-    | Noted
-    | Dropped
-    | Withdrawn
-    | Erased
-    | Finished
-    | Repaired
+OfParticipant = (
+    Consented | Answered | Began | Attempted | Ended | Paused | GoneOn | Invalid | Dropped | Withdrawn | Finished
 )
+"""What happens to somebody who was enrolled."""
+
+Event = Opened | Deviated | Enrolled | OfParticipant | Noted | Erased | Repaired
 
 
 class Entry(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

@@ -10,7 +10,8 @@ StudyError
 ├── JournalBroken      a journal that is not as it was written, or of another version
 ├── ParticipantUnknown no participant has this number
 ├── ParticipantThere   one has it already
-└── AnswerRefused      an answer that is missing, or outside what its question allows
+├── AnswerRefused      an answer that is missing, or outside what its question allows
+└── NotNow             something that cannot be done at this point of a session
 """
 
 from __future__ import annotations
@@ -105,3 +106,7 @@ class AnswerRefused(StudyError):
     def __init__(self, question: str, reason: str) -> None:
         self.question, self.reason = question, reason
         super().__init__(f"{question}: {reason}")
+
+
+class NotNow(StudyError):
+    """It is not the time for it."""

@@ -12,14 +12,16 @@ from dataclasses import dataclass, field
 from services.study.events import (
     Answered,
     Attempted,
+    Began,
     Consented,
     Dropped,
     Ended,
     Enrolled,
     Entry,
-    Event,
     Finished,
+    GoneOn,
     Invalid,
+    Paused,
     Withdrawn,
 )
 from services.study.protocol.protocol import Protocol
@@ -121,7 +123,11 @@ class Participant:
         attempts: of each part, the newest round of it; those of invalid rounds are in `void`.
         void: attempts that do not count, and why.
         answers: by part.
+        invalid: parts that do not count and are not repeated, with the reason.
         consented: to the text.
+        paused: the experimenter has interrupted.
+        begun: the part that has begun last.
+        last: when the newest of all this was, UTC, ISO 8601; empty right after they were enrolled.
         gone: why they do not go on; empty while they do.
         finished: they have done all of it.
     """
@@ -133,6 +139,9 @@ class Participant:
     answers: dict[str, Answered] = field(default_factory=dict)
     invalid: dict[str, str] = field(default_factory=dict)
     consented: bool = False
+    paused: bool = False
+    begun: str = ""
+    last: str = ""
     gone: str = ""
     finished: bool = False
 
@@ -156,9 +165,16 @@ class Participant:
             return part
         return None
 
-    def hear(self, event: Event) -> None:
+    def hear(self, entry: Entry) -> None:
         """Something of theirs has happened."""
-        match event:
+        self.last = entry.at
+        match event := entry.event:
+            case Began(part=part):
+                self.begun = part
+            case Paused():
+                self.paused = True
+            case GoneOn():
+                self.paused = False
             case Consented():
                 self.consented = True
             case Answered(instrument=instrument, after=after):
@@ -196,5 +212,5 @@ def participants(entries: Iterable[Entry]) -> dict[int, Participant]:
         if isinstance(event, Enrolled):
             found[event.participant] = Participant(event)
         elif (number := getattr(event, "participant", None)) in found:
-            found[number].hear(event)
+            found[number].hear(entry)
     return found
