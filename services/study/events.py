@@ -41,9 +41,14 @@ class Opened(_Event, frozen=True, tag="opened"):
 
 
 class Deviated(_Event, frozen=True, tag="deviated"):
-    """The study is no longer as it was frozen, and somebody says why."""
+    """The study is no longer as it was frozen, and somebody says why.
 
-    changed: tuple[Short, ...]
+    Attributes:
+        changed: what is another, with its digest or version now; empty for one that is not there any more.
+        reason: why.
+    """
+
+    changed: dict[Short, Short]
     reason: Long
 
 

@@ -7,6 +7,8 @@ StudyError
 ├── StudyInUse         another console or run has the study open (an EnvironmentFault too)
 ├── StudyFrozen        what was frozen has changed since, and nobody has said why
 ├── NotFrozen          a study that has to be frozen before people take part
+├── FrozenAlready      one that was frozen before
+├── Mixed              people and simulated participants in one study
 ├── JournalBroken      a journal that is not as it was written, or of another version
 ├── ParticipantUnknown no participant has this number
 ├── ParticipantThere   one has it already
@@ -74,6 +76,23 @@ class NotFrozen(StudyError):
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         super().__init__(f"the study in {folder} is not frozen yet: first say 'retouch study freeze {folder}'")
+
+
+class FrozenAlready(StudyError):
+    """A study is frozen once."""
+
+    def __init__(self, folder: Path, at: str) -> None:
+        self.folder, self.at = folder, at
+        super().__init__(f"the study in {folder} was frozen at {at}; what changes since then is a deviation")
+
+
+class Mixed(StudyError):
+    """Simulated participants and people are never in one study."""
+
+    def __init__(self, folder: Path, *, synthetic: bool) -> None:
+        self.folder = folder
+        there = "synthetic participants" if synthetic else "people"
+        super().__init__(f"the study in {folder} has {there}: take a folder of its own for the others")
 
 
 class JournalBroken(StudyError):

@@ -141,6 +141,11 @@ class Instruments(Section, frozen=True):
     after_method: tuple[Name, ...] = ("nasa_tlx",)
     after: tuple[Name, ...] = ()
 
+    @property
+    def all(self) -> tuple[str, ...]:
+        """Each once, in the order in which they come."""
+        return tuple(dict.fromkeys((*self.before, *self.after_method, *self.after)))
+
 
 class Breaks(Section, frozen=True):
     """Between two methods, at least [min]."""

@@ -1,0 +1,109 @@
+"""A preregistration's text, from the protocol: what an ethics board and a registry ask, in their order."""
+
+from __future__ import annotations
+
+from services.study.freezing import Frozen
+from services.study.protocol.orders import Allocation, orders
+from services.study.protocol.protocol import Direction, Exclusion, Hypothesis, Protocol
+
+FILE = "preregistration.md"
+
+_EXCLUSIONS = {
+    Exclusion.NOT_ADAPTED: "Who did not adapt a model with any of the methods is left out of what is measured in time.",
+    Exclusion.TRAINING_FAILED: "Who failed the training of any method is left out of what is measured in time.",
+    Exclusion.INCOMPLETE: "Who did not do all methods, or did not fill in all questionnaires, is left out.",
+}
+
+
+def text(protocol: Protocol, frozen: Frozen) -> str:
+    """The whole of it, in Markdown."""
+    return "\n".join(
+        [
+            f"# {protocol.title}",
+            "",
+            f"Protocol `{protocol.name}`, version {protocol.version}, frozen at {frozen.at} (UTC).",
+            "",
+            "## Hypotheses",
+            "",
+            *(_hypothesis(one) for one in protocol.hypotheses),
+            "",
+            "## Design",
+            "",
+            *_design(protocol),
+            "",
+            "## Sample",
+            "",
+            f"{protocol.order.participants} participants. {_whole(protocol.recruitment.inclusion)}",
+            f"Recruitment: {_whole(protocol.recruitment.how)}",
+            f"Compensation: {_whole(protocol.recruitment.compensation)}",
+            f"Ethics: {_whole(protocol.recruitment.ethics)}",
+            "",
+            "## Measures",
+            "",
+            "`seconds`: time in which the operator could act, until a model was adapted; replay, reset and settling do",
+            "not count, for any method. `refinements` and `updates`: how many it took.",
+            f"Questionnaires: {', '.join(protocol.instruments.all)}.",
+            "",
+            "## Exclusions",
+            "",
+            *(f"- {_EXCLUSIONS[rule]}" for rule in protocol.analysis.exclusions),
+            "",
+            "Every result is reported with and without them.",
+            "",
+            "## Analysis",
+            "",
+            f"By the rules `{protocol.analysis.rules}`, at a level of {protocol.analysis.alpha:g} for the family of"
+            " confirmatory hypotheses.",
+            f"Smallest effect of interest: {protocol.analysis.smallest_effect:.0%} of the first side's median.",
+            "",
+            "## Digests",
+            "",
+            *(f"- {name}: `{value}`" for name, value in frozen.files.items()),
+            f"- the analysis: `{frozen.analysis}`",
+            f"- software: {', '.join(f'{name} {version}' for name, version in frozen.software.items())}",
+            "",
+        ]
+    )
+
+
+def _hypothesis(one: Hypothesis) -> str:
+    first, second = " and ".join(one.first), " and ".join(one.second)
+    match one.direction:
+        case Direction.EITHER:
+            said = f"`{one.measure}` differs between {first} and {second}"
+        case direction:
+            said = f"`{one.measure}` is {direction.value} with {first} than with {second}"
+    return f"- {one.name}: {said} ({'confirmatory' if one.confirmatory else 'exploratory'})."
+
+
+def _design(protocol: Protocol) -> list[str]:
+    task, training = protocol.task, protocol.training
+    rows = orders(protocol.order, [method.name for method in protocol.methods])
+    allocation = Allocation(protocol.order, len(rows))
+    return [
+        "Within participants: each does all methods, in one of these orders.",
+        "",
+        *(f"{number}. {', '.join(row)}" for number, row in enumerate(rows, 1)),
+        "",
+        f"Allocated in shuffled blocks (seed {protocol.order.seed}):"
+        f" {', '.join(str(group + 1) for group in allocation.table())}.",
+        "Who drops out is replaced by somebody with the same order."
+        if protocol.order.replace
+        else "Who drops out is not replaced.",
+        "",
+        *(
+            f"- {method.name}: {method.teaching.value}, {method.device.value}. {method.about}"
+            for method in protocol.methods
+        ),
+        "",
+        f"With each method {task.models} identical models are adapted, with at most {task.updates} updates each and"
+        f" {task.refinements} attempts at an update.",
+        f"Before each method: training until {training.successes} of the last {training.of_last} attempts succeeded,"
+        f" {training.minutes:g} minutes at most.",
+    ]
+
+
+def _whole(text: str) -> str:
+    """A sentence, with its end."""
+    stripped = text.strip()
+    return stripped if stripped.endswith((".", "!", "?")) else f"{stripped}."
