@@ -30,10 +30,12 @@ class Attention:
 
     Args:
         sight: Of the place.
+        reaction: From seeing to acting on it [s].
     """
 
-    def __init__(self, sight: Sight) -> None:
+    def __init__(self, sight: Sight, reaction: float = REACTION) -> None:
         self._sight = sight
+        self._reaction = reaction
         self._seen: deque[Glimpse] = deque()
 
     def look(self, time: float, progress: float, robot: Pose) -> Glimpse:
@@ -47,14 +49,14 @@ class Attention:
         dt = time - self._seen[-1].time if self._seen else 0.0
         seems = Pose(self._sight.look(robot.position, dt), robot.orientation)
         self._seen.append(Glimpse(time, progress, seems))
-        while len(self._seen) > 1 and self._seen[1].time <= time - REACTION - GLANCE:
+        while len(self._seen) > 1 and self._seen[1].time <= time - self._reaction - GLANCE:
             self._seen.popleft()
         return self.noticed
 
     @property
     def noticed(self) -> Glimpse:
         """The newest that is a reaction time old; the oldest where none is."""
-        old = [glimpse for glimpse in self._seen if glimpse.time <= self._seen[-1].time - REACTION]
+        old = [glimpse for glimpse in self._seen if glimpse.time <= self._seen[-1].time - self._reaction]
         return old[-1] if old else self._seen[0]
 
     @property

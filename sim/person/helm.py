@@ -42,10 +42,14 @@ class Helm:
 
     Args:
         attention: Of the person.
+        askew: By how much they misjudge the axes of the device, about the vertical [rad].
     """
 
-    def __init__(self, attention: Attention) -> None:
+    def __init__(self, attention: Attention, askew: float = 0.0) -> None:
         self._attention = attention
+        cos, sin = np.cos(askew), np.sin(askew)
+        turn = np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
+        self._pushed = np.kron(np.eye(2), turn)  # along the axes and about them alike
 
     def correct(self, hand: Reach[Act], time: float, progress: float, robot: Pose, intention: Intention) -> Act:
         """Lead a robot off its prediction while it moves.
@@ -64,7 +68,7 @@ class Helm:
         wanted = np.concatenate([intention.displacement(ahead), intention.rotation(ahead)])
         expected = hand.expected(seen, noticed.time - FOLLOWS, decays=True)
         # A robot that stands still is waiting: pushing harder would only make it jump later.
-        return hand.act(time, wanted - expected if pace > _STANDS else np.zeros(6))
+        return hand.act(time, self._pushed @ (wanted - expected) if pace > _STANDS else np.zeros(6))
 
     def lead(self, hand: Reach[Act], time: float, robot: Pose, itinerary: Itinerary) -> tuple[Act, bool]:
         """Lead a robot that nothing else leads; and whether it stands where it was led to.
@@ -78,7 +82,7 @@ class Helm:
         noticed = self._attention.look(time, 0.0, robot)
         seen = _between(itinerary.aim, noticed.robot)
         left = -hand.expected(seen, noticed.time - FOLLOWS_LED, decays=False)
-        return hand.act(time, left), itinerary.arrived(time, left)
+        return hand.act(time, self._pushed @ left), itinerary.arrived(time, left)
 
 
 def _between(one: Pose, other: Pose) -> Array:

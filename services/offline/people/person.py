@@ -23,7 +23,7 @@ from services.process.clock import Clock
 from services.station.page.view import PageView
 from services.station.press import Press
 from sim import tasks as scenes
-from sim.person.attention import Attention
+from sim.person.attention import REACTION, Attention
 from sim.person.helm import Helm
 from sim.person.intention import Intention
 from sim.person.itinerary import Itinerary
@@ -70,11 +70,17 @@ class Character:
         seed: of all that is not meant.
         scatter: between two ways that they mean alike, while the robot moves [m].
         misjudgement: standard deviation of the error of the depth that they see [m].
+        reaction: from seeing to acting on it; with a stylus it is everybody's [s].
+        askew: by how much they misjudge the axes of keys, sticks and pads, about the vertical [rad].
+        looks_first: they let the robot try what it knows before they teach it.
     """
 
     seed: int
     scatter: float
     misjudgement: float
+    reaction: float = REACTION
+    askew: float = 0.0
+    looks_first: bool = False
 
 
 class NoEffects:
@@ -193,11 +199,18 @@ class Person:
             return Press("go_on")
         if teaching.phase != "deciding":
             return None
-        if teaching.updates:
+        if self._lets_it_try(teaching):
             return Press("execute")
         if teaching.method is not self._how.method:
             return Press("method", self._how.method.value)
         return self._shows(teaching)
+
+    def _lets_it_try(self, teaching: TeachingState) -> bool:
+        """What the robot has just learnt, and what it knows already where they look first."""
+        if not teaching.attempts:
+            return self._who.looks_first
+        last = teaching.attempts[-1]
+        return teaching.updates > 0 and last.mode is not Mode.AUTONOMOUS and last.verdict.success
 
     def _shows(self, teaching: TeachingState) -> Press:
         match self._how:
@@ -260,7 +273,8 @@ class Person:
         place = np.array(arranged.condition or (seen.message.pose.position if seen is not None else ()))
         start = Pose(np.array(arranged.start.position), np.array(arranged.start.orientation))
         outlook = Outlook(scene, arranged.variant, place, start)
-        helm = Helm(Attention(Sight(np.array(scene.eye.position), self._who.misjudgement, self._of_sight)))
+        sight = Sight(np.array(scene.eye.position), self._who.misjudgement, self._of_sight)
+        helm = Helm(Attention(sight, self._who.reaction), self._who.askew)
         if robot.mode is Mode.TEACH:
             predicted = self._predictions.newest()
             known = None if predicted is None else motion_from_wire(predicted.motion)[0]

@@ -1,0 +1,1 @@
+"""Participants who are simulated: marked as such in every row, file and figure."""

@@ -1,0 +1,203 @@
+"""One method with one synthetic participant: training and all models, in the simulator, as fast as it can."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from itertools import takewhile
+from pathlib import Path
+
+from threadpoolctl import threadpool_limits
+
+from lfd.motion.demonstration import Demonstration
+from protocol.messages import Mode, TeachingState
+from services.offline.people import hands
+from services.offline.people.person import Character, Person, Teaching
+from services.offline.pool import Progress
+from services.offline.result import Arrangement
+from services.offline.stage import Stage, give
+from services.process.config import Configuration, MasterSection, ModelSection, RobotSection, StationSection
+from services.process.master_devices import Page, Scripted
+from services.study.events import Attempted
+from services.study.protocol.protocol import Device, Method, Task, Training
+from services.study.session.watch import Watch
+from services.study.synthetic.character import Nature
+
+LONGEST_S = 1800.0
+"""Of a part, of the robot's time [s]."""
+
+METHOD_H = 0.4
+"""That a method takes, as people tire [h]."""
+
+PERIOD_NS = 10_000_000
+"""Between two looks at the robot."""
+
+_DEVICES = {
+    Device.STYLUS: hands.Device.STYLUS,
+    Device.KEYBOARD: hands.Device.KEYBOARD,
+    Device.GAMEPAD: hands.Device.GAMEPAD,
+    Device.SPACEMOUSE: hands.Device.SPACE_MOUSE,
+    Device.POINTER: hands.Device.POINTER,
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Lesson:
+    """What is done.
+
+    Attributes:
+        participant: number.
+        nature: theirs.
+        method: with which.
+        place: of the method in their order, from 1.
+        task: of the protocol.
+        training: of the protocol.
+        demonstrations: that each model starts from.
+        arrangement: that the robot finds.
+    """
+
+    participant: int
+    nature: Nature
+    method: Method
+    place: int
+    task: Task
+    training: Training
+    demonstrations: tuple[Demonstration, ...]
+    arrangement: Arrangement
+
+    def configuration(self, seed: int, scatter: float, database: Path) -> Configuration:
+        """Of the services."""
+        led = Scripted(scatter=scatter) if self.method.device is Device.STYLUS else Page()
+        return Configuration(
+            seed=seed,
+            robot=RobotSection(scene=self.task.scene),
+            master=MasterSection(device=led),
+            model=ModelSection(database=str(database)),
+            station=StationSection(
+                refinements_allowed=self.task.refinements, updates_allowed=self.task.updates, once=True
+            ),
+        )
+
+
+@dataclass(frozen=True)
+class Done:
+    """One part of it.
+
+    Attributes:
+        part: its name.
+        attempts: in their order.
+        passed: the training was, or the model was adapted.
+        seconds: that the operator could act [s].
+        lasted: from begin to end [s].
+    """
+
+    part: str
+    attempts: tuple[Attempted, ...]
+    passed: bool
+    seconds: float
+    lasted: float
+
+
+def given(lesson: Lesson, progress: Progress = lambda _: None) -> tuple[Done, ...]:
+    """The training, and where it is passed all models.
+
+    Raises:
+        ServiceError: the services cannot be built, or refuse a demonstration.
+    """
+    parts = [_trained(lesson)]
+    for model in range(1, lesson.task.models + 1) if parts[0].passed else ():
+        progress(model / (1 + lesson.task.models))
+        over = partial(_adapted, task=lesson.task)
+        parts.append(_taught(lesson, _Round(f"{lesson.method.name}/{model}", model), over))
+    progress(1.0)
+    return tuple(parts)
+
+
+@dataclass(frozen=True)
+class _Round:
+    """With one model, from its first demonstrations.
+
+    Attributes:
+        part: whose name.
+        number: no two of a method are the same.
+        known: attempts of the part in rounds before.
+        lasted: these rounds [s].
+    """
+
+    part: str
+    number: int
+    known: int = 0
+    lasted: float = 0.0
+
+
+def _trained(lesson: Lesson) -> Done:
+    """Round after round, until enough of the last attempts succeeded."""
+    rule, name = lesson.training, f"{lesson.method.name}/training"
+    attempts: list[Attempted] = []
+    led: list[bool] = []
+    seconds = lasted = 0.0
+    passed = False
+    while not passed and len(led) < rule.attempts and lasted < 60.0 * rule.minutes:
+        done = _taught(lesson, _Round(name, 100 + len(attempts), len(attempts), lasted), _succeeded)
+        if not done.attempts:
+            break
+        attempts += done.attempts
+        seconds, lasted = seconds + done.seconds, lasted + done.lasted
+        led += [attempt.success for attempt in done.attempts if attempt.teaching is not None]
+        passed = sum(led[-rule.of_last :]) >= rule.successes
+    return Done(name, tuple(attempts), passed, round(seconds, 3), round(lasted, 3))
+
+
+def _succeeded(teaching: TeachingState) -> bool:
+    """They have, once."""
+    return any(one.verdict.success for one in teaching.attempts if one.mode is not Mode.AUTONOMOUS)
+
+
+def _adapted(teaching: TeachingState, task: Task) -> bool:
+    """The robot alone has succeeded, or all that is allowed was used."""
+    alone = bool(teaching.attempts) and teaching.attempts[-1].mode is Mode.AUTONOMOUS
+    if alone and (teaching.attempts[-1].verdict.success or teaching.updates >= task.updates):
+        return True
+    return _failed(teaching) >= task.refinements
+
+
+def _failed(teaching: TeachingState) -> int:
+    """Attempts at the present update."""
+    since = takewhile(lambda one: one.mode is not Mode.AUTONOMOUS, reversed(teaching.attempts))
+    return sum(not one.verdict.success for one in since)
+
+
+def _taught(lesson: Lesson, one: _Round, over: Callable[[TeachingState], bool]) -> Done:
+    hours = (lesson.place - 1) * METHOD_H
+    who = lesson.nature.character(hours, 1000 * lesson.place + one.number)
+    with tempfile.TemporaryDirectory(prefix="study-") as folder, threadpool_limits(1):
+        stage = Stage(lesson.configuration(who.seed, who.scatter, Path(folder) / "model.sqlite"))
+        try:
+            give(stage, lesson.task.scene, lesson.demonstrations)
+            return _watched(stage, lesson, one, who, over)
+        finally:
+            stage.close()
+
+
+def _watched(stage: Stage, lesson: Lesson, one: _Round, who: Character, over: Callable[[TeachingState], bool]) -> Done:
+    teaching = Teaching(lesson.method.teaching.value)
+    person = Person(stage.bus(), stage.clock, teaching, _DEVICES[lesson.method.device], who)
+    watch = Watch(stage.bus(), lesson.participant, one.part, lesson.method.teaching, known=one.known, lasted=one.lasted)
+    began = looked = stage.clock.now_ns()
+
+    def finished() -> bool:
+        nonlocal looked
+        now_ns = stage.clock.now_ns()
+        if now_ns - looked >= PERIOD_NS:
+            looked = now_ns
+            watch.step(now_ns)
+        seen = watch.told
+        return seen is not None and (over(seen) or seen.finished or now_ns - began > LONGEST_S * 1e9)
+
+    stage.sit(person, lesson.arrangement.reset(), finished)
+    passed = bool(watch.attempts) and watch.attempts[-1].success
+    seconds = sum(attempt.active for attempt in watch.attempts)
+    lasted = (stage.clock.now_ns() - began) / 1e9
+    return Done(one.part, tuple(watch.attempts), passed, round(seconds, 3), round(lasted, 3))
