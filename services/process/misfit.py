@@ -45,7 +45,8 @@ def told(error: msgspec.ValidationError, kind: type) -> str:
     unknown = _UNKNOWN.match(what)
     if unknown:
         known = [field.encode_name for field in _fields(fits)]
-        return f"{_named([*keys, ''])}unknown key {unknown[1]}; {right(unknown[1], known)}"
+        better = "only others of these kinds have it" if unknown[1] in known else right(unknown[1], known)
+        return f"{_named([*keys, ''])}unknown key {unknown[1]}; {better}"
     for name, words in _WORDS.items():
         what = what.replace(name, words)
     choices = _choices(fits)
@@ -62,7 +63,7 @@ def _named(keys: list[str]) -> str:
     counted = _COUNTED.search(section)
     if counted is None:
         return f"[{section}] {key}".strip() + ": "
-    return f"[[{_COUNTED.sub('', section)}]] number {int(counted[1]) + 1}, {key}: "
+    return f"[[{_COUNTED.sub('', section)}]] number {int(counted[1]) + 1}{f', {key}' if key else ''}: "
 
 
 def _type_at(kind: Any, keys: list[str]) -> Any:

@@ -54,13 +54,13 @@ class Method(Section, frozen=True):
         name: short, as tables and figures have it.
         teaching: how it teaches.
         device: by which.
-        about: one sentence that the participant is shown.
+        about: one sentence that the participant is shown, by language; empty for none.
     """
 
     name: Name
     teaching: Teaching
     device: Device
-    about: str = ""
+    about: dict[str, Text] = msgspec.field(default_factory=dict)
 
 
 class Task(Section, frozen=True):
@@ -299,6 +299,12 @@ def _contradictions(protocol: Protocol) -> list[tuple[str, str]]:
         ("consent.text", f"there is none in {language}")
         for language in protocol.languages
         if language not in protocol.consent.text
+    ]
+    found += [
+        (f"methods: {method.name}", f"there is no explanation in {language}")
+        for method in protocol.methods
+        for language in protocol.languages
+        if method.about and language not in method.about
     ]
     found += _of_order(protocol.order, names)
     for hypothesis in protocol.hypotheses:
