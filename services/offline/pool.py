@@ -194,7 +194,7 @@ def _uninterrupted() -> Iterator[None]:
 def _begin(parent: int, reports: Connection) -> None:
     global _reports  # noqa: PLW0603 - a process belongs to the pool for all its life
     _reports = reports
-    die_with_parent(parent)
+    die_with_parent(parent, signal.SIGKILL)  # all that would end it gently is blocked
 
 
 def _report(work: Callable[[Item, Progress], Result], item: Item, number: int) -> tuple[int, Result]:

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
+from services.study.analysis.hypotheses import Direction, Hypothesis
+from services.study.analysis.rules import rules_of
 from services.study.freezing import Frozen
 from services.study.protocol.orders import Allocation, orders
-from services.study.protocol.protocol import Direction, Exclusion, Hypothesis, Protocol
+from services.study.protocol.protocol import Protocol
 
 FILE = "preregistration.md"
-
-_EXCLUSIONS = {
-    Exclusion.NOT_ADAPTED: "Who did not adapt a model with any of the methods is left out of what is measured in time.",
-    Exclusion.TRAINING_FAILED: "Who failed the training of any method is left out of what is measured in time.",
-    Exclusion.INCOMPLETE: "Who did not do all methods, or did not fill in all questionnaires, is left out.",
-}
 
 
 def text(protocol: Protocol, frozen: Frozen) -> str:
@@ -25,7 +21,7 @@ def text(protocol: Protocol, frozen: Frozen) -> str:
             "",
             "## Hypotheses",
             "",
-            *(_hypothesis(one) for one in protocol.hypotheses),
+            *(_hypothesis(one) for one in protocol.analysis.hypotheses),
             "",
             "## Design",
             "",
@@ -46,15 +42,14 @@ def text(protocol: Protocol, frozen: Frozen) -> str:
             "",
             "## Exclusions",
             "",
-            *(f"- {_EXCLUSIONS[rule]}" for rule in protocol.analysis.exclusions),
-            "",
-            "Every result is reported with and without them.",
+            "By the rules of the analysis; every result is reported with and without them.",
             "",
             "## Analysis",
             "",
-            f"By the rules `{protocol.analysis.rules}`, at a level of {protocol.analysis.alpha:g} for the family of"
-            " confirmatory hypotheses.",
-            f"Smallest effect of interest: {protocol.analysis.smallest_effect:.0%} of the first side's median.",
+            f"By the rules `{protocol.analysis.rules}`, at a level of"
+            f" {protocol.analysis.alpha or rules_of(protocol.analysis.rules).alpha:g} for the family of confirmatory"
+            " hypotheses, with intervals of"
+            f" {protocol.analysis.confidence:.0%}.",
             "",
             "## Digests",
             "",
@@ -69,11 +64,12 @@ def text(protocol: Protocol, frozen: Frozen) -> str:
 def _hypothesis(one: Hypothesis) -> str:
     first, second = " and ".join(one.first), " and ".join(one.second)
     match one.direction:
-        case Direction.EITHER:
-            said = f"`{one.measure}` differs between {first} and {second}"
-        case direction:
-            said = f"`{one.measure}` is {direction.value} with {first} than with {second}"
-    return f"- {one.name}: {said} ({'confirmatory' if one.confirmatory else 'exploratory'})."
+        case Direction.DIFFERENT:
+            said = f"{one.measure.title} differs between {first} and {second}"
+        case Direction.LESS | Direction.GREATER:
+            said = f"{one.measure.title} is {one.direction.value} with {first} than with {second}"
+    smallest = f"; the smallest effect of interest is {one.smallest:g}{one.measure.unit}" if one.smallest else ""
+    return f"- {one.name}: {said} ({'confirmatory' if one.confirmatory else 'exploratory'}{smallest})."
 
 
 def _design(protocol: Protocol) -> list[str]:

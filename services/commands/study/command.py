@@ -8,6 +8,10 @@ from services.commands.command import Command
 from services.commands.parser import Parser
 
 PARTS: tuple[Command, ...] = (
+    Command("new", "services.commands.study.new", "make one, from a protocol that you change", needs="study"),
+    Command("check", "services.commands.study.check", "does it agree with itself, how far is it", needs="study"),
+    Command("freeze", "services.commands.study.freeze", "from here on every change has a reason", needs="study"),
+    Command("run", "services.commands.study.run", "participants go through it, people or simulated", needs="study"),
     Command("analyse", "services.commands.study.analyse", "statistics and the report of a study", needs="study"),
 )
 

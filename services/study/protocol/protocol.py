@@ -10,6 +10,8 @@ import msgspec
 
 from services.process.section import Positive, Section
 from services.process.written import read
+from services.study.analysis.hypotheses import Plan
+from services.study.analysis.rules import NAMES as RULES
 from services.study.exceptions import ProtocolUnfit
 
 FORMAT = 1
@@ -20,7 +22,6 @@ FILE = "protocol.toml"
 Count = Annotated[int, msgspec.Meta(ge=1, le=1000)]
 Name = Annotated[str, msgspec.Meta(pattern=r"^[A-Za-z][A-Za-z0-9_]{0,30}$")]
 Text = Annotated[str, msgspec.Meta(min_length=1, max_length=4000)]
-Share = Annotated[float, msgspec.Meta(gt=0.0, lt=1.0)]
 
 
 class Teaching(enum.Enum):
@@ -189,63 +190,6 @@ class Recruitment(Section, frozen=True):
     contact: Text
 
 
-class Direction(enum.Enum):
-    """Of an expected difference: the first side is lower or higher than the second, or either."""
-
-    LOWER = "lower"
-    HIGHER = "higher"
-    EITHER = "either"
-
-
-class Hypothesis(Section, frozen=True):
-    """What is expected, before anybody knows.
-
-    Attributes:
-        name: short.
-        measure: a column of the outcomes or an instrument's score: `seconds`, `workload`, ...
-        first: methods' names.
-        second: those that they are compared with.
-        direction: of the difference.
-        confirmatory: one of the family that is corrected for; otherwise it is exploratory.
-    """
-
-    name: Text
-    measure: Name
-    first: tuple[Name, ...]
-    second: tuple[Name, ...]
-    direction: Direction = Direction.EITHER
-    confirmatory: bool = True
-
-
-class Exclusion(enum.Enum):
-    """Rules that take a participant out of an analysis.
-
-    NOT_ADAPTED: a model was not adapted, with any method: out of what is measured in time.
-    TRAINING_FAILED: of any method: out of what is measured in time.
-    INCOMPLETE: a method or a questionnaire is missing: out of everything.
-    """
-
-    NOT_ADAPTED = "not_adapted"
-    TRAINING_FAILED = "training_failed"
-    INCOMPLETE = "incomplete"
-
-
-class Analysis(Section, frozen=True):
-    """How the data will be analysed.
-
-    Attributes:
-        rules: by name, see `services.study.analysis`.
-        alpha: of the confirmatory family.
-        smallest_effect: of interest, as a share of the first side's median.
-        exclusions: that hold.
-    """
-
-    rules: Name = "retouch"
-    alpha: Share = 0.05
-    smallest_effect: Positive = 0.2
-    exclusions: tuple[Exclusion, ...] = (Exclusion.INCOMPLETE, Exclusion.TRAINING_FAILED, Exclusion.NOT_ADAPTED)
-
-
 class Protocol(Section, frozen=True):
     """The whole of it."""
 
@@ -263,8 +207,12 @@ class Protocol(Section, frozen=True):
     instruments: Instruments = msgspec.field(default_factory=Instruments)
     breaks: Breaks = msgspec.field(default_factory=Breaks)
     resume: Resume = msgspec.field(default_factory=Resume)
-    analysis: Analysis = msgspec.field(default_factory=Analysis)
-    hypotheses: tuple[Hypothesis, ...] = ()
+    analysis: Plan = msgspec.field(default_factory=lambda: Plan(hypotheses=()))
+
+    @property
+    def plan(self) -> Plan:
+        """Of the analysis, with the methods in the protocol's order."""
+        return msgspec.structs.replace(self.analysis, methods=tuple(method.name for method in self.methods))
 
     def method(self, name: str) -> Method:
         """The method of that name, which there is."""
@@ -307,14 +255,19 @@ def _contradictions(protocol: Protocol) -> list[tuple[str, str]]:
         if method.about and language not in method.about
     ]
     found += _of_order(protocol.order, names)
-    for hypothesis in protocol.hypotheses:
-        for name in (*hypothesis.first, *hypothesis.second):
-            if name not in names:
-                found.append((f"hypotheses: {hypothesis.name}", f"no method is called {name}"))
-        if set(hypothesis.first) & set(hypothesis.second) or not hypothesis.first or not hypothesis.second:
-            found.append((f"hypotheses: {hypothesis.name}", "it wants methods on both sides, none of them on both"))
+    found += _of_analysis(protocol.analysis, names)
     if protocol.training.successes > protocol.training.of_last:
         found.append(("training", f"{protocol.training.successes} of the last {protocol.training.of_last} cannot be"))
+    return found
+
+
+def _of_analysis(plan: Plan, names: list[str]) -> list[tuple[str, str]]:
+    found = [] if plan.rules in RULES else [("[analysis] rules", f"there are {', '.join(RULES)}, not {plan.rules}")]
+    for one in plan.hypotheses:
+        place = f"[[analysis.hypotheses]] {one.name}"
+        found += [(place, f"no method is called {name}") for name in (*one.first, *one.second) if name not in names]
+        if set(one.first) & set(one.second) or not one.first or not one.second:
+            found.append((place, "it wants methods on both sides, none of them on both"))
     return found
 
 

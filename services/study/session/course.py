@@ -6,7 +6,7 @@ were.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from services.study.events import (
@@ -152,18 +152,16 @@ class Participant:
 
     def next(self, protocol: Protocol) -> Part | None:
         """The part that comes now; None where they are through, or gone."""
-        if self.gone:
-            return None
-        failed = {
-            part.removesuffix("/training") for part, end in self.ended.items() if not end.passed and "/training" in part
-        }
-        for part in course(protocol, self.enrolled.order):
-            if part.name in self.ended or (isinstance(part, Agree) and self.consented):
-                continue
-            if isinstance(part, Adapt) and part.method in failed:
-                continue  # a method whose training failed is not workable for this person
-            return part
-        return None
+        return next(iter(self.left(protocol)), None)
+
+    def left(self, protocol: Protocol) -> Iterator[Part]:
+        """All parts that are not over, in their order; of a method whose training failed, no models."""
+        ended = self.ended.items()
+        failed = {name.partition("/")[0] for name, end in ended if name.endswith("/training") and not end.passed}
+        for part in course(protocol, self.enrolled.order) if not self.gone else ():
+            over = part.name in self.ended or (isinstance(part, Agree) and self.consented)
+            if not over and not (isinstance(part, Adapt) and part.method in failed):
+                yield part
 
     def hear(self, entry: Entry) -> None:
         """Something of theirs has happened."""

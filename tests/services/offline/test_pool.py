@@ -3,6 +3,8 @@
 import logging
 import os
 import signal
+import subprocess
+import sys
 import threading
 import time
 from pathlib import Path
@@ -12,6 +14,7 @@ import pytest
 from services.offline import pool
 from services.offline.pool import ProcessDied, each, overall
 from services.process.exceptions import CommandFailed
+from tests.system.harness import eventually
 
 
 def nested(number, progress):
@@ -121,3 +124,34 @@ def test_what_interrupts_while_the_processes_are_started_comes_once_they_all_are
         signal.signal(number, before)
     monkeypatch.undo()
     assert len(dict(each(halve, [2, 4], 2))) == 2
+
+
+KILLED = """
+import os, sys, time
+from services.offline.pool import each
+from tests.services.offline.test_pool import wait
+
+list(each(wait, [sys.argv[1]] * 2, 2))
+"""
+
+
+def wait(folder, progress):
+    (Path(folder) / str(os.getpid())).touch()
+    time.sleep(600.0)
+
+
+@pytest.mark.system
+def test_no_process_of_the_pool_outlives_the_one_that_shared_the_work_out(tmp_path):
+    parent = subprocess.Popen([sys.executable, "-c", KILLED, str(tmp_path)])
+    processes = eventually(lambda: len(found := [int(p.name) for p in tmp_path.iterdir()]) == 2 and found, 60.0, "work")
+    parent.kill()
+    parent.wait()
+    eventually(lambda: not any(runs(process) for process in processes), 20.0, "they have ended")
+
+
+def runs(process):
+    """Whether it does; one that nobody has waited for has ended."""
+    try:
+        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False

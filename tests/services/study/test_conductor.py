@@ -261,4 +261,4 @@ class Any(RuleBasedStateMachine):
 
 def test_whatever_is_done_another_conductor_stands_where_this_one_stood(tmp_path):
     Any.folder = tmp_path
-    run_state_machine_as_test(Any, settings=settings(max_examples=40, stateful_step_count=25, deadline=None))
+    run_state_machine_as_test(Any, settings=settings(max_examples=15, stateful_step_count=20, deadline=None))

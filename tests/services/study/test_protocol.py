@@ -33,7 +33,7 @@ def test_the_thesis_protocol_is_the_thesis():
     }
     assert (protocol.task.models, protocol.task.updates, protocol.task.refinements) == (3, 8, 10)
     assert (protocol.training.successes, protocol.training.of_last, protocol.training.minutes) == (2, 4, 30.0)
-    assert len(protocol.hypotheses) == 4
+    assert len(protocol.analysis.hypotheses) == 4
 
 
 @pytest.mark.parametrize(
@@ -48,7 +48,7 @@ def test_the_thesis_protocol_is_the_thesis():
         ),
         ('languages = ["en", "de", "nl"]', 'languages = ["en", "fr"]', "consent.text: there is none in fr"),
         ('first = ["OnStyl", "OnKey"]', 'first = ["OnStil"]', "no method is called OnStil"),
-        ('second = ["OnKey", "OffKey"]', "second = []", "it wants methods on both sides"),
+        ('second = ["OnKey", "OffKey"]', 'second = ["OnStyl", "OffKey"]', "it wants methods on both sides"),
         ("successes = 2", "successes = 5", "training: 5 of the last 4 cannot be"),
         ('design = "table"', 'design = "williams"', 'order.table: it is for design = "table"'),
     ],

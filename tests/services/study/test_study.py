@@ -42,7 +42,7 @@ def test_people_take_part_only_once_it_is_frozen(study):
 def test_the_preregistration_names_hypotheses_orders_and_digests(study):
     frozen = study.freeze(NOW.isoformat())
     text = (study.folder / "preregistration.md").read_text(encoding="utf-8")
-    for hypothesis in study.protocol.hypotheses:
+    for hypothesis in study.protocol.analysis.hypotheses:
         assert hypothesis.name in text
     assert frozen.files["protocol.toml"] in text
     assert "2. OnKey, OffStyl, OnStyl, OffKey" in text

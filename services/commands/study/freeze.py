@@ -1,0 +1,34 @@
+"""`retouch study freeze`: from here on every change is a deviation."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from datetime import UTC, datetime
+from pathlib import Path
+
+from services.commands.arguments import add_debug
+from services.commands.terminal import Terminal
+from services.process.exit_codes import Exit
+from services.study.instruments.library import of_protocol
+from services.study.preregistration import FILE
+from services.study.study import open_study
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """See `Action`."""
+    parser.description = (
+        f"Writes down digests of protocol, questionnaires and analysis, and the versions of the software, and {FILE},"
+        " a text for a registry and an ethics board. What changes later is refused until somebody says why."
+    )
+    parser.add_argument("folder", type=Path, metavar="FOLDER", help="of the study")
+    add_debug(parser)
+
+
+def run(arguments: Namespace) -> int:
+    """See `Action`."""
+    study = open_study(arguments.folder)
+    of_protocol(study.protocol, study.folder)
+    frozen = study.freeze(datetime.now(UTC).isoformat(timespec="seconds"))
+    say = Terminal(highlight=False, soft_wrap=True).print
+    say(f"frozen at {frozen.at}; the preregistration is {study.folder / FILE}", markup=False)
+    return Exit.DONE
