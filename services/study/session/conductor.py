@@ -82,6 +82,8 @@ class Conductor:
         self._journal = journal
         self._participants = participants(journal.entries)
         self._orders = orders(protocol.order, [method.name for method in protocol.methods])
+        for one in self._participants.values():  # between a last part and this there may have been a crash
+            self._finish(one)
 
     def participants(self) -> Mapping[int, Participant]:
         """All who were enrolled, by their numbers."""
@@ -292,8 +294,12 @@ class Conductor:
     def _happened(self, event: events.OfParticipant) -> None:
         known = self._participants[event.participant]
         known.hear(self._journal.add(event))
-        if isinstance(event, events.Ended | Answered) and known.next(self.protocol) is None:
-            self._happened(events.Finished(participant=event.participant))
+        self._finish(known)
+
+    def _finish(self, one: Participant) -> None:
+        """Write down that they have done all of it, once."""
+        if not one.finished and not one.gone and one.next(self.protocol) is None:
+            one.hear(self._journal.add(events.Finished(participant=one.number)))
 
     def _next_group(self) -> int:
         """Of the allocation, as it stands after all who were enrolled and dropped out."""

@@ -25,7 +25,7 @@ from services.study.protocol.protocol import Device, Method, Task, Training
 from services.study.session.watch import Watch
 from services.study.synthetic.character import Nature
 
-LONGEST_S = 1800.0
+LONGEST_S = 600.0
 """Of a part, of the robot's time [s]."""
 
 METHOD_H = 0.4

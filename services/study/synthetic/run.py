@@ -8,7 +8,7 @@ written of it is not written again.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import UTC, datetime, timedelta
 
@@ -37,6 +37,10 @@ DEATHS = 5
 """So many processes of the pool may be killed before the run gives up."""
 
 
+Lessons = Callable[[Sequence[Lesson], int], Iterator[tuple[tuple[int, str], tuple[Done, ...]]]]
+"""Gives lessons with so many processes; of each, whose and by which method, and what came of it, in any order."""
+
+
 @dataclass
 class StudyClock:
     """The time of day in the study: it goes on with what is done, not with the computer."""
@@ -63,6 +67,7 @@ class SyntheticRun:
         clock: of the journal.
         people: how many take part.
         seed: of all of them.
+        lessons: gives them.
     """
 
     protocol: Protocol
@@ -71,6 +76,7 @@ class SyntheticRun:
     clock: StudyClock
     people: int
     seed: int = 0
+    lessons: Lessons = field(default_factory=lambda: simulated)
     _done: dict[tuple[int, str], dict[str, Done]] = field(default_factory=dict)
 
     def go(self, jobs: int, progress: Progress = lambda _: None) -> None:
@@ -92,7 +98,7 @@ class SyntheticRun:
         missing = list(self._missing(scene))
         total = self.people * len(self.protocol.methods)
         self._write_on()
-        for ready, (key, parts) in enumerate(_all_given(missing, jobs), 1):
+        for ready, (key, parts) in enumerate(self.lessons(missing, jobs), 1):
             self._done[key] = {done.part: done for done in parts}
             self._write_on()
             progress((total - len(missing) + ready) / total)
@@ -179,8 +185,12 @@ def arrangement(protocol: Protocol, scene: AnyScene) -> Arrangement:
     return Arrangement.of(variant, place, has_object=scene.has_object)
 
 
-def _all_given(lessons: Sequence[Lesson], jobs: int) -> Iterator[tuple[tuple[int, str], tuple[Done, ...]]]:
-    """Every lesson, by participant and method; one whose process was killed is given again."""
+def simulated(lessons: Sequence[Lesson], jobs: int) -> Iterator[tuple[tuple[int, str], tuple[Done, ...]]]:
+    """In the simulator, see `Lessons`; one whose process was killed is given again.
+
+    Raises:
+        ProcessDied: processes were killed again and again.
+    """
     left = list(lessons)
     deaths = 0
     while left:

@@ -60,6 +60,12 @@ def clock():
     return Clock()
 
 
+@pytest.fixture(autouse=True)
+def unsynchronised(monkeypatch):
+    """Nothing here is about power cuts, and thousands of entries would wait for the disk."""
+    monkeypatch.setattr("services.study.journal.os.fsync", lambda _: None)
+
+
 @pytest.fixture
 def journal(tmp_path, clock):
     with Journal(tmp_path / "raw", clock) as one:
