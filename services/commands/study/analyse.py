@@ -15,16 +15,22 @@ from services.commands.terminal import Terminal
 from services.process.exit_codes import Exit
 from services.process.written import read
 from services.study.analysis.analysis import Analysis
+from services.study.analysis.exceptions import NothingToAnalyse
 from services.study.analysis.exclusion import Sample
 from services.study.analysis.hypotheses import Plan
 from services.study.analysis.numerals import figure, interval, p_value
+from services.study.analysis.observations import Observations
 from services.study.analysis.report import REPORT, report
 from services.study.analysis.reporting import Reporting
 from services.study.analysis.rules import NAMES, RETOUCH
 from services.study.analysis.table import NEEDED, OPTIONAL, read_observations
+from services.study.instruments.library import of_protocol
+from services.study.records import observed
+from services.study.study import open_study
+from services.study.told import reporting_of, source_of
 
 _ABOUT = f"""\
-Analyses a study and writes a folder: {REPORT}, which needs nothing else, all its
+Analyses a study, or anybody's table, and writes a folder: {REPORT}, which needs nothing else, all its
 numbers as JSON, and tidy tables.
 
 FILE is a CSV of any spreadsheet with a line a participant, method and model.
@@ -42,6 +48,7 @@ participant, as the thesis' Tables II and E.2 do, and says what is wrong with it
 
 _EXAMPLES = """\
 examples:
+  retouch study analyse my_study                      # by its protocol's rules and hypotheses
   retouch study analyse outcomes.csv
   retouch study analyse data.csv --columns participant=subject,seconds=time --methods OnStyl=online_pen
   retouch study analyse data.csv --plan plan.toml     # hypotheses of your own
@@ -51,9 +58,9 @@ examples:
 def add_arguments(parser: ArgumentParser) -> None:
     """See `Action`."""
     parser.description, parser.epilog = _ABOUT, _EXAMPLES
-    parser.add_argument("file", type=Path, metavar="FILE", help="of the outcomes, a CSV")
+    parser.add_argument("source", type=Path, metavar="STUDY|FILE", help="a study's folder, or a CSV of outcomes")
     parser.add_argument(
-        "--out", type=Path, default=Path("analysis"), metavar="FOLDER", help="of the report (default: ./analysis)"
+        "--out", type=Path, metavar="FOLDER", help="of the report (default: STUDY/derived, or ./analysis)"
     )
     parser.add_argument("--rules", choices=NAMES, help="of the analysis (default: the plan's, or retouch)")
     parser.add_argument("--plan", type=Path, metavar="FILE", help="hypotheses, rules, error rate: a TOML file")
@@ -70,22 +77,42 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """See `Action`."""
-    plan = read(arguments.plan, Plan, "plan") if arguments.plan else Plan()
+    source = arguments.source
+    observations, plan, reporting = _of_study(source) if source.is_dir() else _of_table(arguments)
+    if arguments.plan:
+        plan = read(arguments.plan, Plan, "plan")
     given = {name: getattr(arguments, name) for name in ("rules", "seed") if getattr(arguments, name) is not None}
     plan = msgspec.structs.replace(plan, **given)
-    reporting = read(arguments.reporting, Reporting, "reporting file") if arguments.reporting else Reporting()
-    observations = read_observations(arguments.file, arguments.columns, arguments.methods)
+    if arguments.reporting:
+        reporting = read(arguments.reporting, Reporting, "reporting file")
+    out = arguments.out or (source / "derived" if source.is_dir() else Path("analysis"))
     console = Terminal(stderr=True, highlight=False)
     for note in observations.notes:
         console.print(note, markup=False, soft_wrap=True)
     with Progress(TextColumn("{task.description}"), BarColumn(), console=console, transient=True) as progress:
         task = progress.add_task("analysing", total=1.0)
-        analysis = report(
-            arguments.out, observations, plan, reporting, lambda share: progress.update(task, completed=share)
-        )
+        analysis = report(out, observations, plan, reporting, lambda share: progress.update(task, completed=share))
     summarise(analysis, console)
-    Terminal(highlight=False, soft_wrap=True).print(str((arguments.out / REPORT).resolve()), markup=False)
+    Terminal(highlight=False, soft_wrap=True).print(str((out / REPORT).resolve()), markup=False)
     return Exit.DONE
+
+
+def _of_study(folder: Path) -> tuple[Observations, Plan, Reporting]:
+    """Of a study's own folder: what its journal says, and what its protocol has fixed.
+
+    Raises:
+        NothingToAnalyse: nobody has taken part yet.
+    """
+    study = open_study(folder)
+    instruments, entries = of_protocol(study.protocol, folder), study.entries()
+    if not entries:
+        raise NothingToAnalyse(f"nobody has taken part in {folder} yet")
+    observations = observed(study.protocol, entries, instruments, source_of(study))
+    return observations, study.protocol.plan, reporting_of(study, entries, instruments)
+
+
+def _of_table(arguments: Namespace) -> tuple[Observations, Plan, Reporting]:
+    return read_observations(arguments.source, arguments.columns, arguments.methods), Plan(), Reporting()
 
 
 def summarise(analysis: Analysis, console: Console) -> None:
