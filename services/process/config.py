@@ -97,6 +97,7 @@ class StationSection(Section, frozen=True):
         key: file of the certificate's private key, PEM; empty where it stands in the certificate's file.
         login: when the page asks who is there: "auto" where others than this machine reach it, "always", or "never".
         language: in which the page speaks: the name of one of its tables of words.
+        framed_by: origin of the one page that may show this one in a frame, "http://127.0.0.1:8090"; empty for none.
         refinements_allowed: attempts at one update.
         updates_allowed: updates of one run.
         autonomous_s: duration of an autonomous execution [s].
@@ -118,6 +119,7 @@ class StationSection(Section, frozen=True):
     key: str = ""
     login: Annotated[str, msgspec.Meta(pattern="^(auto|always|never)$")] = "auto"
     language: str = "en"
+    framed_by: Annotated[str, msgspec.Meta(pattern=r"^(https?://[A-Za-z0-9.:\[\]-]+)?$")] = ""
     refinements_allowed: Annotated[int, msgspec.Meta(ge=1)] = 10
     updates_allowed: Annotated[int, msgspec.Meta(ge=1)] = 8
     autonomous_s: Positive = 10.0

@@ -8,7 +8,7 @@ from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
 from services.station.live_view.description import Description
-from services.station.shelf import KEPT, File, Shelf, file
+from services.web.shelf import KEPT, File, Shelf, file
 
 log = logging.getLogger(__name__)
 

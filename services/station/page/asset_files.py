@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from services.station.shelf import ASKED_FOR, File, Shelf, file
+from services.web import look
+from services.web.look import joined
+from services.web.shelf import ASKED_FOR, File, Shelf, file
 
 ASSETS = Path(__file__).parent / "assets"
 ADDRESS = "/assets"
@@ -54,11 +56,12 @@ SCRIPT_ADDRESSES = tuple(f"{ADDRESS}/{_address(path)}" for path in sorted(ASSETS
 
 def asset_files() -> Shelf:
     """All of them, by their addresses below /assets/, as they are on the disk now."""
-    others = {path: _KINDS[path.suffix] for path in ASSETS.rglob("*") if path.suffix in _KINDS}
-    files = {_address(path): file(kind, path.read_bytes()) for path, kind in others.items()}
+    others = {_address(path): path for path in ASSETS.rglob("*.js")} | {
+        path.name: path for path in look.FOLDER.glob("*.svg")
+    }
+    files = {address: file(_KINDS[path.suffix], path.read_bytes()) for address, path in others.items()}
     return Shelf({**files, _STYLE: _style(_SHEETS), _LOGIN_STYLE: _style(_LOGIN_SHEETS)}, ASKED_FOR)
 
 
 def _style(sheets: Sequence[str]) -> File:
-    style = "\n".join((ASSETS / "css" / f"{name}.css").read_text(encoding="utf-8") for name in sheets)
-    return file("text/css", style.encode())
+    return file("text/css", joined(sheets, ASSETS / "css").encode())

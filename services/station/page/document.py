@@ -21,6 +21,7 @@ from services.station.page.panels import COUNTERS, CRITERIA
 from services.station.page.people import GROUPS
 from services.station.page.robots import SLOTS
 from services.station.words.table import say, speech
+from services.web import look
 
 HERE = Path(__file__).parent
 PARTS = HERE / "parts"
@@ -30,6 +31,7 @@ _SYMBOLS = {"retouch": "brand", "view": "", "red": "lamp", "amber": "lamp", "hol
 
 _CAMERAS = ("head", "wrist")
 _LIVE = "live"
+_LOADED = (".css", ".js", ".svg")
 _SCRIPTS = ("script", "tour", "waypoint", "entry")
 """Sections of the words that the scripts say."""
 
@@ -81,7 +83,7 @@ def document(robot: str, view: LiveFiles) -> str:
 
 def version() -> str:
     """Changes with the page's files: a tab that was loaded from others says that it is to be loaded anew."""
-    assets = sorted(path for path in ASSETS.rglob("*") if path.is_file())
+    assets = sorted(path for folder in (ASSETS, look.FOLDER) for path in folder.rglob("*.*") if path.suffix in _LOADED)
     files = [HERE / "page.html", *sorted(PARTS.glob("*.html")), *assets]
     return hashlib.sha256(b"".join(path.read_bytes() for path in files)).hexdigest()[:12]
 

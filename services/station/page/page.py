@@ -6,12 +6,10 @@ import asyncio
 import contextlib
 import logging
 import platform
-import socket
 import threading
 from collections.abc import AsyncIterator
 
 import msgspec
-import uvicorn
 from starlette.applications import Starlette
 from starlette.requests import Request
 from starlette.responses import HTMLResponse
@@ -19,10 +17,9 @@ from starlette.routing import Route, WebSocketRoute
 
 from protocol.messages import Attendance, Figure, OperatorInput
 from services.certificates.page import address
-from services.process.addresses import family, in_url
+from services.process.addresses import in_url
 from services.process.clock import Clock
 from services.process.config import StationSection
-from services.process.exceptions import PortInUse
 from services.process.load import Loads, no_load
 from services.station.live_view.description import Description
 from services.station.live_view.files import Files
@@ -31,7 +28,6 @@ from services.station.page.certificate import Renewal, check
 from services.station.page.controls import is_confirmed
 from services.station.page.document import document, version
 from services.station.page.effects import Effects
-from services.station.page.guard import Guard
 from services.station.page.input import Desk
 from services.station.page.link import Link
 from services.station.page.login.cookie import Cookie
@@ -39,17 +35,14 @@ from services.station.page.login.door import Door
 from services.station.page.login.judge import Judge
 from services.station.page.login.login import Login
 from services.station.page.view import Board, PageView
-from services.station.page.web_socket import WebSocketProtocol
 from services.station.press import Press
+from services.web.guard import Guard, policy
+from services.web.server import Server
 
 log = logging.getLogger(__name__)
 
 PAGE, SETTING = "the operator's page", "[station] port"
 """What is served, and what sets where, as an error names them."""
-
-START_WITHIN_S = 60.0
-STOP_POLITELY_S = 0.7
-STOP_AT_ONCE_S = 0.3
 
 LOOK_S = 1.0
 """Between two looks at the files of certificate and accounts."""
@@ -95,8 +88,7 @@ class Page:
             self._login = Login(robot, judge, clock, Cookie(station.port, secure=bool(station.certificate)))
             self._login.sessions.on_end = self._link.dismiss
         self._renewal: Renewal | None = None
-        self._server: uvicorn.Server | None = None
-        self._thread: threading.Thread | None = None
+        self._server: Server | None = None
 
     @property
     def url(self) -> str:
@@ -111,15 +103,8 @@ class Page:
             PortInUse: something else listens there, the address is not this machine's, or the server did not come up.
         """
         check(self._station)
-        listener = self._listen()
-        self._server = uvicorn.Server(self._server_configuration())
-        self._thread = threading.Thread(target=self._serve, args=(self._server, listener), name="page", daemon=True)
-        self._thread.start()
-        deadline_ns = self._clock.now_ns() + round(START_WITHIN_S * 1e9)
-        while not self._server.started:
-            if not self._thread.is_alive() or self._clock.now_ns() > deadline_ns:
-                raise PortInUse(PAGE, self._station.host, self._station.port, SETTING, "the server did not start")
-            self._thread.join(0.02)
+        self._server = self._configured()
+        self._server.start()
         log.info("the operator's page is on %s", self.url)
 
     @property
@@ -160,27 +145,13 @@ class Page:
 
     def close(self) -> None:
         """Stop serving; a browser that does not answer is not waited for."""
-        if self._server is None or self._thread is None:
+        if self._server is None:
             return
-        self._server.should_exit = True
-        self._thread.join(STOP_POLITELY_S)
-        self._server.force_exit = True
-        self._thread.join(STOP_AT_ONCE_S)
+        self._server.close()
         if self._login is not None:
             self._login.close()
 
-    def _listen(self) -> socket.socket:
-        host, port = self._station.host, self._station.port
-        try:
-            listener = socket.create_server((host, port), family=family(host))
-        except OSError as error:
-            raise PortInUse(PAGE, host, port, SETTING, error.strerror or "") from None
-        # Every connection has it from here; asyncio sets it only on sockets that were made by the protocol's number.
-        # What follows upon something small waits otherwise until that was acknowledged, which is put off for 40 ms.
-        listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-        return listener
-
-    def _server_configuration(self) -> uvicorn.Config:
+    def _configured(self) -> Server:
         page = HTMLResponse(self._document)
 
         async def serve(request: Request) -> HTMLResponse:
@@ -194,27 +165,21 @@ class Page:
             Route("/history/{version:int}/{entry:int}", self.effects.serve),
             Route("/assets/{path:path}", self._assets.serve),
         ]
-        login = self._login
+        login, station = self._login, self._station
         app = Starlette(routes=routes if login is None else [*login.routes, *routes], lifespan=self._looking)
-        configuration = uvicorn.Config(
-            Guard(app if login is None else Door(app, login), self._station.host),
-            proxy_headers=False,  # whoever comes is who comes, whatever they say of others
-            log_config=None,
-            access_log=False,
-            lifespan="on",
-            loop="asyncio",
-            http="h11",
-            ws=WebSocketProtocol,
-            ws_max_size=65_536,
-            ws_per_message_deflate=False,
-            timeout_graceful_shutdown=1,
-            ssl_certfile=self._station.certificate or None,
-            ssl_keyfile=self._station.key or None,
+        server = Server(
+            Guard(app if login is None else Door(app, login), station.host, policy(framed_by=station.framed_by)),
+            station.host,
+            station.port,
+            self._clock,
+            page=PAGE,
+            setting=SETTING,
+            certificate=station.certificate,
+            key=station.key,
         )
-        configuration.load()
-        if configuration.ssl is not None:
-            self._renewal = Renewal(self._station, configuration.ssl)
-        return configuration
+        if server.configuration.ssl is not None:
+            self._renewal = Renewal(station, server.configuration.ssl)
+        return server
 
     @contextlib.asynccontextmanager
     async def _looking(self, app: Starlette) -> AsyncIterator[None]:
@@ -231,8 +196,3 @@ class Page:
                 self._renewal.look()
             if self._login is not None:
                 await self._login.look()
-
-    @staticmethod
-    def _serve(server: uvicorn.Server, listener: socket.socket) -> None:
-        with listener:
-            server.run(sockets=[listener])

@@ -11,6 +11,7 @@ from services.station.page.document import document, version
 from services.station.page.layout import own, shared
 from services.station.page.seating import seating
 from services.station.page.values import Sent
+from services.web import look
 from tests.services.station.browser import VIEW, ask
 
 PAGE = document("robot1", VIEW)
@@ -46,7 +47,7 @@ def test_it_names_all_that_is_loaded_at_once_and_each_is_served():
 
 def test_every_sheet_is_in_the_one_that_is_loaded():
     style, login = (gzip.decompress(ask(asset_files(), f"{name}.css").body).decode() for name in ("station", "login"))
-    for sheet in (ASSETS / "css").glob("*.css"):
+    for sheet in [*(ASSETS / "css").glob("*.css"), *look.FOLDER.glob("*.css")]:
         assert sheet.read_text() in (login if sheet.stem == "login" else style)
 
 

@@ -69,7 +69,7 @@ def test_what_is_small_does_not_wait_until_what_came_before_it_was_acknowledged(
         with socket.create_connection(("127.0.0.1", station.port), timeout=10.0) as browser:
             browser.sendall(b"GET /assets/retouch.svg HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n")
             assert browser.recv(65_536).startswith(b"HTTP/1.1 200")
-            (connection,) = page._server.server_state.connections
+            (connection,) = page._server._server.server_state.connections
             accepted = connection.transport.get_extra_info("socket")
             assert accepted.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
     finally:

@@ -4,7 +4,7 @@ import gzip
 
 import pytest
 
-from services.station.shelf import ASKED_FOR, KEPT, Shelf, file
+from services.web.shelf import ASKED_FOR, KEPT, Shelf, file
 from tests.services.station.browser import ask
 
 SHELF = Shelf({"a.js": file("text/javascript", b"let a;")}, ASKED_FOR)

@@ -1,4 +1,4 @@
-"""Keeps other web pages away from the operator's page: a foreign site in the same browser must not command."""
+"""Keeps other web pages away from one that acts: a foreign site in the same browser must not command."""
 
 from __future__ import annotations
 
@@ -10,17 +10,27 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from services.process.addresses import LOOPBACK_NAMES, is_loopback
 
-CONTENT_POLICY = "; ".join(
-    (
-        "default-src 'self'",
-        "connect-src 'self' ws: wss:",  # not every browser counts the own server's WebSocket as 'self'
-        "frame-ancestors 'none'",
-        "form-action 'self'",
-        "object-src 'none'",
-        "base-uri 'none'",
+
+def policy(frames: str = "", framed_by: str = "") -> str:
+    """What a page may ask for: nobody but its own server, and it is nobody's part.
+
+    Args:
+        frames: origin of a page that it shows in a frame; empty for none.
+        framed_by: origin of the one page that may show it in a frame; empty for none.
+    """
+    nobody = "'none'"
+    return "; ".join(
+        (
+            "default-src 'self'",
+            "connect-src 'self' ws: wss:",  # not every browser counts the own server's WebSocket as 'self'
+            *([f"frame-src {frames}"] if frames else []),
+            f"frame-ancestors {framed_by or nobody}",
+            "form-action 'self'",
+            "object-src 'none'",
+            "base-uri 'none'",
+        )
     )
-)
-"""The page asks nobody but its own server, and is nobody's part."""
+
 
 _LOOKS = frozenset(("GET", "HEAD"))
 """What changes nothing, whichever page it comes from."""
@@ -33,10 +43,12 @@ class Guard:
         app: what it stands before.
         host: that the server listens on; on a loopback address only loopback names may ask, so that no foreign name
             can be pointed here (DNS rebinding).
+        content: what its pages may ask for.
     """
 
-    def __init__(self, app: ASGIApp, host: str) -> None:
+    def __init__(self, app: ASGIApp, host: str, content: str) -> None:
         self._app = app
+        self._content = content
         self._names = LOOPBACK_NAMES | {host} if is_loopback(host) else None
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -53,7 +65,7 @@ class Guard:
         async def send_with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":
                 headers = MutableHeaders(scope=message)
-                headers["Content-Security-Policy"] = CONTENT_POLICY
+                headers["Content-Security-Policy"] = self._content
                 headers["X-Content-Type-Options"] = "nosniff"
                 # Nothing goes to others; with less than this a browser sends a form without its origin.
                 headers["Referrer-Policy"] = "same-origin"

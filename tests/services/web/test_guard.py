@@ -4,7 +4,7 @@ import asyncio
 
 import pytest
 
-from services.station.page.guard import Guard
+from services.web.guard import Guard, policy
 
 
 def ask(host, *, listening="127.0.0.1", kind="http", origin=None, method="GET"):
@@ -25,7 +25,7 @@ def ask(host, *, listening="127.0.0.1", kind="http", origin=None, method="GET"):
     scope = {"type": kind, "path": "/assets/a.js", "headers": headers}
     if kind == "http":
         scope["method"] = method
-    asyncio.run(Guard(app, listening)(scope, receive, send))
+    asyncio.run(Guard(app, listening, policy())(scope, receive, send))
     return dict(said[0]["headers"]) if heard else said[0].get("status", 403)
 
 
@@ -70,8 +70,13 @@ def test_a_form_is_sent_to_the_page_s_own_server_with_its_origin():
 
 
 def test_no_other_server_and_no_frame_has_a_part_in_the_page():
-    policy = ask("localhost")[b"content-security-policy"].decode()
-    assert "default-src 'self'" in policy
-    assert "frame-ancestors 'none'" in policy
-    assert "frame-src" not in policy
-    assert "unsafe" not in policy
+    content = ask("localhost")[b"content-security-policy"].decode()
+    assert "default-src 'self'" in content
+    assert "frame-ancestors 'none'" in content
+    assert "frame-src" not in content
+    assert "unsafe" not in content
+
+
+def test_one_page_shows_the_other_in_a_frame_where_both_are_told_so():
+    assert "frame-src http://127.0.0.1:8080;" in policy(frames="http://127.0.0.1:8080")
+    assert "frame-ancestors http://127.0.0.1:8090;" in policy(framed_by="http://127.0.0.1:8090")

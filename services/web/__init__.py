@@ -1,0 +1,1 @@
+"""What every page is served with: guard, files, server, look."""
