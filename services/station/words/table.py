@@ -5,16 +5,13 @@ A word is named by its section and its key, "light.green"; what stands in braces
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from pathlib import Path
 
-import msgspec
+from services.web.words import read
 
 HERE = Path(__file__).parent
 ENGLISH = "en"
-
-_Table = dict[str, dict[str, str]]
 
 
 class Speech:
@@ -27,7 +24,7 @@ class Speech:
 
     def __init__(self) -> None:
         self.language = ENGLISH
-        self.words = _read(HERE / f"{ENGLISH}.toml")
+        self.words = read(HERE / f"{ENGLISH}.toml")
         self._sections: dict[str, Mapping[str, str]] = {}
 
     def speak(self, language: str, folder: Path = HERE) -> None:
@@ -44,7 +41,7 @@ class Speech:
         if language not in tables:
             raise LookupError(f"there are no words in {language!r}, only in {', '.join(sorted(tables))}")
         self.language = language
-        self.words = {**_read(HERE / f"{ENGLISH}.toml"), **_read(tables[language])}
+        self.words = {**read(HERE / f"{ENGLISH}.toml"), **read(tables[language])}
         self._sections.clear()
 
     def say(self, key: str, **facts: object) -> str:
@@ -63,16 +60,6 @@ class Speech:
             words = {key.removeprefix(start): said for key, said in self.words.items() if key.startswith(start)}
             self._sections[name] = words
         return self._sections[name]
-
-
-def spaced(words: str) -> str:
-    """Words in one line, however they are broken in the table."""
-    return re.sub(r"\n\s*", " ", words)
-
-
-def _read(file: Path) -> dict[str, str]:
-    table = msgspec.toml.decode(file.read_bytes(), type=_Table)
-    return {f"{section}.{name}": spaced(words) for section, named in table.items() for name, words in named.items()}
 
 
 speech = Speech()

@@ -12,7 +12,7 @@ from datetime import datetime
 from typing import Protocol as Interface
 
 from services.study import events
-from services.study.events import Answer, Answered, Attempted, Began, Event
+from services.study.events import Answer, Answered, Attempted, Began, Entry, Event
 from services.study.exceptions import (
     NotNow,
     ParticipantThere,
@@ -85,6 +85,11 @@ class Conductor:
         for one in self._participants.values():  # between a last part and this there may have been a crash
             self._finish(one)
 
+    @property
+    def entries(self) -> Sequence[Entry]:
+        """Of the journal, the oldest first."""
+        return self._journal.entries
+
     def participants(self) -> Mapping[int, Participant]:
         """All who were enrolled, by their numbers."""
         return self._participants
@@ -108,6 +113,15 @@ class Conductor:
         """The next number that nobody has."""
         return max(self._participants, default=0) + 1
 
+    def coming(self) -> tuple[tuple[str, ...], ...]:
+        """The orders that are still to be given, those of who dropped out first."""
+        replaced = self.protocol.order.replace
+        counting = sum(1 for one in self._participants.values() if not (one.gone and replaced))
+        allocation = self._allocation()
+        return tuple(
+            self._orders[allocation.draw()] for _ in range(max(0, self.protocol.order.participants - counting))
+        )
+
     def enrol(self, number: int | None, language: str, *, synthetic: bool = False, seed: int = 0) -> Participant:
         """Somebody takes part, with the next order of the allocation.
 
@@ -126,7 +140,7 @@ class Conductor:
             raise ParticipantThere(chosen)
         if language not in self.protocol.languages:
             raise NotNow(f"the study speaks {', '.join(self.protocol.languages)}, not {language!r}")
-        group = self._next_group()
+        group = self._allocation().draw()
         event = events.Enrolled(
             participant=chosen,
             order=self._orders[group],
@@ -301,8 +315,8 @@ class Conductor:
         if not one.finished and not one.gone and one.next(self.protocol) is None:
             one.hear(self._journal.add(events.Finished(participant=one.number)))
 
-    def _next_group(self) -> int:
-        """Of the allocation, as it stands after all who were enrolled and dropped out."""
+    def _allocation(self) -> Allocation:
+        """As it stands after all who were enrolled and dropped out."""
         allocation = Allocation(self.protocol.order, len(self._orders))
         for entry in self._journal.entries:
             match entry.event:
@@ -312,7 +326,7 @@ class Conductor:
                     allocation.dropped(self._participants[number].enrolled.group)
                 case _:
                     pass
-        return allocation.draw()
+        return allocation
 
 
 def _erasable(event: Event) -> bool:

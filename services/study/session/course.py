@@ -125,10 +125,13 @@ class Participant:
         answers: by part.
         invalid: parts that do not count and are not repeated, with the reason.
         consented: to the text.
+        language: of the pages: that of the text that they agreed to; as they were enrolled until then.
         paused: the experimenter has interrupted.
         begun: the part that has begun last.
+        begun_at: when, UTC, ISO 8601; empty where none has.
         last: when the newest of all this was, UTC, ISO 8601; empty right after they were enrolled.
         gone: why they do not go on; empty while they do.
+        deleted: what was recorded of them, on their wish.
         finished: they have done all of it.
     """
 
@@ -139,11 +142,18 @@ class Participant:
     answers: dict[str, Answered] = field(default_factory=dict)
     invalid: dict[str, str] = field(default_factory=dict)
     consented: bool = False
+    language: str = field(init=False)
     paused: bool = False
     begun: str = ""
+    begun_at: str = ""
     last: str = ""
     gone: str = ""
+    deleted: bool = False
     finished: bool = False
+
+    def __post_init__(self) -> None:
+        """They are spoken to as they were enrolled."""
+        self.language = self.enrolled.language
 
     @property
     def number(self) -> int:
@@ -168,13 +178,13 @@ class Participant:
         self.last = entry.at
         match event := entry.event:
             case Began(part=part):
-                self.begun = part
+                self.begun, self.begun_at = part, entry.at
             case Paused():
                 self.paused = True
             case GoneOn():
                 self.paused = False
-            case Consented():
-                self.consented = True
+            case Consented(language=language):
+                self.consented, self.language = True, language
             case Answered(instrument=instrument, after=after):
                 name = Fill(instrument, after).name
                 self.answers[name] = event
@@ -187,8 +197,8 @@ class Participant:
                 self._void(part, reason, repeat=repeat)
             case Dropped(reason=reason):
                 self.gone = reason
-            case Withdrawn():
-                self.gone = "withdrawn"
+            case Withdrawn(delete=delete):
+                self.gone, self.deleted = "withdrawn", delete
             case Finished():
                 self.finished = True
             case _:

@@ -1,0 +1,225 @@
+"""Where both pages do what they do: through the conductor and the trials, one at a time."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping
+from datetime import datetime
+
+from services.study.exceptions import NotNow
+from services.study.instruments.instrument import Instrument
+from services.study.page import acts
+from services.study.page.order import form_order
+from services.study.page.trials import Trials
+from services.study.session.conductor import Conductor, Sheet
+from services.study.session.course import Adapt, Agree, Fill, Part, Rest, Train
+
+
+class Desk:
+    """Of one study.
+
+    Attributes:
+        conductor: of the study.
+        instruments: its questionnaires, by their names.
+        trials: what runs them.
+        utc: the time of day.
+        lock: held by whoever acts through the conductor.
+
+    Args:
+        conductor: of the study.
+        instruments: its questionnaires, by their names.
+        trials: what runs them.
+        utc: the time of day.
+    """
+
+    def __init__(
+        self,
+        conductor: Conductor,
+        instruments: Mapping[str, Instrument],
+        trials: Trials,
+        utc: Callable[[], datetime],
+    ) -> None:
+        self.conductor = conductor
+        self.instruments = instruments
+        self.trials = trials
+        self.utc = utc
+        self.lock = threading.RLock()
+
+    def participant_does(self, number: int, act: acts.ParticipantAct) -> None:
+        """A participant has done something.
+
+        Raises:
+            ServiceError: it does not count, and why.
+        """
+        with self.lock:
+            match act:
+                case acts.Consent(version=version, language=language):
+                    self._consent(number, version, language)
+                case acts.Fill():
+                    self._fill(number, act)
+                case acts.Begin(part=part):
+                    self._begin(number, self._at(number, part))
+                case acts.EndBreak(part=part):
+                    self._end_break(number, self._at(number, part))
+                case acts.Withdraw(delete=delete):
+                    self._withdraw(number, delete=delete)
+            self.settle(number)
+
+    def console_does(self, act: acts.ConsoleAct) -> None:
+        """The experimenter has done something.
+
+        Raises:
+            ServiceError: it does not count, and why.
+        """
+        with self.lock:
+            match act:
+                case acts.Enrol(number=number, language=language):
+                    self.conductor.enrol(number, language)
+                case acts.Pause(number=number, reason=reason):
+                    self._pause(number, reason)
+                case acts.GoOn(number=number, part=part, anew=anew):
+                    self._go_on(number, self._at(number, part), anew=anew)
+                case acts.Invalid(number=number, part=part, reason=reason, repeat=repeat):
+                    self._invalid(number, part, reason, repeat=repeat)
+                case acts.Note(number=number, text=text):
+                    self._note(number, text)
+                case acts.Abort(number=number, reason=reason):
+                    self.conductor.drop(number, reason)
+                    self._stop(number)
+                case acts.WithdrawFor(number=number, delete=delete):
+                    self._withdraw(number, delete=delete)
+
+    def settle(self, number: int) -> None:
+        """A break begins when it comes."""
+        with self.lock:
+            known = self.conductor.participant(number)
+            part = self.conductor.now(number)
+            if isinstance(part, Rest) and known.begun != part.name and not known.paused:
+                self.conductor.begin(number)
+
+    def age(self, number: int) -> float:
+        """Since a participant's last checkpoint [s]."""
+        return max(0.0, self.conductor.age(number, self.utc()))
+
+    def is_old(self, number: int) -> bool:
+        """The checkpoint is older than the protocol lets go on from without the experimenter."""
+        return self.age(number) > 60.0 * self.conductor.protocol.resume.minutes
+
+    def left_s(self, number: int, rest: Rest) -> float:
+        """Of a break [s]."""
+        known, minutes = self.conductor.participant(number), self.conductor.protocol.breaks.minutes
+        if known.begun != rest.name:
+            return 60.0 * minutes
+        gone = (self.utc() - datetime.fromisoformat(known.begun_at)).total_seconds()
+        return min(60.0 * minutes, max(0.0, 60.0 * minutes - gone))
+
+    def order(self, number: int, part: Fill) -> tuple[str, ...]:
+        """In which the questions of a form are asked."""
+        seed = self.conductor.protocol.order.seed
+        return form_order(self.instruments[part.instrument], seed, number, part.name)
+
+    def _at(self, number: int, name: str) -> Part:
+        """The part that a participant is at, if it is the one of that name.
+
+        Raises:
+            NotNow: it is not.
+        """
+        part = self.conductor.now(number)
+        if part is None or part.name != name:
+            raise NotNow(f"participant {number} is not at {name} any more")
+        return part
+
+    def _consent(self, number: int, version: str, language: str) -> None:
+        text = self.conductor.protocol.consent
+        if version != text.version:
+            raise NotNow(f"version {version} of the text was shown, the study has {text.version}: load the page anew")
+        self._at(number, Agree().name)
+        self._keeps_on(number)
+        self.conductor.consent(number, language)
+
+    def _fill(self, number: int, act: acts.Fill) -> None:
+        part = self._at(number, act.part)
+        if not isinstance(part, Fill):
+            raise NotNow(f"{part.name} is no questionnaire")
+        self._keeps_on(number)
+        shown = [name for name in self.order(number, part) if name in act.answers]
+        self.conductor.answer(number, part, Sheet(act.language, act.version, shown, act.answers))
+
+    def _begin(self, number: int, part: Part) -> None:
+        if not isinstance(part, Train | Adapt):
+            raise NotNow(f"{part.name} is neither a training nor a model")
+        self._keeps_on(number)
+        self._free_for(number)
+        if self.conductor.participant(number).begun == part.name:
+            self.conductor.go_on(number, self.utc())
+        else:
+            self.conductor.begin(number)
+        self.trials.start(number, part)
+
+    def _end_break(self, number: int, part: Part) -> None:
+        if not isinstance(part, Rest):
+            raise NotNow(f"{part.name} is no break")
+        self._keeps_on(number)
+        left_s = self.left_s(number, part)
+        if left_s > 0.0:
+            raise NotNow(f"the break lasts {left_s:.0f} seconds more")
+        self.conductor.end(number, part)
+
+    def _withdraw(self, number: int, *, delete: bool) -> None:
+        if self.conductor.participant(number).gone == "withdrawn" and not delete:
+            raise NotNow(f"participant {number} has withdrawn already")
+        self._stop(number)
+        self.conductor.withdraw(number, delete=delete)
+
+    def _pause(self, number: int, reason: str) -> None:
+        known = self.conductor.participant(number)
+        if known.paused or known.gone or known.finished:
+            raise NotNow(f"participant {number} pauses already, or is through, or gone")
+        self._stop(number)
+        self.conductor.pause(number, reason.strip())
+
+    def _go_on(self, number: int, part: Part, *, anew: bool) -> None:
+        known = self.conductor.participant(number)
+        runs = isinstance(part, Train | Adapt) and known.begun == part.name
+        live = self.trials.live()
+        if not known.paused and (not runs or (live is not None and live.number == number)):
+            raise NotNow(f"participant {number} was not interrupted")
+        if runs:
+            self._free_for(number)
+        by_hand = self.is_old(number)
+        if anew and part.name in known.attempts:
+            self.conductor.invalid(number, part.name, "begun anew after an interruption", repeat=True)
+        self.conductor.go_on(number, self.utc(), by_hand=by_hand)
+        if runs and isinstance(part, Train | Adapt):
+            self.trials.start(number, part)
+
+    def _invalid(self, number: int, part: str, reason: str, *, repeat: bool) -> None:
+        live = self.trials.live()
+        if live is not None and (live.number, live.part) == (number, part):
+            self.trials.stop()
+        self.conductor.invalid(number, part, reason, repeat=repeat)
+
+    def _note(self, number: int | None, text: str) -> None:
+        if not text.strip():
+            raise NotNow("write something first")
+        self.conductor.note(number, text.strip())
+
+    def _stop(self, number: int) -> None:
+        live = self.trials.live()
+        if live is not None and live.number == number:
+            self.trials.stop()
+
+    def _keeps_on(self, number: int) -> None:
+        if self.conductor.participant(number).paused:
+            raise NotNow(f"participant {number} pauses: the experimenter lets it go on")
+
+    def _free_for(self, number: int) -> None:
+        """One trial runs at a time.
+
+        Raises:
+            NotNow: another one does.
+        """
+        live = self.trials.live()
+        if live is not None:
+            whose = "it" if live.number == number else f"one of participant {live.number}"
+            raise NotNow(f"{whose} runs already")
