@@ -181,7 +181,7 @@ def _row(desk: Desk, known: Participant) -> Row:
         gone=known.gone,
         age_s=int(desk.age(known.number)),
         old=desk.is_old(known.number),
-        invalid=len(known.invalid) + len({attempt.part for attempt, _ in known.void}),
+        invalid=len({*known.invalid, *(attempt.part for attempt, _ in known.void)}),
     )
 
 

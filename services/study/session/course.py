@@ -129,7 +129,8 @@ class Participant:
         paused: the experimenter has interrupted.
         begun: the part that has begun last.
         begun_at: when, UTC, ISO 8601; empty where none has.
-        last: when the newest of all this was, UTC, ISO 8601; empty right after they were enrolled.
+        last: when the newest of all this was, UTC, ISO 8601; empty right after they were enrolled. That something does
+            not count is no checkpoint.
         gone: why they do not go on; empty while they do.
         deleted: what was recorded of them, on their wish.
         finished: they have done all of it.
@@ -175,8 +176,9 @@ class Participant:
 
     def hear(self, entry: Entry) -> None:
         """Something of theirs has happened."""
-        self.last = entry.at
-        match event := entry.event:
+        event = entry.event
+        self.last = self.last if isinstance(event, Invalid) else entry.at
+        match event:
             case Began(part=part):
                 self.begun, self.begun_at = part, entry.at
             case Paused():

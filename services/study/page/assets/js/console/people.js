@@ -56,9 +56,10 @@ export class People {
         data: { tone: TONES[row.state] ?? "none", focus: `person-${row.number}`, number: row.number },
       },
       make("b.person-number", {}, `${row.number}`),
-      make("span.person-where", {}, where, row.invalid ? make("i", {}, say("console.invalid_count", { count: row.invalid })) : ""),
+      make("span.person-where", {}, where),
       make("span.person-state", {}, make("span.mark"), state),
-      make("span.person-bar", {}, make("i", { style: `width: ${(100 * (row.part ? row.step - 1 : row.steps)) / row.steps}%` })),
+      row.invalid ? make("span.person-invalid", {}, say("console.invalid_count", { count: row.invalid })) : null,
+      make("span.person-bar", {}, make("i", { style: `width: ${row.gone ? 0 : (100 * (row.part ? row.step - 1 : row.steps)) / row.steps}%` })),
     );
   }
 

@@ -40,10 +40,14 @@ export class Session {
       {},
       make("h2.heading", {}, say("page.participant", row)),
       make("span.badge", {}, say(`state.${row.state}`)),
-      make("a.link", { href: `/participant/${row.number}`, target: "_blank", rel: "noopener" }, say("console.their_page")),
       make("span.spring"),
       ...actions,
-      make("p.quiet.session-about", {}, [say("console.order", { order: row.order.join(", ") }), row.language.toUpperCase()].join(" · ")),
+      make(
+        "p.quiet.session-about",
+        {},
+        `${say("console.order", { order: row.order.join(", ") })} · ${row.language.toUpperCase()} · `,
+        make("a.link", { href: `/participant/${row.number}`, target: "_blank", rel: "noopener" }, say("console.their_page")),
+      ),
       row.gone ? make("p.notice", {}, say("console.gone", { reason: row.gone })) : null,
     );
   }
@@ -80,7 +84,7 @@ export class Session {
     const here = row.part?.name === part.name;
     const voided = done.void.length;
     const marks = attempts.map((one) => make("i", { data: { success: `${one.success}` } }));
-    const may = (attempts.length > 0 || ["passed", "failed"].includes(state)) && part.kind !== "consent" && row.state !== "gone";
+    const may = (attempts.length > 0 || ["passed", "failed"].includes(state)) && !["consent", "rest"].includes(part.kind) && row.state !== "gone";
     const line = [
       make("span.part-name", {}, partTitle(part)),
       make("span.part-state", { data: { state } }, say(`state.${state}`)),

@@ -37,8 +37,12 @@ export class Form {
   pairsPage(question) {
     const scales = new Set(question.of);
     const names = this.stage.order.filter((name) => name.includes("/") && name.split("/").every((one) => scales.has(one)));
-    const pairs = new Pairs(question, names, this.questions, this.draft, () => this.problem.replaceChildren());
-    return { pairs, elements: [pairs.element], missing: () => names.filter((name) => !(name in this.draft.answers)) };
+    const missing = () => names.filter((name) => !(name in this.draft.answers));
+    const pairs = new Pairs(question, names, this.questions, this.draft, {
+      onTurn: () => (this.send.hidden = missing().length > 0),
+      onBack: () => this.turn(this.page - 1),
+    });
+    return { elements: [pairs.element], missing, cards: true };
   }
 
   turn(page) {
@@ -46,20 +50,19 @@ export class Form {
     this.draft.turn(page);
     this.problem.replaceChildren();
     const last = page === this.pages.length - 1;
+    const { elements, missing, cards = false } = this.pages[page];
+    this.send = make("button.button.go", { type: "submit" }, say(last ? "form.send" : "page.next"));
+    // Cards bring the next one themselves, and go back themselves.
+    this.send.hidden = cards && missing().length > 0;
     const { instructions } = this.stage;
     const head = page === 0 && Object.keys(instructions).length ? paragraphs(pick(instructions)) : [];
     this.body.replaceChildren(
       make("h1.heading", {}, pick(this.part.title)),
       ...(this.part.method ? [make("p.method", {}, say("form.about", this.part))] : []),
       ...head.map((text) => make("p.instructions", {}, text)),
-      ...this.pages[page].elements,
+      ...elements,
       this.problem,
-      make(
-        "div.row.spread",
-        {},
-        page > 0 ? button(say("page.back"), () => this.turn(page - 1), { kind: "quiet" }) : make("span"),
-        make("button.button.go", { type: "submit" }, last ? say("form.send") : say("page.next")),
-      ),
+      make("div.row.end", {}, this.send),
     );
     this.element.closest(".stage")?.scrollTo(0, 0);
   }

@@ -4,19 +4,16 @@ import { button, make } from "/assets/js/dom.js";
 import { pick, say } from "/assets/js/words.js";
 
 export class Pairs {
-  constructor(question, names, scales, draft, onChange) {
+  constructor(question, names, scales, draft, { onTurn, onBack }) {
     this.question = question;
     this.names = names;
     this.scales = scales;
     this.draft = draft;
-    this.onChange = onChange;
+    this.onTurn = onTurn;
+    this.onBack = onBack;
     this.card = this.firstOpen();
     this.element = make("div.pairs");
     this.show();
-  }
-
-  get complete() {
-    return this.names.every((name) => name in this.draft.answers);
   }
 
   firstOpen() {
@@ -26,7 +23,7 @@ export class Pairs {
 
   show({ focus = false } = {}) {
     const { card, names } = this;
-    const back = button(say("page.back"), () => this.turn(card - 1), { kind: "quiet", disabled: card === 0 });
+    const back = button(say("page.back"), () => (card ? this.turn(card - 1) : this.onBack()), { kind: "quiet" });
     const bar = make("div.cards-bar", {}, make("i", { style: `width: ${(100 * card) / names.length}%` }));
     if (card === names.length) {
       this.element.replaceChildren(make("p.pairs-done", {}, say("form.pairs_done")), bar, make("div.row", {}, back));
@@ -38,9 +35,9 @@ export class Pairs {
       make("h2.heading", {}, pick(this.question.text)),
       make("div.cards", { role: "group", "aria-label": said }, sides),
       bar,
-      make("div.row", {}, back, make("span.quiet", { "aria-live": "polite" }, said)),
+      make("div.row.spread", {}, back, make("span.quiet", { "aria-live": "polite" }, said)),
     );
-    if (focus) this.element.querySelector(".card").focus();
+    if (focus) this.element.querySelector(".card").focus({ preventScroll: true });
   }
 
   side(name, side) {
@@ -58,6 +55,6 @@ export class Pairs {
   turn(card) {
     this.card = card;
     this.show({ focus: true });
-    this.onChange();
+    this.onTurn();
   }
 }
