@@ -1,6 +1,6 @@
 """A study's pages, served with a journal of their own and a stand-in for the robot; as a process, to be killed, too.
 
-`python study_harness.py FOLDER PORT` serves the study in the folder until it is killed.
+`python -m tests.study_harness FOLDER PORT` serves the study in the folder until it is killed.
 """
 
 import contextlib
@@ -25,6 +25,16 @@ PROTOCOL = Path(__file__).parent / "study_protocol.toml"
 ROBOTS_PAGE = b"""<!doctype html><html lang="en"><title>stand-in</title>
 <body style="font: 2rem sans-serif; padding: 2rem; color: #e6edf3; background: #0e1116">
 <p>This stands in for the robot's page.</p><input aria-label="keys" autofocus></body></html>"""
+
+
+def now():
+    """The time of day."""
+    return datetime.now(UTC)
+
+
+def enrolled(journal):
+    """Enrol participant 1."""
+    Conductor(load(PROTOCOL), journal, {}).enrol(1, "en")
 
 
 class StandInTrials:
@@ -104,7 +114,7 @@ class Served:
 
     def utc(self):
         """The time of day, as much later as a test wants."""
-        return datetime.now(UTC) + self.later
+        return now() + self.later
 
     @property
     def events(self):

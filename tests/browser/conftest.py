@@ -268,3 +268,35 @@ def cable(station):
     between = Cable(int(station[0].url.rpartition(":")[2]))
     yield between
     between.close()
+
+
+STUDYS_SIZE = {"width": 1280, "height": 720}
+
+
+@pytest.fixture
+def study(tmp_path):
+    """A study that is served, with a stand-in for the robot; participant 1 is enrolled."""
+    from tests.study_harness import served
+
+    with served(tmp_path / "raw", free_port()) as one:
+        one.desk.conductor.enrol(1, "en")
+        yield one
+
+
+@pytest.fixture
+def visit(browser):
+    """A function that opens an address in a browser of one's own, and what it complained of beside."""
+    contexts = []
+
+    def come(address, **options):
+        contexts.append(browser.new_context(**{"viewport": STUDYS_SIZE, "locale": "en"} | options))
+        contexts[-1].set_default_timeout(WITHIN_S * 1e3)
+        tab = contexts[-1].new_page()
+        tab.faults = []
+        tab.on("pageerror", lambda error: tab.faults.append(str(error)))
+        tab.goto(address)
+        return tab
+
+    yield come
+    for context in contexts:
+        context.close()
