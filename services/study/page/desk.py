@@ -11,8 +11,9 @@ from services.study.instruments.instrument import Instrument
 from services.study.page import acts
 from services.study.page.order import form_order
 from services.study.page.trials import Trials
-from services.study.session.conductor import Conductor, Sheet
+from services.study.session.conductor import Conductor
 from services.study.session.course import Adapt, Agree, Fill, Part, Rest, Train
+from services.study.session.sheet import Sheet
 
 
 class Desk:

@@ -7,12 +7,10 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from datetime import datetime
-from typing import Protocol as Interface
 
 from services.study import events
-from services.study.events import Answer, Answered, Attempted, Began, Entry, Event
+from services.study.events import Answered, Attempted, Began, Entry, Event
 from services.study.exceptions import (
     NotNow,
     ParticipantThere,
@@ -22,40 +20,7 @@ from services.study.journal import Journal
 from services.study.protocol.orders import Allocation, orders
 from services.study.protocol.protocol import Protocol
 from services.study.session.course import Agree, Fill, Part, Participant, participants
-
-
-class Questionnaire(Interface):
-    """What is filled in."""
-
-    @property
-    def version(self) -> str:
-        """Of its file."""
-        ...
-
-    def check(self, answers: Mapping[str, Answer]) -> None:
-        """Whether they are complete and allowed.
-
-        Raises:
-            AnswerRefused: they are not.
-        """
-        ...
-
-
-@dataclass(frozen=True)
-class Sheet:
-    """A questionnaire that was filled in.
-
-    Attributes:
-        language: in which it was read.
-        version: that was shown.
-        shown: names of its questions, in the order in which they came.
-        answers: by question.
-    """
-
-    language: str
-    version: str
-    shown: Sequence[str]
-    answers: Mapping[str, Answer]
+from services.study.session.sheet import Questionnaire, Sheet
 
 
 def digest(text: str) -> str:

@@ -19,8 +19,9 @@ from services.offline.pool import ProcessDied, Progress, each
 from services.offline.result import Arrangement
 from services.study.instruments.instrument import Instrument
 from services.study.protocol.protocol import Protocol
-from services.study.session.conductor import Conductor, Sheet
+from services.study.session.conductor import Conductor
 from services.study.session.course import Adapt, Agree, Fill, Part, Participant, Rest, Train
+from services.study.session.sheet import Sheet
 from services.study.synthetic.character import Nature
 from services.study.synthetic.filling import Experience, filled
 from services.study.synthetic.lesson import Done, Lesson, given

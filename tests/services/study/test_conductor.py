@@ -22,8 +22,9 @@ from services.study.exceptions import AnswerRefused, NotNow, ParticipantThere, P
 from services.study.journal import Journal
 from services.study.protocol.protocol import Teaching, load
 from services.study.protocols import SHIPPED
-from services.study.session.conductor import Conductor, Sheet
+from services.study.session.conductor import Conductor
 from services.study.session.course import Adapt, Agree, Fill, Rest, Train, participants
+from services.study.session.sheet import Sheet
 
 PROTOCOL = load(SHIPPED["thesis"])
 
