@@ -270,9 +270,6 @@ def cable(station):
     between.close()
 
 
-STUDYS_SIZE = {"width": 1280, "height": 720}
-
-
 @pytest.fixture
 def study(tmp_path):
     """A study that is served, with a stand-in for the robot; participant 1 is enrolled."""
@@ -289,7 +286,7 @@ def visit(browser):
     contexts = []
 
     def come(address, **options):
-        contexts.append(browser.new_context(**{"viewport": STUDYS_SIZE, "locale": "en"} | options))
+        contexts.append(browser.new_context(**{"viewport": {"width": 1280, "height": 720}, "locale": "en"} | options))
         contexts[-1].set_default_timeout(WITHIN_S * 1e3)
         tab = contexts[-1].new_page()
         tab.faults = []
