@@ -46,10 +46,28 @@ ServiceError
 │   ├── NoSuchAccount        nobody of the name has one
 │   ├── PasswordUnusable     one that is too short or too long, or differs from the one before
 │   └── LoginImpossible      a page at which nobody can log in, or nobody has to where others reach it
-└── StudyError               (services.reproduction.exceptions)
-    ├── UnknownAnalysis      a name that no analysis has
-    ├── CannotKeep           a folder that results cannot be kept in (an EnvironmentFault too)
-    └── NothingToMap         a model that cannot be mapped
+├── ReproductionError        (services.reproduction.exceptions)
+│   ├── UnknownAnalysis      a name that no analysis has
+│   ├── CannotKeep           a folder that results cannot be kept in (an EnvironmentFault too)
+│   └── NothingToMap         a model that cannot be mapped
+├── AnalysisError            (services.study.analysis.exceptions)
+│   ├── NothingToAnalyse     observations that hold too little for any analysis
+│   ├── UnknownMethod        a hypothesis about a method that nobody used
+│   └── BadRenaming          a flag that renames what is not there, or twice
+└── StudyError               (services.study.exceptions)
+    ├── ProtocolUnfit        a protocol or questionnaire that contradicts itself
+    ├── NoStudy              a folder that holds none
+    ├── StudyThere           one that holds one already
+    ├── StudyInUse           another console or run has the study open (an EnvironmentFault too)
+    ├── StudyFrozen          what was frozen has changed since, and nobody has said why
+    ├── NotFrozen            a study that has to be frozen before people take part
+    ├── FrozenAlready        one that was frozen before
+    ├── Mixed                people and simulated participants in one study
+    ├── JournalBroken        a journal that is not as it was written, or of another version
+    ├── ParticipantUnknown   no participant has this number
+    ├── ParticipantThere     one has it already
+    ├── AnswerRefused        an answer that is missing, or outside what its question allows
+    └── NotNow               something that cannot be done at this point of a session
 """
 
 from __future__ import annotations
