@@ -126,7 +126,6 @@ class StationService:
 
     def step(self, now_ns: int) -> None:
         """A stop before all; then look, advance the workflow, ask, tell."""
-        self._ears.queue.step(now_ns, jpeg_only=self._page is not None and self._page.jpeg_only)
         self._tell(now_ns, self._act(now_ns))
 
     def _act(self, now_ns: int) -> View:
@@ -153,6 +152,7 @@ class StationService:
 
     def _tell(self, now_ns: int, view: View) -> None:
         """What moves is shown in every step; words are put together as often as they are told, or where it goes on."""
+        self._ears.queue.step(now_ns, jpeg_only=self._page is not None and self._page.jpeg_only)
         told = self._schedule.due(topics.TEACHING_STATE, now_ns)
         if told or (self._page is not None and self._workflow.phase is not self._worded):
             self._worded = self._workflow.phase

@@ -22,4 +22,4 @@ def read(file: Path) -> dict[str, str]:
 
 def spaced(words: str) -> str:
     """Words in one line, however they are broken in the table."""
-    return re.sub(r"\n\s*", " ", words.strip())
+    return re.sub(r"\n\s*", " ", words.strip("\n"))
