@@ -12,6 +12,7 @@ PARTS: tuple[Command, ...] = (
     Command("check", "services.commands.study.check", "does it agree with itself, how far is it", needs="study"),
     Command("freeze", "services.commands.study.freeze", "from here on every change has a reason", needs="study"),
     Command("run", "services.commands.study.run", "participants go through it, people or simulated", needs="study"),
+    Command("export", "services.commands.study.export", "the data for others, without a name", needs="study"),
     Command("power", "services.commands.study.power", "how many people for an effect of what size", needs="study"),
     Command("analyse", "services.commands.study.analyse", "statistics and the report of a study", needs="study"),
 )
