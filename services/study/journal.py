@@ -39,6 +39,7 @@ class Journal:
     Args:
         folder: of the raw data; it is made.
         utc: the time of day.
+        marked: called with every entry that is added, once it is on the disk.
 
     Raises:
         StudyInUse: another process has it open.
@@ -46,10 +47,13 @@ class Journal:
         CannotWrite: it cannot be opened.
     """
 
-    def __init__(self, folder: Path, utc: Callable[[], datetime]) -> None:
+    def __init__(
+        self, folder: Path, utc: Callable[[], datetime], marked: Callable[[Entry], None] = lambda _: None
+    ) -> None:
         self.entries: list[Entry] = []
         self._path = folder / FILE
         self._utc = utc
+        self._marked = marked
         self._chain = ORIGIN
         self._file = self._opened(folder)
         try:
@@ -84,6 +88,7 @@ class Journal:
             raise CannotWrite(self._path, error.strerror or str(error)) from None
         self._chain = chain
         self.entries.append(entry)
+        self._marked(entry)
         return entry
 
     def erase(self, participant: int, erasable: Callable[[Event], bool]) -> int:

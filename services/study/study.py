@@ -89,13 +89,21 @@ class Study:
             raise CannotWrite(path, error.strerror or str(error)) from None
         return frozen
 
-    def journal(self, utc: Callable[[], datetime], *, synthetic: bool, deviation: str = "") -> Journal:
+    def journal(
+        self,
+        utc: Callable[[], datetime],
+        *,
+        synthetic: bool,
+        deviation: str = "",
+        marked: Callable[[Entry], None] = lambda _: None,
+    ) -> Journal:
         """Open the journal to write, and write down with what.
 
         Args:
             utc: the time of day.
             synthetic: all participants will be simulated.
             deviation: why it is no longer as it was frozen; empty where it is.
+            marked: called with every entry that is added, once it is on the disk.
 
         Raises:
             NotFrozen: people are to take part, and it is not frozen.
@@ -107,7 +115,7 @@ class Study:
         frozen, now = self.frozen(), self.now()
         if frozen is None and not synthetic:
             raise NotFrozen(self.folder)
-        journal = Journal(self.raw, utc)
+        journal = Journal(self.raw, utc, marked)
         try:
             self._begin(journal, freezing.changed(frozen or now, now), deviation, synthetic=synthetic)
         except BaseException:

@@ -1,0 +1,75 @@
+"""kill -9 of any process of a synthetic study, again and again: no trial is lost, none twice, the data are the same."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from services.study.events import Opened, Repaired
+from services.study.journal import read
+from services.study.protocols import SHIPPED
+from services.study.study import new_study
+
+pytestmark = [pytest.mark.system, pytest.mark.long]
+
+KILLS = 30
+LONGEST_S = 300.0
+"""Of a run that nobody kills."""
+
+
+@pytest.fixture
+def small(tmp_path):
+    """A function that makes a study of two methods in the plane: everything that a study has, and short."""
+
+    def make(name):
+        study = new_study(tmp_path / name, SHIPPED["thesis"])
+        path = study.folder / "protocol.toml"
+        text = path.read_text(encoding="utf-8")
+        text = text.replace('scene = "dishwasher"\nvariant = "b2"\nmodels = 3', 'scene = "particle"\nmodels = 1')
+        text = text.replace("successes = 2\nof_last = 4", "successes = 1\nof_last = 1")
+        methods = re.split(r"(?=\[\[methods\]\])", text[text.index("[[methods]]") : text.index("[task]")])
+        kept = "".join(one for one in methods if "OnStyl" in one or "OnKey" in one)
+        order = '[order]\ndesign = "williams"\nparticipants = 2\n\n[instruments]'
+        text = text[: text.index("[[methods]]")] + kept + text[text.index("[task]") :]
+        text = text[: text.index("[order]")] + order + text[text.index("[instruments]") + len("[instruments]") :]
+        path.write_text(text[: text.index("[[analysis.hypotheses]]")], encoding="utf-8")
+        return study.folder
+
+    return make
+
+
+def started(folder):
+    command = [sys.executable, "-I", "-m", "services", "study", "run", str(folder), "--synthetic", "2", "--headless"]
+    return subprocess.Popen([*command, "--jobs", "2"], stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+
+
+def processes(parent):
+    """A process and all that it has started."""
+    children = Path(f"/proc/{parent}/task/{parent}/children").read_text().split()
+    return [parent, *(each for child in children for each in processes(int(child)))]
+
+
+def events(folder):
+    return [entry.event for entry in read(folder / "raw") if not isinstance(entry.event, Opened | Repaired)]
+
+
+def test_thirty_kills_lose_and_repeat_no_trial(small):
+    calm, killed = small("calm"), small("killed")
+    assert started(calm).wait(LONGEST_S) == 0
+    rng = np.random.default_rng(30)
+    for _ in range(KILLS):
+        run = started(killed)
+        time.sleep(rng.uniform(0.5, 25.0))  # the moment is what is drawn
+        if run.poll() is None:
+            os.kill(int(rng.choice(processes(run.pid))), signal.SIGKILL)
+        time.sleep(1.0)
+        run.kill()
+        run.wait()
+    assert started(killed).wait(LONGEST_S) == 0
+    assert events(killed) == events(calm)
