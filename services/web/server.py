@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import socket
 import threading
 
@@ -104,4 +105,11 @@ class Server:
 
     def _serve(self, listener: socket.socket) -> None:
         with listener:
-            self._server.run(sockets=[listener])
+            asyncio.run(self._served(listener))
+
+    async def _served(self, listener: socket.socket) -> None:
+        await self._server.serve(sockets=[listener])
+        # Whoever has not answered by now is let go of: the loop would end with the connection open.
+        for connection in list(self._server.server_state.connections):
+            connection.transport.abort()
+        await asyncio.sleep(0.0)

@@ -10,7 +10,7 @@ import pytest
 
 from protocol import topics
 from protocol.codec import decode
-from protocol.messages import Pose, WorldState
+from protocol.messages import Coding, Pose, WorldState
 from services.bus.arrays import to_wire
 from services.bus.zenoh import connect
 from services.process.clock import SystemClock
@@ -84,7 +84,7 @@ def test_a_sample_that_is_lost_is_not_waited_for(far, world):
 def test_the_queue_that_pictures_make_on_a_thin_link_goes_away(far):
     link, here, hear = far
     link.shape(delay_s=0.02, rate=1.5e6)
-    with running([sys.executable, HERE / "pictures.py", here]):
+    with running([sys.executable, HERE / "pictures.py", here, Coding.JPEG.value]):
         heard = hear(SETTLED_S)
     came_ns = max(at for at, _, _ in heard)
     newest = [(at, decode(topics.HEAD_IMAGE, raw)) for at, name, raw in heard if name == topics.HEAD_IMAGE.name]
