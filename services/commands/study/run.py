@@ -28,7 +28,7 @@ examples:
 def add_arguments(parser: ArgumentParser) -> None:
     """See `Action`."""
     parser.description = (
-        "Leads participants through a study. Ended at any moment, by whatever, it goes on where it was when it is"
+        "Leads simulated participants through a study. Ended at any moment, by whatever, it goes on where it was when it is"
         " started again: nothing is lost, nothing is done twice."
     )
     parser.epilog = _EXAMPLES
@@ -45,7 +45,7 @@ def run(arguments: Namespace) -> int:
     """See `Action`."""
     study = open_study(arguments.folder)
     if arguments.synthetic is None or not arguments.headless:
-        raise CommandFailed("say --synthetic N --headless")
+        raise CommandFailed("simulated participants only so far: say --synthetic N --headless")
     _rehearse(study, arguments)
     return Exit.DONE
 
