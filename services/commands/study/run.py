@@ -28,8 +28,8 @@ examples:
 def add_arguments(parser: ArgumentParser) -> None:
     """See `Action`."""
     parser.description = (
-        "Leads simulated participants through a study. Ended at any moment, by whatever, it goes on where it was when it is"
-        " started again: nothing is lost, nothing is done twice."
+        "Leads simulated participants through a study. Ended at any moment, by whatever, it goes on where it was when"
+        " it is started again: nothing is lost, nothing is done twice."
     )
     parser.epilog = _EXAMPLES
     parser.add_argument("folder", type=Path, metavar="FOLDER", help="of the study")
