@@ -4,7 +4,15 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, Task, TextColumn, TimeRemainingColumn
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    Task,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
 from rich.text import Text
 
 
@@ -34,3 +42,20 @@ def bar(console: Console, total: int) -> Iterator[Callable[[float], None]]:
     with Progress(*columns, console=console, transient=True) as progress:
         task = progress.add_task("conditions", total=total)
         yield lambda share: progress.update(task, completed=round(share * total))
+
+
+@contextmanager
+def share_bar(console: Console, work: str) -> Iterator[Callable[[float], None]]:
+    """A bar of work that tells only its share.
+
+    Args:
+        console: to draw it on.
+        work: what is done.
+
+    Yields:
+        What takes the share that is done, from 0 to 1.
+    """
+    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=console, transient=True) as progress:
+        task = progress.add_task(work, total=1.0)
+        yield lambda share: progress.update(task, completed=share)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import platform
+from collections.abc import Sequence
 from importlib.metadata import PackageNotFoundError, version
 
 
@@ -11,3 +13,9 @@ def release(package: str = "retouch") -> str:
         return version(package)
     except PackageNotFoundError:
         return ""
+
+
+def versions(packages: Sequence[str]) -> dict[str, str]:
+    """Of Python, and of those of the packages that are installed, by name."""
+    installed = {name: release(name) for name in packages}
+    return {"python": platform.python_version(), **{name: found for name, found in installed.items() if found}}

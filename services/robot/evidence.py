@@ -12,7 +12,7 @@ from protocol.messages import Prediction
 from services.evidence.events import AuthorityChanged, Began, Commanded, EpisodeBegan, EpisodeEnded, StopChanged
 from services.evidence.ledger import Ledger
 from services.process.config import Configuration
-from services.process.release import release
+from services.process.release import versions
 from services.robot.control import Control
 from services.robot.order import Finished
 
@@ -81,14 +81,12 @@ def began(configuration: Configuration) -> Began:
         "insecure": configuration.insecure,
         "robot": msgspec.to_builtins(configuration.robot),
     }
-    return Began(robot=configuration.name, host=platform.node()[:64], versions=versions(), settings=settings)
+    return Began(robot=configuration.name, host=platform.node()[:64], versions=software(), settings=settings)
 
 
-def versions() -> dict[str, str]:
-    """Of the software that moves the robot."""
-    installed = {name: release(name) for name in SOFTWARE}
-    known = {name: found for name, found in installed.items() if found}
-    return {"python": platform.python_version(), "platform": sys.platform, **known}
+def software() -> dict[str, str]:
+    """Versions of what moves the robot."""
+    return {"platform": sys.platform, **versions(SOFTWARE)}
 
 
 def _authority(control: Control) -> AuthorityChanged:

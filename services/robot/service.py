@@ -117,6 +117,7 @@ class RobotService:
         self._given_ns = 0
         self._first_ns: int | None = None
         self._told_epoch = control.lease.epoch
+        bus.tell_commander(control.lease.operator)
         self._ticks = self._touching = self._clamped = 0
 
     def step(self, now_ns: int) -> None:
@@ -184,13 +185,15 @@ class RobotService:
         return covers
 
     def _tell_who_commands(self) -> None:
-        """Tell the network, and log who took the authority from whom, and why."""
+        """Tell the network where it has changed, and log who took the authority from whom, and why."""
         lease = self._control.lease
+        if self._told_epoch == lease.epoch:
+            return
+        self._told_epoch = lease.epoch
         self._bus.tell_commander(lease.operator)
-        if self._told_epoch != lease.epoch and lease.reason:
+        if lease.reason:
             event = lease.event.value.replace("_", " ")
             log.warning("%s", one_line(f"{lease.before}'s authority was {event} by {lease.by}: {lease.reason}"))
-        self._told_epoch = lease.epoch
 
     def _given(self) -> None:
         """The arm has its command: what follows in the step, simulated physics included, delays no sample."""

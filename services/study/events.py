@@ -9,7 +9,7 @@ from typing import Annotated
 
 import msgspec
 
-from services.study.protocol.protocol import Teaching
+from services.offline.people.ways import Teaching
 
 Number = Annotated[int, msgspec.Meta(ge=1, le=9999)]
 Seconds = Annotated[float, msgspec.Meta(ge=0.0, le=1e6)]

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import hashlib
-import platform
 from collections.abc import Mapping
 from pathlib import Path
 
 import msgspec
 
-from services.process.release import release
+from services.process.release import versions
 from services.process.written import read
 
 FILE = "frozen.json"
 
-_SOFTWARE = ("retouch", "numpy", "scipy", "statsmodels", "mujoco", "pin", "eclipse-zenoh")
+_SOFTWARE = ("retouch", "numpy", "scipy", "mujoco", "pin", "eclipse-zenoh")
 
 _ANALYSIS = Path(__file__).parent / "analysis"
 
@@ -42,8 +41,7 @@ def digest(path: Path) -> str:
 
 def software() -> dict[str, str]:
     """What runs here, by name."""
-    found = {name: release(name) for name in _SOFTWARE}
-    return {"python": platform.python_version(), **{name: version for name, version in found.items() if version}}
+    return versions(_SOFTWARE)
 
 
 def analysis() -> str:

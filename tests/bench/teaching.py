@@ -22,9 +22,8 @@ from rich.console import Console
 from rich.progress import Progress
 
 from services.offline.first_demonstrations import first_demonstrations
-from services.offline.people.hands import Device
-from services.offline.people.person import Teaching
 from services.offline.people.session import TRIES, Session, all_taught
+from services.offline.people.ways import Device, Teaching
 from services.offline.proportion import Proportion
 from services.offline.result import Arrangement
 from sim.tasks import DISHWASHER

@@ -1,7 +1,6 @@
 """kill -9 of any process of a synthetic study, again and again: no trial is lost, none twice, the data are the same."""
 
 import os
-import re
 import signal
 import subprocess
 import sys
@@ -13,8 +12,8 @@ import pytest
 
 from services.study.events import Opened, Repaired
 from services.study.journal import read
-from services.study.protocols import SHIPPED
 from services.study.study import new_study
+from tests.study_harness import PROTOCOL
 
 pytestmark = [pytest.mark.system, pytest.mark.long]
 
@@ -23,25 +22,23 @@ LONGEST_S = 300.0
 """Of a run that nobody kills."""
 
 
+SHORT = {
+    'teaching = "waypoints"\ndevice = "keyboard"': 'teaching = "prediction"\ndevice = "stylus"',
+    "[task]\nmodels = 2": '[task]\nscene = "particle"\nmodels = 1\n\n[training]\nsuccesses = 1\nof_last = 1',
+}
+"""What makes a study short to act: both methods correct a motion in the plane."""
+
+
 @pytest.fixture
 def small(tmp_path):
-    """A function that makes a study of two methods in the plane: everything that a study has, and short."""
-
-    def make(name):
-        study = new_study(tmp_path / name, SHIPPED["thesis"])
-        path = study.folder / "protocol.toml"
-        text = path.read_text(encoding="utf-8")
-        text = text.replace('scene = "dishwasher"\nvariant = "b2"\nmodels = 3', 'scene = "particle"\nmodels = 1')
-        text = text.replace("successes = 2\nof_last = 4", "successes = 1\nof_last = 1")
-        methods = re.split(r"(?=\[\[methods\]\])", text[text.index("[[methods]]") : text.index("[task]")])
-        kept = "".join(one for one in methods if "OnStyl" in one or "OnKey" in one)
-        order = '[order]\ndesign = "williams"\nparticipants = 2\n\n[instruments]'
-        text = text[: text.index("[[methods]]")] + kept + text[text.index("[task]") :]
-        text = text[: text.index("[order]")] + order + text[text.index("[instruments]") + len("[instruments]") :]
-        path.write_text(text[: text.index("[[analysis.hypotheses]]")], encoding="utf-8")
-        return study.folder
-
-    return make
+    """A function that makes one."""
+    text = PROTOCOL.read_text(encoding="utf-8")
+    for long, short in SHORT.items():
+        assert long in text
+        text = text.replace(long, short)
+    template = tmp_path / "protocol.toml"
+    template.write_text(text, encoding="utf-8")
+    return lambda name: new_study(tmp_path / name, template).folder
 
 
 def started(folder):

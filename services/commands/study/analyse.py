@@ -7,10 +7,10 @@ from pathlib import Path
 
 import msgspec
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn
 from rich.table import Table
 
 from services.commands.arguments import add_debug, whole
+from services.commands.progress import share_bar
 from services.commands.terminal import Terminal
 from services.process.exit_codes import Exit
 from services.process.written import read
@@ -89,9 +89,8 @@ def run(arguments: Namespace) -> int:
     console = Terminal(stderr=True, highlight=False)
     for note in observations.notes:
         console.print(note, markup=False, soft_wrap=True)
-    with Progress(TextColumn("{task.description}"), BarColumn(), console=console, transient=True) as progress:
-        task = progress.add_task("analysing", total=1.0)
-        analysis = report(out, observations, plan, reporting, lambda share: progress.update(task, completed=share))
+    with share_bar(console, "analysing") as progress:
+        analysis = report(out, observations, plan, reporting, progress)
     summarise(analysis, console)
     Terminal(highlight=False, soft_wrap=True).print(str((out / REPORT).resolve()), markup=False)
     return Exit.DONE

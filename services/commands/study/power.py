@@ -9,10 +9,10 @@ from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Mapping
 from pathlib import Path
 
-from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
 from services.commands.arguments import add_debug, whole
+from services.commands.progress import share_bar
 from services.commands.terminal import Terminal
 from services.offline.proportion import Proportion
 from services.process.exit_codes import Exit
@@ -64,12 +64,8 @@ def run(arguments: Namespace) -> int:
     question = Question(
         study.protocol, arguments.people, arguments.effects, arguments.studies, arguments.seed, population
     )
-    console = Terminal(stderr=True, highlight=False)
-    columns = (TextColumn("{task.description}"), BarColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=console, transient=True) as bar:
-        task = bar.add_task("synthetic studies", total=1.0)
-        jobs = arguments.jobs or os.cpu_count() or 1
-        found = power(question, jobs, lambda share: bar.update(task, completed=share))
+    with share_bar(Terminal(stderr=True, highlight=False), "synthetic studies") as progress:
+        found = power(question, arguments.jobs or os.cpu_count() or 1, progress)
     _show(found, question)
     if arguments.csv is not None:
         write(arguments.csv, _csv(found).encode())

@@ -7,9 +7,8 @@ from argparse import ArgumentParser, Namespace
 from datetime import datetime
 from pathlib import Path
 
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
-
 from services.commands.arguments import add_debug, whole
+from services.commands.progress import share_bar
 from services.commands.terminal import Terminal
 from services.process.exceptions import CommandFailed
 from services.process.exit_codes import Exit
@@ -55,15 +54,13 @@ def _rehearse(study: Study, arguments: Namespace) -> None:
     written = study.entries()
     clock = StudyClock(datetime.fromisoformat(written[-1].at)) if written else StudyClock()
     console = Terminal(stderr=True, highlight=False)
-    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn(), TimeRemainingColumn())
     with (
         study.journal(clock, synthetic=True, deviation=arguments.deviation) as journal,
-        Progress(*columns, console=console, transient=True) as bar,
+        share_bar(console, f"{arguments.synthetic} synthetic participants") as progress,
     ):
-        task = bar.add_task(f"{arguments.synthetic} synthetic participants", total=1.0)
         conductor = Conductor(study.protocol, journal, instruments)
         going = SyntheticRun(study.protocol, instruments, conductor, clock, arguments.synthetic, arguments.seed)
-        going.go(arguments.jobs or os.cpu_count() or 1, lambda share: bar.update(task, completed=share))
+        going.go(arguments.jobs or os.cpu_count() or 1, progress)
         done = sum(one.finished for one in conductor.participants().values())
     Terminal(highlight=False, soft_wrap=True).print(
         f"{done} of {arguments.synthetic} synthetic participants have finished; 'retouch study analyse {study.folder}'",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from enum import Enum
 from typing import Generic, TypeVar
 
 import msgspec
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 
 from protocol.messages import OperatorInput
 from services.offline.people import told
+from services.offline.people.ways import Device
 from services.process import default_profiles
 from services.process.master_devices import Page
 from services.process.profile import Profile
@@ -45,16 +45,6 @@ _REACH = np.repeat([_LAW.reach, _LAW.turn_reach], 3)
 _KEYS = Handling(_RATE, _DECAY, np.repeat([0.010, 0.12], 3), _REACH, graded=False)
 _FULL = np.repeat([0.05, 0.3], 3)
 _FINE = np.repeat([0.006, 0.10], 3)
-
-
-class Device(Enum):
-    """What a person leads by."""
-
-    KEYBOARD = "keyboard"
-    GAMEPAD = "gamepad"
-    SPACE_MOUSE = "spacemouse"
-    POINTER = "pointer"
-    STYLUS = "stylus"
 
 
 class PersonHand(ABC):

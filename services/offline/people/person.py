@@ -8,17 +8,17 @@ from __future__ import annotations
 import math
 import threading
 from dataclasses import dataclass
-from enum import Enum
 
 import numpy as np
 
-from protocol.messages import Attendance, Figure, Method, Mode, OperatorInput, Origin, Phase, RobotState, TeachingState
+from protocol.messages import Attendance, Figure, Mode, OperatorInput, Origin, Phase, RobotState, TeachingState
 from protocol.queries import Effect, Refused
 from protocol.topics import EXECUTION, OBJECT_POSE, ROBOT_STATE, SCENE_STATE
 from services.bus.arrays import motion_from_wire
 from services.bus.bus import Bus
 from services.bus.predictions import Predictions
-from services.offline.people.hands import Device, hand_at
+from services.offline.people.hands import hand_at
+from services.offline.people.ways import Device, Teaching
 from services.process.clock import Clock
 from services.station.page.view import PageView
 from services.station.press import Press
@@ -40,26 +40,6 @@ SETTLES_S = 0.3
 
 TIMID = 0.6
 """Share of the correction in a first try that is to be corrected further."""
-
-
-class Teaching(Enum):
-    """How they teach: by one of two refinements, or one of the two ways offline."""
-
-    PREDICTION = "prediction"
-    REFINEMENT = "refinement"
-    WAYPOINTS = "waypoints"
-    DEMONSTRATION = "demonstration"
-
-    @property
-    def method(self) -> Method:
-        """As the page calls it."""
-        match self:
-            case Teaching.WAYPOINTS:
-                return Method.WAYPOINTS
-            case Teaching.DEMONSTRATION:
-                return Method.DEMONSTRATE
-            case _:
-                return Method.REFINE
 
 
 @dataclass(frozen=True)

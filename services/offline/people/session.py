@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,8 +13,8 @@ from threadpoolctl import threadpool_limits
 from lfd.motion.demonstration import Demonstration
 from protocol.messages import EpisodeResult, Mode
 from protocol.topics import EPISODE_RESULT
-from services.offline.people.hands import Device
-from services.offline.people.person import Character, Person, Teaching
+from services.offline.people.person import Character, Person
+from services.offline.people.ways import Device, Teaching
 from services.offline.pool import Progress, each, overall
 from services.offline.result import Arrangement
 from services.offline.stage import Stage, give
@@ -51,11 +52,10 @@ class Session:
 
     def configuration(self, database: Path) -> Configuration:
         """Of the services."""
-        led = Scripted(scatter=self.scatter) if self.device is Device.STYLUS else Page()
         return Configuration(
             seed=self.seed,
             robot=RobotSection(scene=self.scene),
-            master=MasterSection(device=led),
+            master=led_by(self.device, self.scatter),
             model=ModelSection(database=str(database)),
         )
 
@@ -86,13 +86,41 @@ def taught(session: Session, progress: Progress = lambda _: None) -> Taught:
         ServiceError: the services cannot be built, or refuse a demonstration.
     """
     del progress
+    with prepared(session.configuration, session.demonstrations) as stage:
+        return _watched(stage, session)
+
+
+@contextmanager
+def prepared(
+    configuration: Callable[[Path], Configuration], demonstrations: Sequence[Demonstration]
+) -> Iterator[Stage]:
+    """A stage whose model starts from demonstrations, for as long as it is needed.
+
+    Args:
+        configuration: of the services, from where the model's database is.
+        demonstrations: in the base frame.
+
+    Raises:
+        ServiceError: the services cannot be built, or refuse a demonstration.
+    """
     with tempfile.TemporaryDirectory(prefix="session-") as folder, threadpool_limits(1):
-        stage = Stage(session.configuration(Path(folder) / "model.sqlite"))
+        configured = configuration(Path(folder) / "model.sqlite")
+        stage = Stage(configured)
         try:
-            give(stage, session.scene, session.demonstrations)
-            return _watched(stage, session)
+            give(stage, configured.robot.scene, demonstrations)
+            yield stage
         finally:
             stage.close()
+
+
+def led_by(device: Device, scatter: float) -> MasterSection:
+    """The master of who leads by a device: the stylus is a script's, all others are the page's.
+
+    Args:
+        device: that they lead by.
+        scatter: of the person, see `Scripted` [m].
+    """
+    return MasterSection(device=Scripted(scatter=scatter) if device is Device.STYLUS else Page())
 
 
 def all_taught(sessions: Sequence[Session], jobs: int, progress: Progress = lambda _: None) -> list[Taught]:

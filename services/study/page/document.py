@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping
+from functools import cache
 from html import escape
 from pathlib import Path
 from string import Template
@@ -24,6 +25,7 @@ _SHEETS = ("base", "light", "study", "form", "participant", "console", "contrast
 _STYLE = "study.css"
 
 
+@cache
 def spoken() -> dict[str, dict[str, str]]:
     """All words, by language and name; what a language has no word for is English."""
     tables = {path.stem: read(path) for path in sorted(words.FOLDER.glob("*.toml"))}
@@ -41,14 +43,18 @@ def document(page: str, **facts: str) -> str:
     made = {
         "version": version(),
         "words": msgspec.json.encode(spoken()).decode().replace("<", "\\u003c"),
+        "page": page,
+        "number": "",
         "name": escape(said["page.name"]),
         "number_label": escape(said["number.label"]),
         "number_open": escape(said["number.open"]),
         **{name: escape(fact) for name, fact in facts.items()},
     }
-    return Template((HERE / f"{page}.html").read_text(encoding="utf-8")).substitute(made)
+    frame = page if page == NUMBER else "tab"  # all that a script fills has one frame
+    return Template((HERE / f"{frame}.html").read_text(encoding="utf-8")).substitute(made)
 
 
+@cache
 def version() -> str:
     """Changes with the pages' files: a tab that was loaded from others loads itself anew."""
     folders = (ASSETS, look.FOLDER, words.FOLDER)

@@ -8,6 +8,7 @@ from typing import Annotated
 
 import msgspec
 
+from services.offline.people.ways import Device, Teaching
 from services.process.section import Positive, Section
 from services.process.written import read
 from services.study.analysis.hypotheses import Plan
@@ -22,30 +23,6 @@ FILE = "protocol.toml"
 Count = Annotated[int, msgspec.Meta(ge=1, le=1000)]
 Name = Annotated[str, msgspec.Meta(pattern=r"^[A-Za-z][A-Za-z0-9_]{0,30}$")]
 Text = Annotated[str, msgspec.Meta(min_length=1, max_length=4000)]
-
-
-class Teaching(enum.Enum):
-    """How a method teaches."""
-
-    PREDICTION = "prediction"
-    REFINEMENT = "refinement"
-    WAYPOINTS = "waypoints"
-    DEMONSTRATION = "demonstration"
-
-    @property
-    def online(self) -> bool:
-        """While the robot moves."""
-        return self in (Teaching.PREDICTION, Teaching.REFINEMENT)
-
-
-class Device(enum.Enum):
-    """By which a method's operator leads."""
-
-    STYLUS = "stylus"
-    KEYBOARD = "keyboard"
-    GAMEPAD = "gamepad"
-    SPACEMOUSE = "spacemouse"
-    POINTER = "pointer"
 
 
 class Method(Section, frozen=True):

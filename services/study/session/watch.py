@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from protocol.messages import Attempt, Mode, Phase, RobotState, TeachingState
 from protocol.topics import ROBOT_STATE, TEACHING_STATE
 from services.bus.bus import Bus
+from services.offline.people.ways import Teaching
 from services.study.events import Attempted
-from services.study.protocol.protocol import Teaching
 
 GAP_S = 0.1
 """Between two states of the robot that are heard, more is not counted: nobody knows what went on."""

@@ -2,26 +2,22 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from itertools import takewhile
 from pathlib import Path
 
-from threadpoolctl import threadpool_limits
-
 from lfd.motion.demonstration import Demonstration
 from protocol.messages import Mode, TeachingState
-from services.offline.people import hands
-from services.offline.people.person import Character, Person, Teaching
+from services.offline.people.person import Character, Person
+from services.offline.people.session import led_by, prepared
 from services.offline.pool import Progress
 from services.offline.result import Arrangement
-from services.offline.stage import Stage, give
-from services.process.config import Configuration, MasterSection, ModelSection, RobotSection, StationSection
-from services.process.master_devices import Page, Scripted
+from services.offline.stage import Stage
+from services.process.config import Configuration, ModelSection, RobotSection, StationSection
 from services.study.events import Attempted
-from services.study.protocol.protocol import Device, Method, Task, Training
+from services.study.protocol.protocol import Method, Task, Training
 from services.study.session.watch import Watch
 from services.study.synthetic.character import Nature
 
@@ -33,14 +29,6 @@ METHOD_H = 0.4
 
 PERIOD_NS = 10_000_000
 """Between two looks at the robot."""
-
-_DEVICES = {
-    Device.STYLUS: hands.Device.STYLUS,
-    Device.KEYBOARD: hands.Device.KEYBOARD,
-    Device.GAMEPAD: hands.Device.GAMEPAD,
-    Device.SPACEMOUSE: hands.Device.SPACE_MOUSE,
-    Device.POINTER: hands.Device.POINTER,
-}
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,11 +57,10 @@ class Lesson:
 
     def configuration(self, seed: int, scatter: float, database: Path) -> Configuration:
         """Of the services."""
-        led = Scripted(scatter=scatter) if self.method.device is Device.STYLUS else Page()
         return Configuration(
             seed=seed,
             robot=RobotSection(scene=self.task.scene),
-            master=MasterSection(device=led),
+            master=led_by(self.method.device, scatter),
             model=ModelSection(database=str(database)),
             station=StationSection(
                 refinements_allowed=self.task.refinements, updates_allowed=self.task.updates, once=True
@@ -172,18 +159,12 @@ def _failed(teaching: TeachingState) -> int:
 def _taught(lesson: Lesson, one: _Round, over: Callable[[TeachingState], bool]) -> Done:
     hours = (lesson.place - 1) * METHOD_H
     who = lesson.nature.character(hours, 1000 * lesson.place + one.number)
-    with tempfile.TemporaryDirectory(prefix="study-") as folder, threadpool_limits(1):
-        stage = Stage(lesson.configuration(who.seed, who.scatter, Path(folder) / "model.sqlite"))
-        try:
-            give(stage, lesson.task.scene, lesson.demonstrations)
-            return _watched(stage, lesson, one, who, over)
-        finally:
-            stage.close()
+    with prepared(partial(lesson.configuration, who.seed, who.scatter), lesson.demonstrations) as stage:
+        return _watched(stage, lesson, one, who, over)
 
 
 def _watched(stage: Stage, lesson: Lesson, one: _Round, who: Character, over: Callable[[TeachingState], bool]) -> Done:
-    teaching = Teaching(lesson.method.teaching.value)
-    person = Person(stage.bus(), stage.clock, teaching, _DEVICES[lesson.method.device], who)
+    person = Person(stage.bus(), stage.clock, lesson.method.teaching, lesson.method.device, who)
     watch = Watch(stage.bus(), lesson.participant, one.part, lesson.method.teaching, known=one.known, lasted=one.lasted)
     began = looked = stage.clock.now_ns()
 

@@ -7,37 +7,11 @@ from hypothesis import strategies as st
 from protocol.commander import commander_key, told
 from protocol.exceptions import InvalidName
 from protocol.names import is_name
-from services.bus.zenoh import connect, open_router
-from services.process.clock import SystemClock
-from tests.ports import free_port
 from tests.services.bus.late import Late
 from tests.system.harness import eventually
 
 WITHIN_S = 20.0
 NAMES = st.from_regex(r"[A-Za-z0-9][A-Za-z0-9_-]{0,20}", fullmatch=True)
-
-
-@pytest.fixture
-def port():
-    """Of a router."""
-    port = free_port()
-    router = open_router(f"tcp/127.0.0.1:{port}")
-    yield port
-    router.close()
-
-
-@pytest.fixture
-def join(port):
-    """A function that lets a process join."""
-    opened = []
-
-    def one(robot, process, endpoint=f"tcp/127.0.0.1:{port}"):
-        opened.append(connect(endpoint, robot, process, SystemClock()))
-        return opened[-1]
-
-    yield one
-    for bus in opened:
-        bus.close()
 
 
 def become(station, expected):
@@ -72,8 +46,8 @@ def test_a_robot_that_has_gone_is_as_it_was_told_last(join):
 
 @pytest.mark.zenoh
 @pytest.mark.usefixtures("soon")
-def test_who_commands_is_told_after_a_cut_as_it_has_become_meanwhile(join, port):
-    way = Late(port, 0.0)
+def test_who_commands_is_told_after_a_cut_as_it_has_become_meanwhile(join, router):
+    way = Late(router, 0.0)
     garage, station = join("garage", "robot", way.endpoint), join("kitchen", "station-ann")
     garage.tell_commander("ann")
     become(station, {"garage": "ann"})

@@ -4,30 +4,11 @@ import pytest
 
 from protocol.messages import EmergencyStop
 from protocol.topics import EMERGENCY_STOP
-from services.bus.zenoh import connect, open_router
-from services.process.clock import SystemClock
-from tests.ports import free_port
 from tests.system.harness import eventually
 
 pytestmark = pytest.mark.zenoh
 
 WITHIN_S = 20.0
-
-
-@pytest.fixture
-def join():
-    """A function that lets a process join one network."""
-    endpoint = f"tcp/127.0.0.1:{free_port()}"
-    router, opened = open_router(endpoint), []
-
-    def one(robot, process):
-        opened.append(connect(endpoint, robot, process, SystemClock()))
-        return opened[-1]
-
-    yield one
-    for bus in opened:
-        bus.close()
-    router.close()
 
 
 @pytest.mark.parametrize("first", ["kitchen", "garage"])

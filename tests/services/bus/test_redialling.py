@@ -2,14 +2,14 @@
 
 import gc
 import threading
+from functools import partial
 
 import pytest
 import zenoh
 
 from protocol import queries, topics
 from protocol.messages import ModelState
-from services.bus.zenoh import connect, open_router, open_session
-from services.process.clock import SystemClock
+from services.bus.zenoh import open_router, open_session
 from services.process.exceptions import NameTaken
 from tests.ports import free_port
 from tests.services.bus.late import LATE_S, Late
@@ -21,15 +21,6 @@ WITHIN_S = 20.0
 
 
 @pytest.fixture
-def router():
-    """Its port."""
-    port = free_port()
-    opened = open_router(f"tcp/127.0.0.1:{port}")
-    yield port
-    opened.close()
-
-
-@pytest.fixture
 def way(router):
     """To the router: short at first."""
     one = Late(router, 0.0)
@@ -38,17 +29,9 @@ def way(router):
 
 
 @pytest.fixture
-def bus(router):
+def bus(join):
     """A function that opens the bus of another process."""
-    opened = []
-
-    def open_one(process, endpoint=f"tcp/127.0.0.1:{router}"):
-        opened.append(connect(endpoint, "robot1", process, SystemClock()))
-        return opened[-1]
-
-    yield open_one
-    for one in opened:
-        one.close()
+    return partial(join, "robot1")
 
 
 def becomes_longer(way):

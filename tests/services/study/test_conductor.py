@@ -17,14 +17,17 @@ from hypothesis.stateful import (
     run_state_machine_as_test,
 )
 
+from services.offline.people.ways import Teaching
 from services.study.events import Attempted, Enrolled, Erased
 from services.study.exceptions import AnswerRefused, NotNow, ParticipantThere, ParticipantUnknown, StudyError
 from services.study.journal import Journal
-from services.study.protocol.protocol import Teaching, load
+from services.study.protocol.protocol import load
 from services.study.protocols import SHIPPED
 from services.study.session.conductor import Conductor
 from services.study.session.course import Adapt, Agree, Fill, Rest, Train, participants
 from services.study.session.sheet import Sheet
+
+pytestmark = pytest.mark.usefixtures("unsynchronised")
 
 PROTOCOL = load(SHIPPED["thesis"])
 
@@ -59,12 +62,6 @@ class Clock:
 @pytest.fixture
 def clock():
     return Clock()
-
-
-@pytest.fixture(autouse=True)
-def unsynchronised(monkeypatch):
-    """Nothing here is about power cuts, and thousands of entries would wait for the disk."""
-    monkeypatch.setattr("services.study.journal.os.fsync", lambda _: None)
 
 
 @pytest.fixture

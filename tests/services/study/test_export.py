@@ -18,9 +18,8 @@ from tests.services.study.test_synthetic import in_order
 
 
 @pytest.fixture
-def done(tmp_path, monkeypatch):
+def done(tmp_path, unsynchronised):
     """A study with three participants of whom the second has withdrawn and the first did something twice."""
-    monkeypatch.setattr("services.study.journal.os.fsync", lambda _: None)  # nothing here is about power cuts
     study, clock = new_study(tmp_path / "study", SHIPPED["thesis"]), StudyClock()
     instruments = of_protocol(study.protocol, study.folder)
     with Journal(study.raw, clock) as journal:

@@ -2,9 +2,10 @@
 
 import pytest
 
+from services.offline.people.ways import Device, Teaching
 from services.process.exceptions import ConfigurationError
 from services.study.exceptions import ProtocolUnfit
-from services.study.protocol.protocol import Device, Teaching, load
+from services.study.protocol.protocol import load
 from services.study.protocols import SHIPPED
 
 

@@ -18,6 +18,8 @@ from services.study.synthetic.filling import Experience, filled
 from services.study.synthetic.lesson import Done
 from services.study.synthetic.run import StudyClock, SyntheticRun
 
+pytestmark = pytest.mark.usefixtures("unsynchronised")
+
 PEOPLE = 3
 
 
@@ -49,12 +51,6 @@ def backwards(lessons, jobs):
 
 def in_order(lessons, jobs):
     return (((one.participant, one.method.name), told(one)) for one in lessons)
-
-
-@pytest.fixture(autouse=True)
-def unsynchronised(monkeypatch):
-    """Nothing here is about power cuts, and thousands of entries would wait for the disk."""
-    monkeypatch.setattr("services.study.journal.os.fsync", lambda _: None)
 
 
 @pytest.fixture

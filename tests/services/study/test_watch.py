@@ -5,8 +5,8 @@ import pytest
 from protocol.messages import Attempt, Light, Mode, Outcome, Phase, Pose, RobotState, TeachingState
 from protocol.topics import ROBOT_STATE, TEACHING_STATE
 from services.bus.memory import MemoryNetwork
+from services.offline.people.ways import Teaching
 from services.process.clock import ManualClock
-from services.study.protocol.protocol import Teaching
 from services.study.session.watch import GAP_S, Watch
 
 PERIOD_S = 0.01

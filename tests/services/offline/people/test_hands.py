@@ -16,7 +16,8 @@ from services.master.devices.keys import Keys
 from services.master.devices.led import LedMaster
 from services.master.devices.pointer import Pad
 from services.master.devices.profiles import Profiles
-from services.offline.people.hands import Device, hand_at
+from services.offline.people.hands import hand_at
+from services.offline.people.ways import Device
 from services.process.master_devices import Page
 from sim import pose as sim_pose
 from sim.person.attention import Attention

@@ -8,9 +8,8 @@ from services.master.devices.controllers import hand
 from services.master.devices.keys import Keys
 from services.offline.first_demonstrations import first_demonstrations
 from services.offline.people import told
-from services.offline.people.hands import Device
-from services.offline.people.person import Teaching
 from services.offline.people.session import Session, taught
+from services.offline.people.ways import Device, Teaching
 from services.offline.result import Arrangement
 from services.process import default_profiles
 from sim.tasks import DISHWASHER, PARTICLE
