@@ -72,7 +72,7 @@ KINDS: tuple[Kind, ...] = (
     Kind("camera", ("camera",)),
     Kind("perception", ("perception",)),
     Kind("model", ("model",)),
-    Kind("operator", ("master", *_AT_THE_DESK, "teach"), person=True, commands=True),
+    Kind("operator", ("master", *_AT_THE_DESK, "teach", "study"), person=True, commands=True),
     Kind("observer", _AT_THE_DESK, person=True),
     Kind("supervisor", _AT_THE_DESK, person=True, revokes=True),
     Kind("page", (), page=True),

@@ -17,6 +17,7 @@ from services.study.journal import Journal
 from services.study.page.desk import Desk
 from services.study.page.page import StudyPage
 from services.study.page.trials import Live
+from services.study.personal import Personal
 from services.study.protocol.protocol import load
 from services.study.session.conductor import Conductor
 
@@ -44,6 +45,7 @@ class StandInTrials:
         self.url = url
         self.desk = None
         self.running = None
+        self.ready = True
         self.started = []
 
     def start(self, number, part):
@@ -60,8 +62,8 @@ class StandInTrials:
         known = self.desk.conductor.participant(number).attempts.get(part.name, [])
         active = sum(attempt.active for attempt in known)
         updates = sum(attempt.success for attempt in known)
-        said = "This is a stand-in: there is no robot."
-        return Live(number, part.name, acting=True, active=active, attempts=len(known), updates=updates, said=said)
+        said = {"said": "This is a stand-in: there is no robot.", "ready": self.ready}
+        return Live(number, part.name, acting=True, active=active, attempts=len(known), updates=updates, **said)
 
     def attempt(self, *, success):
         """An execution ends."""
@@ -108,7 +110,8 @@ class Served:
         instruments = of_protocol(protocol, None)
         self.journal = Journal(folder, self.utc)
         self.trials = StandInTrials(url)
-        self.desk = Desk(Conductor(protocol, self.journal, instruments), instruments, self.trials, self.utc)
+        conductor = Conductor(protocol, self.journal, instruments)
+        self.desk = Desk(conductor, instruments, self.trials, self.utc, Personal(folder))
         self.trials.desk = self.desk
         self.page = StudyPage(self.desk, SystemClock(), port=port, key=key)
 

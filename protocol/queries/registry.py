@@ -75,7 +75,7 @@ UNDO = Query(
     "model",
     20_480,
     "take the newest update back, or any demonstration",
-    askers=("station", "teach", "history"),
+    askers=("station", "teach", "history", "study"),
 )
 REDO = Query(
     "model/redo",

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import msgspec
 
-from protocol.messages import Coding
+from protocol.messages import Coding, Method
 from protocol.queries import Adapt
 from services.process import endpoint
 from services.process.exceptions import BadEndpoint, ConfigurationError
@@ -103,6 +103,12 @@ class StationSection(Section, frozen=True):
         autonomous_s: duration of an autonomous execution [s].
         refine_s: duration of an execution under correction [s].
         variant: arrangement of the scene that is taught; empty for the one that has been changed.
+        place: of the target, the same in every episode: of an object's centre, base frame [m], or as many numbers as
+            the scene has; empty for places drawn at random.
+        method: the only one by which is taught, "refine", "waypoints" or "demonstrate"; empty where the operator
+            chooses.
+        basis: the only one that corrections start from, "model", or "refinement" for what the previous one came to;
+            empty where the operator chooses.
         adapt: which way-point a correction moves: "next" (eq. 15-17), or "current" (eq. B.7) for comparison.
         alpha: how far the model believes a refinement (eq. 18), from 0 to 1; 1 is all the way.
         demonstration_points: that a motion led by hand is learnt with.
@@ -125,6 +131,9 @@ class StationSection(Section, frozen=True):
     autonomous_s: Positive = 10.0
     refine_s: Positive = 20.0
     variant: str = ""
+    place: tuple[float, ...] = ()
+    method: Method = Method.UNKNOWN
+    basis: Annotated[str, msgspec.Meta(pattern="^(model|refinement)?$")] = ""
     adapt: Adapt = Adapt.NEXT
     alpha: Annotated[float, msgspec.Meta(ge=0.0, le=1.0)] = 1.0
     demonstration_points: Annotated[int, msgspec.Meta(ge=75, le=500)] = 75

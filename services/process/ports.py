@@ -8,6 +8,17 @@ from services.process.addresses import family
 from services.process.exceptions import PortInUse
 
 
+def free_port(host: str = "127.0.0.1") -> int:
+    """A port where nobody listens now; somebody may in a moment.
+
+    Raises:
+        OSError: there is none.
+    """
+    with socket.create_server((host, 0), family=family(host)) as listening:
+        number: int = listening.getsockname()[1]
+        return number
+
+
 def check_port(what: str, host: str, port: int, setting: str) -> None:
     """Let it pass where a server could listen now.
 

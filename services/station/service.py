@@ -245,7 +245,8 @@ class StationService:
     def _draw(self, scene: messages.SceneState | None) -> Place | None:
         if scene is not None and self._drawn is None:
             low, high = scene.condition_region if scene.condition else scene.object_region
-            drawn = tuple(float(self._random.uniform(a, b)) for a, b in zip(low, high, strict=True))
+            random = tuple(float(self._random.uniform(a, b)) for a, b in zip(low, high, strict=True))
+            drawn = self._settings.place or random
             self._drawn = Place(condition=drawn) if scene.condition else Place(object_position=vector3(drawn))
         return self._drawn
 

@@ -1,6 +1,6 @@
 """What happens in a study, each an event of the journal: the raw data, from which all else is derived.
 
-Nothing here says who a participant is: names are kept apart (services.study.identities).
+Nothing here says who a participant is: names are kept apart (services.study.personal).
 """
 
 from __future__ import annotations

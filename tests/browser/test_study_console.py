@@ -40,7 +40,7 @@ def trial(study):
 
 
 def test_a_participant_is_enrolled_with_the_next_number_and_a_number_twice_is_one_line(study, console):
-    number = console.locator(".enrol input")
+    number = console.locator(".enrol input.short")
     expect(number).to_have_value("2")
     console.click(".enrol button")
     expect(state(console, 2)).to_have_text("at a form")

@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-import shutil
-import sys
-import threading
 import time
-import webbrowser
 from collections.abc import Callable
 
 from protocol import topics
@@ -14,6 +10,7 @@ from protocol.messages import Attempt, Heartbeat, TeachingState
 from services.bus.subscription import Subscription
 from services.bus.zenoh import ZenohBus
 from services.certificates.page import address
+from services.commands.opening import open_in_browser
 from services.commands.up.report import attempt_line
 from services.process.addresses import EVERYWHERE
 from services.process.config import StationSection
@@ -123,6 +120,5 @@ class Page:
             return
         self._told = True
         say("retouch", f"the operator's page is {self.url}; the robot stands until somebody presses a button there")
-        if self._opens and (shutil.which("xdg-open") or sys.platform == "darwin"):
-            # On a thread of its own: some browsers return when they are closed.
-            threading.Thread(target=webbrowser.open, args=(self.url,), daemon=True).start()
+        if self._opens:
+            open_in_browser(self.url)

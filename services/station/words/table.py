@@ -37,7 +37,7 @@ class Speech:
         Raises:
             LookupError: there is no such table; names those that there are.
         """
-        tables = {file.stem: file for file in folder.glob("*.toml")}
+        tables = _tables(folder)
         if language not in tables:
             raise LookupError(f"there are no words in {language!r}, only in {', '.join(sorted(tables))}")
         self.language = language
@@ -60,6 +60,15 @@ class Speech:
             words = {key.removeprefix(start): said for key, said in self.words.items() if key.startswith(start)}
             self._sections[name] = words
         return self._sections[name]
+
+
+def languages() -> frozenset[str]:
+    """All that there are tables of."""
+    return frozenset(_tables(HERE))
+
+
+def _tables(folder: Path) -> dict[str, Path]:
+    return {file.stem: file for file in folder.glob("*.toml")}
 
 
 speech = Speech()

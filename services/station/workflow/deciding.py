@@ -32,8 +32,8 @@ def deciding(state: Workflow, view: View, settings: Settings) -> Step:
     if state.owed is not None:
         return Step(to(state, state.owed.phase, view, intent=state.owed.intent, owed=None))
     unseen = state.unseen and not is_seen(state, view)
-    state = set_for_next(replace(state, approach=_usable(state.approach, view), unseen=unseen), view)
-    offered = _offered(state, view)
+    state = set_for_next(replace(state, approach=_usable(state.approach, view, settings), unseen=unseen), view)
+    offered = _offered(state, view, settings)
     if view.actions & offered & (EDITING | _CHOOSING):
         return Step(_shown(state, view, offered))
     pressed = [action for action in Action if action in view.actions & offered - SETTING]
@@ -43,13 +43,29 @@ def deciding(state: Workflow, view: View, settings: Settings) -> Step:
     return _take(state, view, settings, chosen)
 
 
-def _usable(approach: Approach, view: View) -> Approach:
-    """An empty model has no motion to correct: it is shown one."""
+def _usable(approach: Approach, view: View, settings: Settings) -> Approach:
+    """As far as it is set; an empty model has no motion to correct: it is shown one."""
+    if settings.method is not Method.UNKNOWN:
+        approach = approach.chosen(settings.method.value)
+    if settings.basis:
+        approach = approach.based(settings.basis)
     corrects = approach.method is Method.REFINE
     return replace(approach, method=Method.WAYPOINTS) if corrects and view.empty else approach
 
 
-def _offered(state: Workflow, view: View) -> frozenset[Action]:
+def _offered(state: Workflow, view: View, settings: Settings) -> frozenset[Action]:
+    """What the operator may do: nothing of what is set once and for all."""
+    return _possible(state, view) - _settled(settings)
+
+
+def _settled(settings: Settings) -> frozenset[Action]:
+    """What there is nothing to choose of; with one place there is no other, and the run is ended by who set it."""
+    method = frozenset({Action.METHOD} if settings.method is not Method.UNKNOWN else ())
+    basis = frozenset({Action.BASIS} if settings.basis else ())
+    return method | basis | frozenset({Action.NEXT, Action.END} if settings.place else ())
+
+
+def _possible(state: Workflow, view: View) -> frozenset[Action]:
     """What the operator may do, by the method: an empty model is shown its first motion before anything else.
 
     A model that is not heard for a moment changes nothing: it is not known to be empty, nor to be another one.
@@ -149,6 +165,8 @@ def recommended(state: Workflow, settings: Settings) -> Action:
 
 
 def _after(settings: Settings) -> Action:
+    if settings.place:
+        return Action.EXECUTE
     return Action.END if settings.once else Action.NEXT
 
 

@@ -69,6 +69,9 @@ class Settings:
         scripted: the recommended action is taken at once; a stop is never released.
         untaught: a script shows an empty skill its first motion.
         once: the recommended action after the loop has closed is to end.
+        place: of the target in every episode, as the scene counts it; empty where it is drawn.
+        method: the only one; `UNKNOWN` where the operator chooses.
+        basis: the only one that a refinement starts from, by its name; empty where the operator chooses.
         arrangement: what every reset asks for, its epoch aside; drawn at random where there is none.
     """
 
@@ -86,6 +89,9 @@ class Settings:
     points: int = 75
     keeps_tempo: bool = False
     untaught: bool = False
+    place: tuple[float, ...] = ()
+    method: Method = Method.UNKNOWN
+    basis: str = ""
     arrangement: Reset | None = None
 
     def duration_s(self, mode: Mode) -> float:

@@ -62,10 +62,17 @@ ParticipantAct = Consent | Fill | Begin | EndBreak | Withdraw
 
 
 class Enrol(_Act, frozen=True, tag="enrol"):
-    """Somebody takes part."""
+    """Somebody takes part.
+
+    Attributes:
+        number: theirs.
+        language: of their page.
+        name: of the person, kept apart from all else; empty where nobody writes it down.
+    """
 
     number: Number
     language: Short
+    name: Short = ""
 
 
 class Pause(_Act, frozen=True, tag="pause"):

@@ -11,6 +11,7 @@ from services.study.instruments.instrument import Instrument
 from services.study.page import acts
 from services.study.page.order import form_order
 from services.study.page.trials import Trials
+from services.study.personal import Personal
 from services.study.session.conductor import Conductor
 from services.study.session.course import Adapt, Agree, Fill, Part, Rest, Train
 from services.study.session.sheet import Sheet
@@ -24,6 +25,8 @@ class Desk:
         instruments: its questionnaires, by their names.
         trials: what runs them.
         utc: the time of day.
+        personal: what is kept of participants beside the journal.
+        synthetic: nobody takes part: whoever is enrolled is marked as simulated.
         lock: held by whoever acts through the conductor.
 
     Args:
@@ -31,6 +34,8 @@ class Desk:
         instruments: its questionnaires, by their names.
         trials: what runs them.
         utc: the time of day.
+        personal: what is kept of participants beside the journal.
+        synthetic: nobody takes part: whoever is enrolled is marked as simulated.
     """
 
     def __init__(
@@ -39,11 +44,16 @@ class Desk:
         instruments: Mapping[str, Instrument],
         trials: Trials,
         utc: Callable[[], datetime],
+        personal: Personal,
+        *,
+        synthetic: bool = False,
     ) -> None:
         self.conductor = conductor
         self.instruments = instruments
         self.trials = trials
         self.utc = utc
+        self.personal = personal
+        self.synthetic = synthetic
         self.lock = threading.RLock()
 
     def participant_does(self, number: int, act: acts.ParticipantAct) -> None:
@@ -74,8 +84,8 @@ class Desk:
         """
         with self.lock:
             match act:
-                case acts.Enrol(number=number, language=language):
-                    self.conductor.enrol(number, language)
+                case acts.Enrol(number=number, language=language, name=name):
+                    self._enrol(number, language, name.strip())
                 case acts.Pause(number=number, reason=reason):
                     self._pause(number, reason)
                 case acts.GoOn(number=number, part=part, anew=anew):
@@ -118,6 +128,11 @@ class Desk:
         """In which the questions of a form are asked."""
         seed = self.conductor.protocol.order.seed
         return form_order(self.instruments[part.instrument], seed, number, part.name)
+
+    def _enrol(self, number: int, language: str, name: str) -> None:
+        self.conductor.enrol(number, language, synthetic=self.synthetic)
+        if name:
+            self.personal.name(number, name)
 
     def _at(self, number: int, name: str) -> Part:
         """The part that a participant is at, if it is the one of that name.
@@ -171,6 +186,8 @@ class Desk:
             raise NotNow(f"participant {number} has withdrawn already")
         self._stop(number)
         self.conductor.withdraw(number, delete=delete)
+        if delete:
+            self.personal.delete(number)
 
     def _pause(self, number: int, reason: str) -> None:
         known = self.conductor.participant(number)

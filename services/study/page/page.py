@@ -56,6 +56,11 @@ class StudyPage:
         self._server = Server(guarded, host, port, clock, page=PAGE, setting=SETTING)
 
     @property
+    def url(self) -> str:
+        """Where participants say their number."""
+        return f"{self._url}/"
+
+    @property
     def console_url(self) -> str:
         """Where to point the experimenter's browser."""
         return f"{self._url}/console{f'?key={self._key}' if self._key else ''}"

@@ -93,10 +93,11 @@ class Break(_Stage, frozen=True, tag="rest"):
 
 
 class Wait(_Stage, frozen=True, tag="wait"):
-    """The experimenter has something to do first.
+    """Something has to be done first, by the experimenter mostly.
 
     Attributes:
-        why: "paused", "old": the last checkpoint is too old to go on from without them; or "busy": another trial runs.
+        why: "paused", "old": the last checkpoint is too old to go on from without them; "busy": another trial runs; or
+            "starting": the robot is being made ready, and nobody has anything to do.
     """
 
     why: str
@@ -211,7 +212,7 @@ def _form(desk: Desk, number: int, part: Fill) -> Form:
 def _trial(desk: Desk, known: Participant, part: Train | Adapt) -> Stage:
     live = desk.trials.live()
     if live is not None and (live.number, live.part) == (known.number, part.name):
-        return Trial(url=desk.trials.url, attempts=live.attempts)
+        return Trial(url=desk.trials.url, attempts=live.attempts) if live.ready else Wait(why="starting")
     if live is not None:
         return Wait(why="busy")
     resumed = known.begun == part.name

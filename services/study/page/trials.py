@@ -20,6 +20,7 @@ class Live:
         attempts: executions so far, those before a resumption too.
         updates: of the model so far.
         said: one line for the experimenter: what the robot does, or what is wrong.
+        ready: the station's page is there.
     """
 
     number: int
@@ -29,6 +30,7 @@ class Live:
     attempts: int
     updates: int
     said: str = ""
+    ready: bool = True
 
 
 class Trials(Protocol):

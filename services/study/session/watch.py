@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from protocol.messages import Attempt, Mode, Phase, RobotState, TeachingState
-from protocol.topics import ROBOT_STATE, TEACHING_STATE
+from protocol.topics import MODEL_STATE, ROBOT_STATE, TEACHING_STATE
 from services.bus.bus import Bus
 from services.offline.people.ways import Teaching
 from services.study.events import Attempted
@@ -33,6 +33,9 @@ class Watch:
         attempts: so far.
         active: that the operator could act, all attempts together and what runs now [s].
         told: by the station, the newest; None before it says anything.
+        acting: the operator can act now.
+        updates: of the model, as it said last.
+        lasted: since the part's begin, the interruptions of it left out [s].
 
     Args:
         bus: to robot and station.
@@ -49,18 +52,22 @@ class Watch:
         self.attempts: list[Attempted] = []
         self.active = 0.0
         self.told: TeachingState | None = None
+        self.acting = False
+        self.updates = 0
+        self.lasted = lasted
         self._participant = participant
         self._part = part
         self._teaching = teaching
         self._known = known
         self._robot = bus.subscribe(ROBOT_STATE)
         self._teachings = bus.subscribe(TEACHING_STATE)
+        self._model = bus.subscribe(MODEL_STATE)
         self._first_ns: int | None = None
         self._before_ns = 0
-        self._lasted = lasted
+        self._before = lasted
         self._times = _Times(lasted)
+        self._station = 0
         self._newest: int | None = None
-        self._updates = 0
 
     def step(self, now_ns: int) -> list[Attempted]:
         """Look; the attempts that have ended since."""
@@ -69,41 +76,48 @@ class Watch:
         robot = self._robot.fresh(now_ns)
         since = min((now_ns - self._before_ns) / 1e9, GAP_S)
         self._before_ns = now_ns
+        self.lasted = self._before + (now_ns - self._first_ns) / 1e9
         doing = _doing(robot)
+        self.acting = doing == "acting"
         self._times.raw[doing] += since
-        self.active += since if doing == "acting" else 0.0
+        self.active += since if self.acting else 0.0
         told = self._teachings.fresh(now_ns)
         if told is None:
             return []
         self.told = told
         if self._newest is None:  # what the station has from before this part is not of it
             self._newest = told.attempts[-1].number if told.attempts else 0
-        ended = [self._ended(one, now_ns) for one in told.attempts if one.number > self._newest]
+        elif told.publisher != self._station:  # one that was started again counts anew
+            self._newest = 0
+        self._station = told.publisher
+        ended = [self._ended(one) for one in told.attempts if one.number > self._newest]
         if told.attempts:
             self._newest = told.attempts[-1].number
-        self._updates = told.updates
-        self.attempts += ended
+        model = self._model.latest()
+        if model is not None:
+            self.updates = model.message.updates
         return ended
 
-    def _ended(self, one: Attempt, now_ns: int) -> Attempted:
+    def _ended(self, one: Attempt) -> Attempted:
         """An attempt with its times; the next one's begin."""
-        now = self._lasted + (now_ns - (self._first_ns or now_ns)) / 1e9
-        times, self._times = self._times, _Times(now)
-        return Attempted(
+        times, self._times = self._times, _Times(self.lasted)
+        ended = Attempted(
             participant=self._participant,
             part=self._part,
             number=self._known + len(self.attempts) + 1,
             teaching=None if one.mode is Mode.AUTONOMOUS else self._teaching,
-            updates=self._updates,
+            updates=self.updates,
             success=one.verdict.success,
             reached=one.verdict.reached,
             kicked_over=one.verdict.kicked_over,
             collision=one.verdict.collision,
             active=round(times.raw["acting"], 3),
             began=round(times.began, 3),
-            ended=round(now, 3),
+            ended=round(self.lasted, 3),
             raw={name: round(seconds, 3) for name, seconds in times.raw.items()},
         )
+        self.attempts.append(ended)
+        return ended
 
 
 def _doing(robot: RobotState | None) -> str:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from itertools import takewhile
 from pathlib import Path
 
 from lfd.motion.demonstration import Demonstration
-from protocol.messages import Mode, TeachingState
 from services.offline.people.person import Character, Person
 from services.offline.people.session import led_by, prepared
 from services.offline.pool import Progress
@@ -18,6 +16,7 @@ from services.offline.stage import Stage
 from services.process.config import Configuration, ModelSection, RobotSection, StationSection
 from services.study.events import Attempted
 from services.study.protocol.protocol import Method, Task, Training
+from services.study.session.rules import adapted, trained
 from services.study.session.watch import Watch
 from services.study.synthetic.character import Nature
 
@@ -87,6 +86,10 @@ class Done:
     lasted: float
 
 
+Over = Callable[[Sequence[Attempted]], bool]
+"""Whether a round is, by its attempts so far."""
+
+
 def given(lesson: Lesson, progress: Progress = lambda _: None) -> tuple[Done, ...]:
     """The training, and where it is passed all models.
 
@@ -96,8 +99,8 @@ def given(lesson: Lesson, progress: Progress = lambda _: None) -> tuple[Done, ..
     parts = [_trained(lesson)]
     for model in range(1, lesson.task.models + 1) if parts[0].passed else ():
         progress(model / (1 + lesson.task.models))
-        over = partial(_adapted, task=lesson.task)
-        parts.append(_taught(lesson, _Round(f"{lesson.method.name}/{model}", model), over))
+        one = _Round(f"{lesson.method.name}/{model}", model)
+        parts.append(_taught(lesson, one, lambda attempts: adapted(attempts, lesson.task) is not None))
     progress(1.0)
     return tuple(parts)
 
@@ -123,47 +126,29 @@ def _trained(lesson: Lesson) -> Done:
     """Round after round, until enough of the last attempts succeeded."""
     rule, name = lesson.training, f"{lesson.method.name}/training"
     attempts: list[Attempted] = []
-    led: list[bool] = []
     seconds = lasted = 0.0
-    passed = False
-    while not passed and len(led) < rule.attempts and lasted < 60.0 * rule.minutes:
+    while (passed := trained(attempts, rule, lasted)) is None:
         done = _taught(lesson, _Round(name, 100 + len(attempts), len(attempts), lasted), _succeeded)
         if not done.attempts:
             break
         attempts += done.attempts
         seconds, lasted = seconds + done.seconds, lasted + done.lasted
-        led += [attempt.success for attempt in done.attempts if attempt.teaching is not None]
-        passed = sum(led[-rule.of_last :]) >= rule.successes
-    return Done(name, tuple(attempts), passed, round(seconds, 3), round(lasted, 3))
+    return Done(name, tuple(attempts), passed is True, round(seconds, 3), round(lasted, 3))
 
 
-def _succeeded(teaching: TeachingState) -> bool:
+def _succeeded(attempts: Sequence[Attempted]) -> bool:
     """They have, once."""
-    return any(one.verdict.success for one in teaching.attempts if one.mode is not Mode.AUTONOMOUS)
+    return any(attempt.success for attempt in attempts if attempt.teaching is not None)
 
 
-def _adapted(teaching: TeachingState, task: Task) -> bool:
-    """The robot alone has succeeded, or all that is allowed was used."""
-    alone = bool(teaching.attempts) and teaching.attempts[-1].mode is Mode.AUTONOMOUS
-    if alone and (teaching.attempts[-1].verdict.success or teaching.updates >= task.updates):
-        return True
-    return _failed(teaching) >= task.refinements
-
-
-def _failed(teaching: TeachingState) -> int:
-    """Attempts at the present update."""
-    since = takewhile(lambda one: one.mode is not Mode.AUTONOMOUS, reversed(teaching.attempts))
-    return sum(not one.verdict.success for one in since)
-
-
-def _taught(lesson: Lesson, one: _Round, over: Callable[[TeachingState], bool]) -> Done:
+def _taught(lesson: Lesson, one: _Round, over: Over) -> Done:
     hours = (lesson.place - 1) * METHOD_H
     who = lesson.nature.character(hours, 1000 * lesson.place + one.number)
     with prepared(partial(lesson.configuration, who.seed, who.scatter), lesson.demonstrations) as stage:
         return _watched(stage, lesson, one, who, over)
 
 
-def _watched(stage: Stage, lesson: Lesson, one: _Round, who: Character, over: Callable[[TeachingState], bool]) -> Done:
+def _watched(stage: Stage, lesson: Lesson, one: _Round, who: Character, over: Over) -> Done:
     person = Person(stage.bus(), stage.clock, lesson.method.teaching, lesson.method.device, who)
     watch = Watch(stage.bus(), lesson.participant, one.part, lesson.method.teaching, known=one.known, lasted=one.lasted)
     began = looked = stage.clock.now_ns()
@@ -175,7 +160,7 @@ def _watched(stage: Stage, lesson: Lesson, one: _Round, who: Character, over: Ca
             looked = now_ns
             watch.step(now_ns)
         seen = watch.told
-        return seen is not None and (over(seen) or seen.finished or now_ns - began > LONGEST_S * 1e9)
+        return seen is not None and (over(watch.attempts) or seen.finished or now_ns - began > LONGEST_S * 1e9)
 
     stage.sit(person, lesson.arrangement.reset(), finished)
     passed = bool(watch.attempts) and watch.attempts[-1].success

@@ -12,11 +12,9 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import UTC, datetime, timedelta
 
-import numpy as np
-
 from services.offline.first_demonstrations import first_demonstrations
 from services.offline.pool import ProcessDied, Progress, each
-from services.offline.result import Arrangement
+from services.study.arrangement import arrangement
 from services.study.instruments.instrument import Instrument
 from services.study.protocol.protocol import Protocol
 from services.study.session.conductor import Conductor
@@ -176,14 +174,6 @@ def experience(one: Participant, method: str) -> Experience:
     led = [attempt for attempts in of for attempt in attempts if attempt.teaching is not None]
     failed = sum(not attempt.success for attempt in led) / len(led) if led else 1.0
     return Experience(sum(attempt.active for attempt in led), failed)
-
-
-def arrangement(protocol: Protocol, scene: AnyScene) -> Arrangement:
-    """What the robot finds in a study."""
-    task = protocol.task
-    place = task.object_position or tuple(scene.region.sample(np.random.default_rng((protocol.order.seed, 5))).tolist())
-    variant = task.variant or scene.variants[-1]
-    return Arrangement.of(variant, place, has_object=scene.has_object)
 
 
 def simulated(lessons: Sequence[Lesson], jobs: int) -> Iterator[tuple[tuple[int, str], tuple[Done, ...]]]:

@@ -2,8 +2,8 @@
 
 import pytest
 
-from protocol.messages import Attempt, Light, Mode, Outcome, Phase, Pose, RobotState, TeachingState
-from protocol.topics import ROBOT_STATE, TEACHING_STATE
+from protocol.messages import Attempt, Light, Mode, ModelState, Outcome, Phase, Pose, RobotState, TeachingState
+from protocol.topics import MODEL_STATE, ROBOT_STATE, TEACHING_STATE
 from services.bus.memory import MemoryNetwork
 from services.offline.people.ways import Teaching
 from services.process.clock import ManualClock
@@ -18,10 +18,10 @@ class Site:
 
     def __init__(self, **known):
         self.clock = ManualClock()
-        network = MemoryNetwork(self.clock)
-        self.bus = network.bus()
-        self.watch = Watch(network.bus(), 3, "OnKey/1", Teaching.PREDICTION, **known)
-        self.attempts, self.updates = (), 0
+        self.network = MemoryNetwork(self.clock)
+        self.bus, self.station = self.network.bus(), self.network.bus()
+        self.watch = Watch(self.network.bus(), 3, "OnKey/1", Teaching.PREDICTION, **known)
+        self.attempts = ()
         self.seen = []
         self.run(PERIOD_S)
 
@@ -30,9 +30,14 @@ class Site:
         for _ in range(round(seconds / every_s)):
             self.clock.advance(every_s)
             self.bus.publish(ROBOT_STATE, RobotState(measured=POSE, reference=POSE, phase=phase, mode=mode))
-            told = TeachingState(phase="x", text="", light=Light.RED, attempts=self.attempts, updates=self.updates)
-            self.bus.publish(TEACHING_STATE, told)
+            told = TeachingState(phase="x", text="", light=Light.RED, attempts=self.attempts)
+            self.station.publish(TEACHING_STATE, told)
             self.seen += self.watch.step(self.clock.now_ns())
+
+    def learn(self, updates):
+        """The model has learnt so often."""
+        state = ModelState(kind="adaptive", version=updates + 1, demonstrations=2, updates=updates, scene="dishwasher")
+        self.bus.publish(MODEL_STATE, state)
 
     def end(self, mode, *, success=True):
         """An attempt has ended."""
@@ -99,3 +104,23 @@ def test_a_robot_that_is_not_heard_counts_for_nothing():
     site.clock.advance(30.0)
     site.watch.step(site.clock.now_ns())
     assert site.watch.active == pytest.approx(1.0, abs=GAP_S + 2 * PERIOD_S)
+
+
+def test_a_station_that_was_started_again_counts_anew_and_no_attempt_is_lost_or_told_twice():
+    site = Site()
+    site.end(Mode.REFINE)
+    site.station, site.attempts = site.network.bus(), ()
+    site.run(0.1)
+    site.end(Mode.AUTONOMOUS)
+    site.run(0.1)
+    assert [one.number for one in site.seen] == [1, 2]
+
+
+def test_updates_are_those_that_the_model_had_before_the_attempt():
+    site = Site()
+    site.learn(1)
+    site.run(0.1)
+    site.learn(2)
+    site.end(Mode.REFINE)
+    assert site.seen[0].updates == 1
+    assert site.watch.updates == 2

@@ -130,3 +130,21 @@ def test_a_whole_session_ends_at_its_end(resting):
         fill(resting)
     assert stage(resting).how == "finished"
     assert row(resting).state == "finished"
+
+
+def test_who_is_enrolled_may_be_written_down_apart_and_is_deleted_with_all_else(study):
+    study.desk.console_does(acts.Enrol(number=2, language="en", name=" Bea "))
+    assert study.desk.personal.names() == {2: "Bea"}
+    assert not any("Bea" in str(event) for event in study.events)
+    study.desk.participant_does(2, acts.Withdraw(delete=False))
+    assert study.desk.personal.names() == {2: "Bea"}
+    study.desk.console_does(acts.WithdrawFor(number=2, delete=True))
+    assert study.desk.personal.names() == {}
+
+
+def test_nobody_is_shown_the_robots_page_before_it_is_there(ready):
+    begin(ready)
+    ready.trials.ready = False
+    assert stage(ready) == Wait(why="starting")
+    ready.trials.ready = True
+    assert isinstance(stage(ready), Trial)

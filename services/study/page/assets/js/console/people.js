@@ -14,15 +14,18 @@ export class People {
     this.list = make("div.people");
     this.number = make("input.text.short", { inputMode: "numeric", pattern: "[0-9]{1,4}", required: true, autocomplete: "off" });
     this.number.addEventListener("input", () => (this.typed = true));
+    this.name = make("input.text", { autocomplete: "off", maxLength: 200 });
     this.language = make("select.text");
     this.send = make("button.button.go", { type: "submit" });
     this.label = make("span");
+    this.identity = make("span");
     this.problem = make("p.problem", { role: "alert" });
     this.form = make(
       "form.enrol",
       { onsubmit: (event) => this.enrol(event) },
       make("label.field", {}, this.label, this.number),
       this.language,
+      make("label.field.identity", {}, this.identity, this.name),
       this.send,
       this.problem,
     );
@@ -33,6 +36,7 @@ export class People {
     this.title.textContent = `${say("console.participants")} · ${view.rows.length} / ${view.aimed}`;
     this.send.textContent = say("console.enrol");
     this.label.textContent = say("console.number");
+    this.identity.textContent = say("console.identity");
     this.language.setAttribute("aria-label", say("page.languages"));
     if (!this.typed) this.number.value = view.proposed;
     const languages = view.languages.map((tag) => make("option", { value: tag }, nameOf(tag)));
@@ -66,10 +70,12 @@ export class People {
   async enrol(event) {
     event.preventDefault();
     const number = Number(this.number.value);
-    const { refused } = await this.link.act({ act: "enrol", number, language: this.language.value });
+    const who = { number, language: this.language.value, name: this.name.value };
+    const { refused } = await this.link.act({ act: "enrol", ...who });
     this.problem.textContent = refused;
     if (refused) return;
     this.typed = false;
+    this.name.value = "";
     this.choose(number);
   }
 }
