@@ -109,6 +109,8 @@ class StationSection(Section, frozen=True):
             chooses.
         basis: the only one that corrections start from, "model", or "refinement" for what the previous one came to;
             empty where the operator chooses.
+        fixed: the operator changes neither a motion's pace nor the part of it that counts nor the confidence, and takes
+            nothing back that was learnt; stopping and letting it go on is theirs always.
         adapt: which way-point a correction moves: "next" (eq. 15-17), or "current" (eq. B.7) for comparison.
         alpha: how far the model believes a refinement (eq. 18), from 0 to 1; 1 is all the way.
         demonstration_points: that a motion led by hand is learnt with.
@@ -134,6 +136,7 @@ class StationSection(Section, frozen=True):
     place: tuple[float, ...] = ()
     method: Method = Method.UNKNOWN
     basis: Annotated[str, msgspec.Meta(pattern="^(model|refinement)?$")] = ""
+    fixed: bool = False
     adapt: Adapt = Adapt.NEXT
     alpha: Annotated[float, msgspec.Meta(ge=0.0, le=1.0)] = 1.0
     demonstration_points: Annotated[int, msgspec.Meta(ge=75, le=500)] = 75

@@ -24,6 +24,7 @@ def settings(section: StationSection, operator: str) -> Settings:
         place=section.place,
         method=section.method,
         basis=section.basis,
+        fixed=section.fixed,
         scripted=section.scripted,
         once=section.once,
         untaught=section.untaught,

@@ -19,7 +19,7 @@ def history(shown: Shown) -> Values:
     newest = "" if rows is None else rows.newest
     return {
         "action-undo@data-confirm": say("confirm.undo_named", what=newest) if newest else say("confirm.undo"),
-        "history@data-turns": " ".join(name for name in TURNS if name in allowed),
+        "history@data-allowed": " ".join(name for name in CONTROLS if name in allowed),
         "skill-count": "" if rows is None else _count(rows),
         "skill-older": say("skill.older", number=rows.older) if rows is not None and rows.older else "",
         "confidence@data-share": "" if teaching is None else f"{teaching.confidence:.2f}",

@@ -38,3 +38,21 @@ class Action(Enum):
     EARLIER = "earlier"
     LATER = "later"
     CLEAR = "clear"
+
+
+CHANGES = frozenset(
+    {
+        Action.PACE,
+        Action.PAUSE,
+        Action.PLAY,
+        Action.STEP_BACK,
+        Action.STEP_ON,
+        Action.SEEK,
+        Action.PART,
+        Action.CONFIDENCE,
+        Action.UNDO,
+        Action.TAKE_BACK,
+        Action.USE_AGAIN,
+    }
+)
+"""Of how a motion goes on, of what of it counts and how much, and of what was learnt."""

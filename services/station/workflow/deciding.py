@@ -33,7 +33,7 @@ def deciding(state: Workflow, view: View, settings: Settings) -> Step:
         return Step(to(state, state.owed.phase, view, intent=state.owed.intent, owed=None))
     unseen = state.unseen and not is_seen(state, view)
     state = set_for_next(replace(state, approach=_usable(state.approach, view, settings), unseen=unseen), view)
-    offered = _offered(state, view, settings)
+    offered = _offered(state, view) - settings.settled
     if view.actions & offered & (EDITING | _CHOOSING):
         return Step(_shown(state, view, offered))
     pressed = [action for action in Action if action in view.actions & offered - SETTING]
@@ -53,19 +53,7 @@ def _usable(approach: Approach, view: View, settings: Settings) -> Approach:
     return replace(approach, method=Method.WAYPOINTS) if corrects and view.empty else approach
 
 
-def _offered(state: Workflow, view: View, settings: Settings) -> frozenset[Action]:
-    """What the operator may do: nothing of what is set once and for all."""
-    return _possible(state, view) - _settled(settings)
-
-
-def _settled(settings: Settings) -> frozenset[Action]:
-    """What there is nothing to choose of; with one place there is no other, and the run is ended by who set it."""
-    method = frozenset({Action.METHOD} if settings.method is not Method.UNKNOWN else ())
-    basis = frozenset({Action.BASIS} if settings.basis else ())
-    return method | basis | frozenset({Action.NEXT, Action.END} if settings.place else ())
-
-
-def _possible(state: Workflow, view: View) -> frozenset[Action]:
+def _offered(state: Workflow, view: View) -> frozenset[Action]:
     """What the operator may do, by the method: an empty model is shown its first motion before anything else.
 
     A model that is not heard for a moment changes nothing: it is not known to be empty, nor to be another one.

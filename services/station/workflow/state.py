@@ -8,7 +8,7 @@ from enum import Enum
 from protocol import messages
 from protocol.messages import Attempt, Condition, Method, Mode, Motion, Origin, Outcome, Part, Vector3
 from protocol.queries import Adapt, Reset
-from services.station.workflow.action import Action
+from services.station.workflow.action import CHANGES, Action
 from services.station.workflow.approach import Approach
 from services.station.workflow.closure import Closure
 
@@ -72,6 +72,7 @@ class Settings:
         place: of the target in every episode, as the scene counts it; empty where it is drawn.
         method: the only one; `UNKNOWN` where the operator chooses.
         basis: the only one that a refinement starts from, by its name; empty where the operator chooses.
+        fixed: the operator changes neither a motion's pace nor the confidence, nor takes anything back.
         arrangement: what every reset asks for, its epoch aside; drawn at random where there is none.
     """
 
@@ -92,7 +93,16 @@ class Settings:
     place: tuple[float, ...] = ()
     method: Method = Method.UNKNOWN
     basis: str = ""
+    fixed: bool = False
     arrangement: Reset | None = None
+
+    @property
+    def settled(self) -> frozenset[Action]:
+        """What is not the operator's choice; with one place there is no other, and who has set it ends the run."""
+        method = frozenset({Action.METHOD} if self.method is not Method.UNKNOWN else ())
+        basis = frozenset({Action.BASIS} if self.basis else ())
+        place = frozenset({Action.NEXT, Action.END} if self.place else ())
+        return method | basis | place | (CHANGES if self.fixed else frozenset())
 
     def duration_s(self, mode: Mode) -> float:
         """Of an execution [s]."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -80,6 +80,13 @@ class View:
     answer: Answer | None = None
     presses: tuple[Press, ...] = ()
     drawn: Place | None = None
+
+    def without(self, actions: frozenset[Action]) -> View:
+        """As if nobody had pressed any of these."""
+        if not self.actions & actions:
+            return self
+        unheard = {action.value for action in actions}
+        return replace(self, presses=tuple(press for press in self.presses if press.action not in unheard))
 
     @cached_property
     def actions(self) -> frozenset[Action]:

@@ -65,7 +65,7 @@ def teaching_state(state: Workflow, view: View, settings: Settings) -> TeachingS
         finished=state.phase is Phase.FINISHED,
         loop_closed=state.closure.closed,
         reason=state.reason,
-        actions=tuple(sorted(action.value for action in state.offered)),
+        actions=tuple(sorted(action.value for action in state.offered | ({Action.CONFIDENCE} - settings.settled))),
         recommended=_first(state, view, settings),
         pace=state.pace,
         method=state.approach.method,

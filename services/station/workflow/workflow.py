@@ -8,6 +8,7 @@ robot the robot stands, and the operator is asked: a motion that waits goes on o
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from services.station.workflow import authority
 from services.station.workflow.asking import to
@@ -27,7 +28,14 @@ from services.station.workflow.watching import watching
 
 
 def advance(state: Workflow, view: View, settings: Settings) -> Step:
-    """One step of the workflow: what has happened to it first, then what it does where it stands."""
+    """One step of the workflow; what is not the operator's choice is neither heard nor offered."""
+    settled = settings.settled
+    step = _advanced(state, view.without(settled), settings)
+    return replace(step, state=replace(step.state, offered=step.state.offered - settled)) if settled else step
+
+
+def _advanced(state: Workflow, view: View, settings: Settings) -> Step:
+    """What has happened to it first, then what it does where it stands."""
     if state.phase is Phase.FINISHED and settings.scripted:
         return Step(state)
     known = authority.heard(judged(confided(state, view), view, settings), view, settings)

@@ -113,6 +113,7 @@ class Setting:
                 place=tuple(self.arrangement.place.tolist()),
                 method=way,
                 basis=basis,
+                fixed=True,
             ),
             viewer=ViewerSection(web_port=ports.web, stream_port=ports.stream, folder=str(run.folder)),
         )

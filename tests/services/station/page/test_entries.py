@@ -92,9 +92,9 @@ def test_what_is_taken_back_by_undo_is_called_as_the_list_calls_it():
 
 
 def test_a_row_can_be_turned_where_the_workflow_offers_it():
-    assert history(shown(teaching=teaching()))["history@data-turns"] == ""
+    assert history(shown(teaching=teaching()))["history@data-allowed"] == ""
     offered = teaching(actions=("execute", "take_back", "use_again"))
-    assert history(shown(teaching=offered))["history@data-turns"] == "take_back use_again"
+    assert history(shown(teaching=offered))["history@data-allowed"] == "take_back use_again"
 
 
 def test_the_confidence_is_that_of_the_workflow():

@@ -2,8 +2,8 @@
 
 from dataclasses import replace
 
-from protocol.messages import Method, Mode, Origin
-from services.station.workflow.action import Action
+from protocol.messages import Method, Mode, Origin, Part
+from services.station.workflow.action import CHANGES, Action
 from services.station.workflow.state import Phase
 from services.station.workflow.words import teaching_state
 from tests.services.station.workflow.site import BY_HAND, COLLIDED, REACHED, Site
@@ -54,3 +54,25 @@ def test_with_one_place_there_is_no_other_and_no_end_and_the_robot_is_watched_ag
     does(site, Action.EXECUTE)
     assert site.state.mode is Mode.AUTONOMOUS
     assert told(site).recommended == Action.EXECUTE.value
+
+
+def test_where_all_is_fixed_nothing_is_changed_nor_offered_to_be():
+    site = decides(COLLIDED, REACHED, fixed=True)
+    does(site, Action.EXECUTE)
+    site.step(Action.PACE, argument="2.0")
+    site.step(Action.PART, argument="0.2 0.6")
+    site.step(Action.CONFIDENCE, argument="0.1")
+    assert (told(site).pace, told(site).part, told(site).confidence) == (1.0, Part(), site.settings.alpha)
+    does(site, Action.REFINE)
+    site.step(Action.UNDO)
+    assert site.state.phase is Phase.DECIDING
+    assert not {change.value for change in CHANGES} & set(told(site).actions)
+
+
+def test_where_all_is_fixed_a_motion_under_way_is_neither_paused_nor_led_back():
+    site = decides(fixed=True)
+    site.press(Action.EXECUTE, Phase.EXECUTING)
+    for press in (Action.PAUSE, Action.STEP_BACK, Action.SEEK):
+        site.step(press, argument="0.1")
+        assert site.state.going is None
+    assert not CHANGES & site.state.offered

@@ -189,7 +189,7 @@ def test_the_state_tells_counts_offers_and_the_end():
     assert (teaching.phase, teaching.finished, teaching.loop_closed, teaching.reason) == ("finished", True, False, "so")
     assert (teaching.refinements, teaching.refinements_allowed) == (2, BY_HAND.refinements_allowed)
     assert (teaching.updates, teaching.updates_allowed) == (3, BY_HAND.updates_allowed)
-    assert teaching.actions == ("execute", "refine")
+    assert teaching.actions == ("confidence", "execute", "refine")
     assert teaching.recommended == ""
 
 

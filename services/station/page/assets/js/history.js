@@ -39,9 +39,9 @@ export class History {
     if (share && document.activeElement !== this.slider) this.slider.value = share;
     if (listed) this.arrange(listed);
     const isSeated = document.body.dataset.link === "armed";
-    const turns = isSeated ? this.panel.dataset.turns.split(" ") : [];
-    for (const button of this.list.querySelectorAll(".turn")) button.disabled = !turns.includes(button.dataset.action);
-    this.slider.disabled = !isSeated;
+    const allowed = isSeated ? this.panel.dataset.allowed.split(" ") : [];
+    for (const button of this.list.querySelectorAll(".turn")) button.disabled = !allowed.includes(button.dataset.action);
+    this.slider.disabled = !allowed.includes("confidence");
   }
 
   arrange({ version, rows }) {
