@@ -54,6 +54,12 @@ def add_arguments(parser: ArgumentParser) -> None:
         parser.add_argument(f"--{name}", type=float, default=value, metavar="X", help=f"{about} (default: {value:g})")
     parser.add_argument("--csv", type=Path, metavar="FILE", help="write the figures, with their intervals")
     parser.add_argument("--jobs", type=whole(1), metavar="N", help="processes (default: one a core)")
+    parser.add_argument(
+        "--cluster",
+        default="",
+        metavar="ADDRESS",
+        help="of a Dask scheduler, such as tcp://10.0.0.1:8786, whose machines do the work instead of this one",
+    )
     add_debug(parser)
 
 
@@ -65,7 +71,7 @@ def run(arguments: Namespace) -> int:
         study.protocol, arguments.people, arguments.effects, arguments.studies, arguments.seed, population
     )
     with share_bar(Terminal(stderr=True, highlight=False), "synthetic studies") as progress:
-        found = power(question, arguments.jobs or os.cpu_count() or 1, progress)
+        found = power(question, arguments.jobs or os.cpu_count() or 1, progress, arguments.cluster)
     _show(found, question)
     if arguments.csv is not None:
         write(arguments.csv, _csv(found).encode())

@@ -17,7 +17,9 @@ from services.process.ports import check_port
 from services.process.runner import stop_on_signals
 from services.study.instruments.library import of_protocol
 from services.study.session.conductor import Conductor
+from services.study.session.markers import lab_streaming, stream
 from services.study.study import Study, open_study
+from services.study.synthetic.rehearsal import Rehearsal
 from services.study.synthetic.run import StudyClock, SyntheticRun
 
 _PORT = 8090
@@ -62,21 +64,21 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """See `Action`."""
     study = open_study(arguments.folder)
+    rehearsal = None if arguments.synthetic is None else Rehearsal(arguments.synthetic, arguments.seed)
     if not arguments.headless:
-        _with_pages(study, arguments)
-    elif arguments.synthetic is None:
+        _with_pages(study, arguments, rehearsal)
+    elif rehearsal is None:
         raise CommandFailed("--headless: people need the pages; leave it out, or say --synthetic N")
     else:
-        _rehearse(study, arguments)
+        _rehearse(study, arguments, rehearsal)
     return Exit.DONE
 
 
-def _with_pages(study: Study, arguments: Namespace) -> None:
+def _with_pages(study: Study, arguments: Namespace, rehearsal: Rehearsal | None) -> None:
     """Serve console and participant's page until somebody ends it."""
     # Imported here: who simulates everything needs neither a web server nor the network.
     from services.study.live.serving import ADDRESS, LAST_PORT, served  # noqa: PLC0415
 
-    rehearsal = arguments.synthetic is not None
     port = arguments.port
     if port > LAST_PORT:
         raise CommandFailed(f"--port: must be at most {LAST_PORT}, not {port}: the robot's page has the next one")
@@ -84,9 +86,12 @@ def _with_pages(study: Study, arguments: Namespace) -> None:
     check_port("the robot's page", ADDRESS, port + 1, "--port")
     say = Terminal(highlight=False, soft_wrap=True).print
     say("getting ready", markup=False)
-    with served(study, port, arguments.deviation, arguments.synthetic or 0, arguments.seed) as page:
+    marked = lab_streaming(study.protocol.name)
+    with served(study, port, arguments.deviation, rehearsal, marked) as page:
         stop = stop_on_signals()
-        if rehearsal:
+        if marked is not None:
+            say(f"markers for other recorders go out as {stream(study.protocol.name)}", markup=False)
+        if rehearsal is not None:
             say("a rehearsal: whoever is enrolled is marked as simulated", markup=False)
         say(f"the experimenter's console is {page.console_url}", markup=False)
         say(f"participants go to            {page.url}", markup=False)
@@ -96,20 +101,20 @@ def _with_pages(study: Study, arguments: Namespace) -> None:
         say("stopping", markup=False)
 
 
-def _rehearse(study: Study, arguments: Namespace) -> None:
+def _rehearse(study: Study, arguments: Namespace, rehearsal: Rehearsal) -> None:
     instruments = of_protocol(study.protocol, study.folder)
     written = study.entries()
     clock = StudyClock(datetime.fromisoformat(written[-1].at)) if written else StudyClock()
     console = Terminal(stderr=True, highlight=False)
     with (
         study.journal(clock, synthetic=True, deviation=arguments.deviation) as journal,
-        share_bar(console, f"{arguments.synthetic} synthetic participants") as progress,
+        share_bar(console, f"{rehearsal.people} synthetic participants") as progress,
     ):
         conductor = Conductor(study.protocol, journal, instruments)
-        going = SyntheticRun(study.protocol, instruments, conductor, clock, arguments.synthetic, arguments.seed)
+        going = SyntheticRun(study.protocol, instruments, conductor, clock, rehearsal)
         going.go(arguments.jobs or os.cpu_count() or 1, progress)
         done = sum(one.finished for one in conductor.participants().values())
     Terminal(highlight=False, soft_wrap=True).print(
-        f"{done} of {arguments.synthetic} synthetic participants have finished; 'retouch study analyse {study.folder}'",
+        f"{done} of {rehearsal.people} synthetic participants have finished; 'retouch study analyse {study.folder}'",
         markup=False,
     )

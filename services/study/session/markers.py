@@ -16,8 +16,17 @@ Marked = Callable[[Entry], None]
 """Called with every entry once it is written."""
 
 
-def lab_streaming(study: str) -> Marked:
-    """An outlet for a study's markers; where pylsl is not installed, nothing is marked.
+def stream(study: str) -> str:
+    """Name and source of a study's markers.
+
+    Args:
+        study: its name.
+    """
+    return f"retouch-{study}"
+
+
+def lab_streaming(study: str) -> Marked | None:
+    """An outlet for a study's markers; None where pylsl is not installed.
 
     Args:
         study: its name.
@@ -25,8 +34,8 @@ def lab_streaming(study: str) -> Marked:
     try:
         lsl: Any = importlib.import_module("pylsl")
     except (ImportError, RuntimeError):  # the package without the library that it loads
-        return lambda _: None
-    outlet = lsl.StreamOutlet(lsl.StreamInfo(f"retouch-{study}", "Markers", 1, 0, "string", f"retouch-{study}"))
+        return None
+    outlet = lsl.StreamOutlet(lsl.StreamInfo(stream(study), "Markers", 1, 0, "string", stream(study)))
     return lambda entry: outlet.push_sample([marker(entry)])
 
 

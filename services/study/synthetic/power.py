@@ -11,6 +11,7 @@ from itertools import product
 
 import numpy as np
 
+from services.offline.cluster import each_at
 from services.offline.pool import Progress, each, overall
 from services.offline.proportion import Proportion
 from services.study.analysis.comparison import confirmatory
@@ -71,17 +72,25 @@ class Question:
     population: Population = field(default_factory=Population)
 
 
-def power(question: Question, jobs: int = 1, progress: Progress = lambda _: None) -> dict[Cell, Proportion]:
+def power(
+    question: Question, jobs: int = 1, progress: Progress = lambda _: None, cluster: str = ""
+) -> dict[Cell, Proportion]:
     """How many of the studies show each confirmatory hypothesis.
 
     Args:
         question: what is asked.
         jobs: processes at most.
         progress: is told how it goes on.
+        cluster: address of a cluster's scheduler, which does the work instead; empty for this machine.
+
+    Raises:
+        CommandFailed: the cluster cannot do it.
     """
     pieces = list(_pieces(question))
+    advance = overall(len(pieces), progress)
+    done = each_at(cluster, _shown, pieces, advance) if cluster else each(_shown, pieces, jobs, advance)
     found: dict[Cell, list[int]] = {}
-    for number, shown in each(_shown, pieces, jobs, overall(len(pieces), progress)):
+    for number, shown in done:
         found.setdefault(pieces[number].cell, []).append(shown)
     cells = dict.fromkeys(piece.cell for piece in pieces)
     return {cell: Proportion(sum(found[cell]), question.studies) for cell in cells}

@@ -23,6 +23,7 @@ from services.study.session.sheet import Sheet
 from services.study.synthetic.character import Nature
 from services.study.synthetic.filling import Experience, filled
 from services.study.synthetic.lesson import Done, Lesson, given
+from services.study.synthetic.rehearsal import Rehearsal
 from sim.tasks import AnyScene
 from sim.tasks import scene as scene_named
 
@@ -64,8 +65,7 @@ class SyntheticRun:
         instruments: that it names.
         conductor: of the study.
         clock: of the journal.
-        people: how many take part.
-        seed: of all of them.
+        rehearsal: who takes part.
         lessons: gives them.
     """
 
@@ -73,8 +73,7 @@ class SyntheticRun:
     instruments: Mapping[str, Instrument]
     conductor: Conductor
     clock: StudyClock
-    people: int
-    seed: int = 0
+    rehearsal: Rehearsal
     lessons: Lessons = field(default_factory=lambda: simulated)
     _done: dict[tuple[int, str], dict[str, Done]] = field(default_factory=dict)
 
@@ -90,12 +89,9 @@ class SyntheticRun:
             ServiceError: the services cannot be built.
         """
         scene = scene_named(self.protocol.task.scene)
-        for number in range(1, self.people + 1):
-            if number not in self.conductor.participants():
-                language = self.protocol.languages[number % len(self.protocol.languages)]
-                self.conductor.enrol(number, language, synthetic=True, seed=self.seed + number)
+        self.rehearsal.enrol(self.conductor)
         missing = list(self._missing(scene))
-        total = self.people * len(self.protocol.methods)
+        total = self.rehearsal.people * len(self.protocol.methods)
         self._write_on()
         for ready, (key, parts) in enumerate(self.lessons(missing, jobs), 1):
             self._done[key] = {done.part: done for done in parts}
@@ -121,7 +117,7 @@ class SyntheticRun:
                     )
 
     def _participants(self) -> list[Participant]:
-        return [one for number, one in sorted(self.conductor.participants().items()) if number <= self.people]
+        return [one for number, one in sorted(self.conductor.participants().items()) if number <= self.rehearsal.people]
 
     def _write_on(self) -> None:
         """Write as far as everything before is there."""

@@ -13,6 +13,7 @@ from services.study.journal import Journal
 from services.study.protocols import SHIPPED
 from services.study.session.conductor import Conductor
 from services.study.study import new_study
+from services.study.synthetic.rehearsal import Rehearsal
 from services.study.synthetic.run import StudyClock, SyntheticRun
 from tests.services.study.test_synthetic import in_order
 
@@ -24,7 +25,7 @@ def done(tmp_path, unsynchronised):
     instruments = of_protocol(study.protocol, study.folder)
     with Journal(study.raw, clock) as journal:
         conductor = Conductor(study.protocol, journal, instruments)
-        SyntheticRun(study.protocol, instruments, conductor, clock, 3, lessons=in_order).go(1)
+        SyntheticRun(study.protocol, instruments, conductor, clock, Rehearsal(3), lessons=in_order).go(1)
         conductor.withdraw(2, delete=True)
         conductor.invalid(1, "OnStyl/training", "the alarm rang", repeat=False)
         journal.add(Noted(participant=1, text="Anna was tired"))

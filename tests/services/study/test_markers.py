@@ -2,7 +2,6 @@
 
 import datetime
 import sys
-from types import ModuleType
 
 import pytest
 
@@ -10,6 +9,7 @@ from services.study.events import Attempted, Enrolled, Noted
 from services.study.journal import Journal, read
 from services.study.session.markers import lab_streaming
 
+WITHIN_S = 10.0
 AT = datetime.datetime(2026, 1, 1, tzinfo=datetime.UTC)
 EVENTS = (
     Enrolled(participant=3, order=("A",), group=0, language="en"),
@@ -22,34 +22,29 @@ EVENTS = (
 
 
 @pytest.fixture
-def outlet(monkeypatch):
-    """Stands in for pylsl, whose library is not everywhere: the samples that were pushed."""
-    pushed = []
+def heard():
+    """A function that gives the next marker, as another recorder hears it."""
+    lsl = pytest.importorskip("pylsl")
 
-    class Outlet:
-        def __init__(self, info):
-            self.info = info
+    def listening():
+        (stream,) = lsl.resolve_byprop("source_id", "retouch-thesis", timeout=WITHIN_S)
+        inlet = lsl.StreamInlet(stream)
+        inlet.open_stream(WITHIN_S)
+        return lambda: inlet.pull_sample(WITHIN_S)[0]
 
-        def push_sample(self, sample):
-            pushed.append(sample)
-
-    lsl = ModuleType("pylsl")
-    lsl.StreamInfo, lsl.StreamOutlet = lambda *facts: facts, Outlet
-    monkeypatch.setitem(sys.modules, "pylsl", lsl)
-    return pushed
+    return listening
 
 
-def test_every_entry_is_marked_once_it_can_be_read_again(tmp_path, outlet):
+def test_every_entry_is_marked_once_it_can_be_read_again(tmp_path, heard):
     mark, seen = lab_streaming("thesis"), []
+    following = heard()
     with Journal(tmp_path, lambda: AT, lambda entry: (mark(entry), seen.append(len(read(tmp_path))))) as journal:
         for event in EVENTS:
             journal.add(event)
-    assert outlet == [["enrolled P03"], ["attempted P03 A/1 2"], ["noted"]]
+    assert [following() for _ in EVENTS] == [["enrolled P03"], ["attempted P03 A/1 2"], ["noted"]]
     assert seen == [1, 2, 3]
 
 
-def test_without_the_package_nothing_is_marked(tmp_path, monkeypatch):
+def test_without_the_package_there_are_no_markers(monkeypatch):
     monkeypatch.setitem(sys.modules, "pylsl", None)
-    with Journal(tmp_path, lambda: AT, lab_streaming("thesis")) as journal:
-        journal.add(EVENTS[0])
-    assert len(read(tmp_path)) == 1
+    assert lab_streaming("thesis") is None

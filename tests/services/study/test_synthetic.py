@@ -16,6 +16,7 @@ from services.study.study import new_study
 from services.study.synthetic.character import Nature
 from services.study.synthetic.filling import Experience, filled
 from services.study.synthetic.lesson import Done
+from services.study.synthetic.rehearsal import Rehearsal
 from services.study.synthetic.run import StudyClock, SyntheticRun
 
 pytestmark = pytest.mark.usefixtures("unsynchronised")
@@ -66,7 +67,7 @@ def run(study, lessons, raw=None):
             clock.now = clock.now.fromisoformat(journal.entries[-1].at)
         instruments = of_protocol(study.protocol, study.folder)
         conductor = Conductor(study.protocol, journal, instruments)
-        SyntheticRun(study.protocol, instruments, conductor, clock, PEOPLE, lessons=lessons).go(1)
+        SyntheticRun(study.protocol, instruments, conductor, clock, Rehearsal(PEOPLE), lessons=lessons).go(1)
         assert all(one.finished for one in conductor.participants().values())
         return [entry for entry in journal.entries if not isinstance(entry.event, Opened)]
 
