@@ -21,6 +21,8 @@ pytestmark = [pytest.mark.system, pytest.mark.zenoh, pytest.mark.sim, pytest.mar
 
 PART_S = 300.0
 GONE_S = 10.0
+SAID_AGAIN = 300
+"""Of the robot's messages, after which it is let go on again if it has not."""
 
 
 @pytest.fixture
@@ -43,19 +45,26 @@ def serve(folder, tmp_path):
 
 @contextlib.contextmanager
 def at_the_robot(folder, part):
-    """Whoever does what the robot's page recommends, and a witness: (witness, a function that presses once)."""
+    """Whoever does what the robot's page recommends, and lets a motion go on after a hold, and a witness of the robot.
+
+    Yields:
+        The witness, and a function that presses what is to be pressed now, each thing once.
+    """
     made = load(written(folder, part))
     with Witness(made.connect, made.name) as witness, Somebody(made.station.host, made.station.port) as somebody:
         pressed = []
 
         def press():
-            teaching = witness.teaching
-            if teaching is None or teaching.phase != "deciding" or not teaching.recommended:
+            teaching, robot = witness.teaching, witness.robot
+            if teaching is None or robot is None:
                 return
-            asked = (teaching.publisher, len(teaching.attempts), teaching.updates, teaching.recommended)
-            if asked not in pressed:
+            holds = "go_on" in teaching.actions  # a busy machine made it
+            wanted = "go_on" if holds else teaching.recommended if teaching.phase == "deciding" else ""
+            again = robot.sequence // SAID_AGAIN if holds else 0
+            asked = (teaching.publisher, len(teaching.attempts), teaching.updates, wanted, again)
+            if wanted and asked not in pressed:
                 pressed.append(asked)
-                somebody.press(teaching.recommended)
+                somebody.press(wanted)
 
         yield witness, press
 
