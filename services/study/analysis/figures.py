@@ -179,7 +179,10 @@ def _attempts(pane: Axes, analysis: Analysis) -> None:
             pane.errorbar(
                 x, share, errors, fmt="o-", color=color, markersize=3.5, linewidth=1.2, elinewidth=0.7, label=method
             )
-    pane.set(xlabel="attempt at a model", ylabel="succeeded", ylim=(-0.02, 1.02))
+    numbers = sorted({one.number for one in analysis.attempts})
+    # Of many, every so many-th: what is between two attempts is none.
+    shown = numbers[:: 1 + len(numbers) // 10]
+    pane.set(xlabel="attempt at a model", ylabel="succeeded", xticks=shown, ylim=(-0.02, 1.02))
 
 
 def _boxes(pane: Axes, analysis: Analysis, values: Values) -> None:
