@@ -24,7 +24,8 @@ SELDOM_MS = 1000.0
 def learnt(station, tab, eventually):
     """A page that shows a history of four entries, and can change it."""
     page, feed = station
-    told = msgspec.structs.replace(feed.view.teaching, phase="deciding", actions=("execute", *TURNS), confidence=0.7)
+    offered = ("execute", "confidence", *TURNS)
+    told = msgspec.structs.replace(feed.view.teaching, phase="deciding", actions=offered, confidence=0.7)
     page.effects.renew(0)
     page.effects.renew(VERSION)
     feed.view = replace(feed.view, teaching=told, history=history())
