@@ -9,13 +9,11 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import msgspec
-import numpy as np
 
 from protocol import messages, topics
 from protocol.keys import STEERING
 from protocol.messages import Figure, OperatorInput
 from services.accounts.policy import page_is_open
-from services.bus.arrays import vector3
 from services.bus.bus import Bus, Pending
 from services.bus.identity import new_number
 from services.certificates.credentials import is_open
@@ -25,6 +23,7 @@ from services.process.exceptions import UnusableSetting
 from services.process.schedule import Schedule
 from services.station.company import Company
 from services.station.device_buttons import DeviceButtons
+from services.station.draw import Draw
 from services.station.ears import Ears, came_s, message, prediction_of, young
 from services.station.frontend import Frontend
 from services.station.handover import GIVE, KEEP, HandOver
@@ -38,7 +37,8 @@ from services.station.settings import settings
 from services.station.stop import StopButton
 from services.station.words.table import speech
 from services.station.workflow.action import Action
-from services.station.workflow.state import Phase, Place, Settings, Workflow
+from services.station.workflow.settings import Settings
+from services.station.workflow.state import Phase, Workflow
 from services.station.workflow.view import Answer, Ask, View
 from services.station.workflow.words import teaching_state
 from services.station.workflow.workflow import advance
@@ -97,7 +97,7 @@ class StationService:
         self._settings = workflow_settings
         self._page = page
         self._open_network = open_network
-        self._random = np.random.default_rng(seed)
+        self._draw = Draw(workflow_settings.place, seed)
         self._ears = Ears(bus)
         self._path = OwnPath(self._ears, bus.identity, workflow_settings.holder)
         self._stop = StopButton(bus, self._ears.safety, workflow_settings.holder)
@@ -109,7 +109,6 @@ class StationService:
         self._buttons = DeviceButtons(self._ears.master, workflow_settings.holder)
         self._workflow = Workflow()
         self._asked: tuple[int, Pending[Any]] | None = None
-        self._drawn: Place | None = None
         self._schedule = Schedule()
         self._worded: Phase | None = None
         self._words = PageView()
@@ -144,7 +143,7 @@ class StationService:
         if before is not step.state.phase:
             log.debug("%s -> %s", before.value, step.state.phase.value)
             if step.state.phase is Phase.RESETTING and step.state.placed is None:
-                self._drawn = None
+                self._draw.taken()
         self._publish(self._path.seen(held), now_ns)
         self._pass_authority(now_ns, pressed, view)
         self._company.tell(self._attendance(), now_ns)
@@ -228,7 +227,7 @@ class StationService:
             result=message(ears.results.latest()),
             answer=self._answer(),
             presses=tuple(pressed),
-            drawn=self._draw(scene),
+            drawn=self._draw.of(scene),
         )
 
     def _ask(self, ask: Ask) -> None:
@@ -241,14 +240,6 @@ class StationService:
         number, pending = self._asked
         outcome = pending.poll()
         return Answer(number, outcome) if outcome is not None else None
-
-    def _draw(self, scene: messages.SceneState | None) -> Place | None:
-        if scene is not None and self._drawn is None:
-            low, high = scene.condition_region if scene.condition else scene.object_region
-            random = tuple(float(self._random.uniform(a, b)) for a, b in zip(low, high, strict=True))
-            drawn = self._settings.place or random
-            self._drawn = Place(condition=drawn) if scene.condition else Place(object_position=vector3(drawn))
-        return self._drawn
 
     def _publish(self, held: OperatorInput, now_ns: int) -> None:
         """Who is here and what is held; that s/he is present, where this station holds the authority."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import secrets
 
 from services.process.config import StationSection
-from services.station.workflow.state import Settings
+from services.station.workflow.settings import Settings
 
 
 def settings(section: StationSection, operator: str) -> Settings:

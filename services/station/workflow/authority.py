@@ -10,7 +10,8 @@ from services.station.words.table import say
 from services.station.workflow import unanswered
 from services.station.workflow.action import Action
 from services.station.workflow.asking import RETRY_S, ask, not_done, to
-from services.station.workflow.state import Phase, Settings, Workflow
+from services.station.workflow.settings import Settings
+from services.station.workflow.state import Phase, Workflow
 from services.station.workflow.view import Step, View
 
 LINGERS_S = 2.0

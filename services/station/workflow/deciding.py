@@ -17,7 +17,8 @@ from services.station.workflow.going import SETTING, set_for_next
 from services.station.workflow.history import turn, turns
 from services.station.workflow.leading import lead
 from services.station.workflow.planning import preview
-from services.station.workflow.state import WHOLE, Phase, Settings, Workflow
+from services.station.workflow.settings import Settings
+from services.station.workflow.state import WHOLE, Phase, Workflow
 from services.station.workflow.view import Step, View
 
 _CHOOSING = frozenset({Action.METHOD, Action.BASIS})

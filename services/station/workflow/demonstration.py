@@ -10,7 +10,7 @@ from lfd.motion.trajectory import Trajectory
 from protocol.messages import Motion
 from services.bus.arrays import motion_from_wire, motion_to_wire
 from services.process.exceptions import ServiceError
-from services.station.workflow.state import Settings
+from services.station.workflow.settings import Settings
 
 LEAST_WAY = 0.05
 """A hand that led the gripper less far showed nothing [m]."""

@@ -19,7 +19,8 @@ from services.station.workflow import editing, going
 from services.station.workflow.action import Action
 from services.station.workflow.asking import RETRY_S, ask, not_done, to
 from services.station.workflow.authority import gone, runs
-from services.station.workflow.state import WHOLE, Episode, Phase, Place, Settings, Workflow
+from services.station.workflow.settings import Settings
+from services.station.workflow.state import WHOLE, Episode, Phase, Place, Workflow
 from services.station.workflow.view import Ask, Step, View
 
 LOOK_S = 0.8

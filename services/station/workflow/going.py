@@ -10,7 +10,8 @@ from protocol.messages import Mode, Part
 from services.station.words.predictions import extent
 from services.station.words.table import say
 from services.station.workflow.action import Action
-from services.station.workflow.state import WHOLE, Going, Settings, Workflow
+from services.station.workflow.settings import Settings
+from services.station.workflow.state import WHOLE, Going, Workflow
 from services.station.workflow.view import View
 
 SLOWEST, FASTEST = 0.25, 2.0

@@ -8,7 +8,8 @@ from protocol import queries
 from services.station.words.table import say
 from services.station.workflow.action import Action
 from services.station.workflow.asking import ask, not_done, to
-from services.station.workflow.state import Phase, Settings, Turning, Workflow
+from services.station.workflow.settings import Settings
+from services.station.workflow.state import Phase, Turning, Workflow
 from services.station.workflow.view import Step, View
 
 _TURNS = {Action.UNDO: False, Action.TAKE_BACK: False, Action.USE_AGAIN: True}

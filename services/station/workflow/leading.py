@@ -8,7 +8,8 @@ from protocol import queries
 from protocol.messages import Method, Mode
 from services.station.workflow.asking import ask, to
 from services.station.workflow.episode import press, refused, started_as
-from services.station.workflow.state import Episode, Phase, Settings, Workflow
+from services.station.workflow.settings import Settings
+from services.station.workflow.state import Episode, Phase, Workflow
 from services.station.workflow.view import Step, View
 
 

@@ -14,7 +14,8 @@ from services.station.words.table import say
 from services.station.workflow.action import Action
 from services.station.workflow.asking import ask, not_done, to
 from services.station.workflow.history import named
-from services.station.workflow.state import WHOLE, Phase, Settings, Taught, Workflow
+from services.station.workflow.settings import Settings
+from services.station.workflow.state import WHOLE, Phase, Taught, Workflow
 from services.station.workflow.view import Step, View
 
 

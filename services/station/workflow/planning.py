@@ -8,7 +8,8 @@ from protocol.queries import Plan
 from services.station.workflow.action import Action
 from services.station.workflow.asking import ask, not_done, to
 from services.station.workflow.episode import ORIGIN
-from services.station.workflow.state import Phase, Settings, Workflow
+from services.station.workflow.settings import Settings
+from services.station.workflow.state import Phase, Workflow
 from services.station.workflow.view import Step, View
 
 

@@ -9,7 +9,8 @@ from protocol.messages import SafetyState
 from services.station.words.table import say
 from services.station.workflow.action import Action
 from services.station.workflow.asking import ask, not_done, to
-from services.station.workflow.state import Phase, Settings, Workflow
+from services.station.workflow.settings import Settings
+from services.station.workflow.state import Phase, Workflow
 from services.station.workflow.view import Step, View
 
 RELEASED_S = 2.0

@@ -21,7 +21,8 @@ from services.station.workflow.demonstration import demonstrated
 from services.station.workflow.episode import ORIGIN
 from services.station.workflow.part import common
 from services.station.workflow.planning import preview
-from services.station.workflow.state import WHOLE, Episode, Phase, Settings, Taught, Workflow
+from services.station.workflow.settings import Settings
+from services.station.workflow.state import WHOLE, Episode, Phase, Taught, Workflow
 from services.station.workflow.view import View
 
 ATTEMPTS_KEPT = 100

@@ -9,7 +9,8 @@ from services.station.words.table import say
 from services.station.workflow.action import Action
 from services.station.workflow.asking import to
 from services.station.workflow.authority import another, passed
-from services.station.workflow.state import Phase, Settings, Workflow
+from services.station.workflow.settings import Settings
+from services.station.workflow.state import Phase, Workflow
 from services.station.workflow.view import Step, View
 
 

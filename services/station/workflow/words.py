@@ -17,7 +17,8 @@ from services.station.workflow.deciding import recommended
 from services.station.workflow.going import elsewhere, paused
 from services.station.workflow.learning import confidence
 from services.station.workflow.planning import is_previewed
-from services.station.workflow.state import Phase, Settings, Workflow
+from services.station.workflow.settings import Settings
+from services.station.workflow.state import Phase, Workflow
 from services.station.workflow.view import View
 
 _NO_HAND = "no hand"

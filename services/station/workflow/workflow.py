@@ -20,7 +20,8 @@ from services.station.workflow.history import turning
 from services.station.workflow.leading import taking_up
 from services.station.workflow.learning import confided, learning
 from services.station.workflow.planning import is_previewed, planning
-from services.station.workflow.state import Phase, Settings, Workflow
+from services.station.workflow.settings import Settings
+from services.station.workflow.state import Phase, Workflow
 from services.station.workflow.stop import caught, releasing, stopped
 from services.station.workflow.verdict import judged
 from services.station.workflow.view import Step, View

@@ -10,7 +10,8 @@ from protocol.messages import EpisodeResult, Mode, Outcome, Verdict
 from services.bus.arrays import motion_to_wire, to_wire
 from services.bus.bus import Failed
 from services.station.press import Press
-from services.station.workflow.state import Phase, Place, Settings, Workflow
+from services.station.workflow.settings import Settings
+from services.station.workflow.state import Phase, Place, Workflow
 from services.station.workflow.view import Answer, View
 from services.station.workflow.workflow import advance
 
