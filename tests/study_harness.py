@@ -52,7 +52,7 @@ class StandInTrials:
         self.running = (number, part)
         self.started.append((number, part.name))
 
-    def stop(self):
+    def stop(self, why):
         self.running = None
 
     def live(self):

@@ -155,6 +155,22 @@ class Attempted(_Event, frozen=True, tag="attempted"):
     recording: Short = ""
 
 
+class BrokenOff(_Event, frozen=True, tag="broken_off"):
+    """An execution did not come to its end, nor did what would have led to one: it is made again.
+
+    Attributes:
+        participant: number.
+        part: of the session.
+        why: it was interrupted, or what its processes said when they ended.
+        raw: times since the attempt before, by name, as of one that has ended [s]; they count for nothing.
+    """
+
+    participant: Number
+    part: Short
+    why: Long
+    raw: dict[Short, Seconds] = msgspec.field(default_factory=dict)
+
+
 class Ended(_Event, frozen=True, tag="ended"):
     """A part is over.
 
@@ -272,7 +288,18 @@ class Repaired(_Event, frozen=True, tag="repaired"):
 
 
 OfParticipant = (
-    Consented | Answered | Began | Attempted | Ended | Paused | GoneOn | Invalid | Dropped | Withdrawn | Finished
+    Consented
+    | Answered
+    | Began
+    | Attempted
+    | BrokenOff
+    | Ended
+    | Paused
+    | GoneOn
+    | Invalid
+    | Dropped
+    | Withdrawn
+    | Finished
 )
 """What happens to somebody who was enrolled."""
 

@@ -55,6 +55,11 @@ _MEANINGS = {
     "ended": "since the part's begin [s]",
     "void": "why the attempt does not count; empty where it does",
     "recording": "file of the run; not in this data set",
+    "why": "what ended an attempt that came to no end, and was made again",
+    "acting": "time in which the operator could act, of an attempt that came to no end [s]",
+    "holding": "the same in which the robot held [s]",
+    "alone": "the same in which it moved alone [s]",
+    "other": "the rest of the time since the attempt before [s]",
     "gender": "as the participant said",
     "age": "band, as the participant said",
     "field": "of study or work, as the participant said",
@@ -152,6 +157,7 @@ def _tables(study: Study, entries: Sequence[Entry], instruments: Mapping[str, In
         rows = [[*(getattr(one, column) for column in columns), observations.synthetic] for one in structs]
         yield _Table(name, (*columns, "synthetic"), rows)
     yield _Table("attempts", _ATTEMPT, [row for one in people for row in _attempts(one)])
+    yield _Table("broken_off", _BROKEN_OFF, [row for one in people for row in _broken_off(one)])
     yield _Table("answers", _ANSWER, [row for one in people for row in _answers(one)])
 
 
@@ -159,6 +165,8 @@ _ATTEMPT = (
     *("participant", "part", "number", "teaching", "updates", "success", "reached", "kicked_over", "collision"),
     *("active", "began", "ended", "void", "recording", "synthetic"),
 )
+_TIMES = ("acting", "holding", "alone", "other")
+_BROKEN_OFF = ("participant", "part", "why", *_TIMES, "synthetic")
 _ANSWER = ("participant", "instrument", "after", "question", "place", "answer", "synthetic")
 
 
@@ -167,6 +175,13 @@ def _attempts(one: Participant) -> Iterator[Row]:
     kept = [(attempt, one.invalid.get(name, "")) for name, attempts in one.attempts.items() for attempt in attempts]
     for attempt, void in (*kept, *one.void):
         yield (code(one.number), *_of(attempt), void, attempt.recording, one.enrolled.synthetic)
+
+
+def _broken_off(one: Participant) -> Iterator[Row]:
+    """What came to no end, with its times."""
+    for event in one.broken_off:
+        times = (event.raw.get(name, 0.0) for name in _TIMES)
+        yield (code(one.number), event.part, event.why, *times, one.enrolled.synthetic)
 
 
 def _of(attempt: Attempted) -> Iterable[object]:

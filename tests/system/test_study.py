@@ -9,7 +9,7 @@ import pytest
 from protocol.messages import Mode, Phase
 from services.offline.people.ways import Teaching
 from services.process.config import load
-from services.study.events import Attempted, Began, Ended, GoneOn, Noted
+from services.study.events import Attempted, Began, BrokenOff, Ended, GoneOn
 from services.study.journal import read
 from tests.ports import free_port
 from tests.system.harness import START_S, Command, Witness, eventually
@@ -169,7 +169,9 @@ def test_a_training_and_a_model_are_told_whole_whatever_is_killed(folder, serve)
     assert [(one.part, one.passed) for one in events(folder, Ended)] == [(TRAINING, True), (MODEL, True)]
     assert [one.part for one in events(folder, Began)] == [TRAINING, MODEL, "break/Online"]
     assert [one.part for one in events(folder, GoneOn)] == [TRAINING, MODEL]
-    assert [one.text for one in events(folder, Noted)] == [f"{MODEL} broke off: killed by signal 9"]
+    (broken,) = events(folder, BrokenOff)
+    assert (broken.part, broken.why) == (MODEL, "killed by signal 9")
+    assert broken.raw["acting"] > 0.0
 
 
 def begin(person, part, *, resumed=False):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import threading
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,7 +15,7 @@ from services.bus.bus import Bus
 from services.bus.zenoh import connect
 from services.process.clock import Clock
 from services.process.exceptions import BusError, CannotWrite, ServiceError
-from services.study.events import Attempted
+from services.study.events import Attempted, BrokenOff
 from services.study.live.forgetting import Forgetting
 from services.study.live.stack import Stack
 from services.study.page.desk import Desk
@@ -28,6 +29,9 @@ PERIOD_S = 0.02
 
 DIAL_S = 1.0
 """After which it is looked whether the router is waited for at all."""
+
+WHY_LENGTH = 1000
+"""Of what is kept of why something broke off [characters]."""
 
 NAME = "study"
 """On the robot's network."""
@@ -79,6 +83,7 @@ class Trial:
         self._attempts = list(begun.known)
         self._untold: list[Attempted] = []
         self._stop = threading.Event()
+        self._watch: Watch | None = None
 
     def run(self) -> None:
         """From the start of its processes to their end."""
@@ -99,8 +104,14 @@ class Trial:
             with self._desk.lock:
                 self.over = True
 
-    def stop(self) -> None:
-        """Tell what is there to be told, and nothing more; the processes have ended when this returns."""
+    def stop(self, why: str) -> None:
+        """Tell what came to no end, and nothing more; the processes have ended when this returns.
+
+        Args:
+            why: it is stopped.
+        """
+        if not self.over and self._watch is not None and self._watch.unfinished["acting"]:
+            self._broke_off(why)
         self.over = True
         self._stop.set()
         self._stack.stop()
@@ -130,7 +141,7 @@ class Trial:
                 return
             self._wait()
         begun = self._begun
-        watch = Watch(
+        self._watch = watch = Watch(
             bus,
             begun.number,
             begun.part.name,
@@ -201,10 +212,14 @@ class Trial:
             if self.over:
                 return
             self.over = True
-            try:
-                self._desk.conductor.note(self._begun.number, f"{self._begun.part.name} broke off: {why}")
-            except CannotWrite:
-                return  # the next thing that somebody does says so
+            self._broke_off(why)
+
+    def _broke_off(self, why: str) -> None:
+        begun, raw = self._begun, self._watch.unfinished if self._watch is not None else {}
+        event = BrokenOff(participant=begun.number, part=begun.part.name, why=why[:WHY_LENGTH], raw=raw)
+        # A disk that is full says so at the next thing that somebody does; the robot is stopped all the same.
+        with contextlib.suppress(CannotWrite):
+            self._desk.conductor.broke_off(event)
 
     def _wait(self) -> None:
         self._stop.wait(PERIOD_S)

@@ -79,16 +79,16 @@ class LiveTrials:
         self._trial = Trial(self._desk, self._clock, begun, stack, before)
         self._trial.thread.start()
 
-    def stop(self) -> None:
+    def stop(self, why: str) -> None:
         """End what runs, if anything does: the robot stands; the part is not over."""
         if self._trial is not None:
-            self._trial.stop()
+            self._trial.stop(why)
 
     def close(self) -> None:
         """End what runs, and wait until nobody of it is left."""
         if self._trial is not None and self._desk is not None:
             with self._desk.lock:
-                self._trial.stop()
+                self._trial.stop("the study was ended")
             self._trial.thread.join(CLOSE_S)
 
     def live(self) -> Live | None:

@@ -252,6 +252,8 @@ def _told(event: events.Event) -> tuple[str, str] | None:
             told = "note", text
         case events.Paused(reason=reason):
             told = "pause", reason
+        case events.BrokenOff(part=part, why=why):
+            told = "broken_off", f"{part}: {why}"
         case events.GoneOn(part=part):
             told = "go_on", part
         case events.Invalid(part=part, reason=reason):

@@ -96,7 +96,7 @@ class Desk:
                     self._note(number, text)
                 case acts.Abort(number=number, reason=reason):
                     self.conductor.drop(number, reason)
-                    self._stop(number)
+                    self._stop(number, "their session was ended by the experimenter")
                 case acts.WithdrawFor(number=number, delete=delete):
                     self._withdraw(number, delete=delete)
 
@@ -184,7 +184,7 @@ class Desk:
     def _withdraw(self, number: int, *, delete: bool) -> None:
         if self.conductor.participant(number).gone == "withdrawn" and not delete:
             raise NotNow(f"participant {number} has withdrawn already")
-        self._stop(number)
+        self._stop(number, "the participant has withdrawn")
         self.conductor.withdraw(number, delete=delete)
         if delete:
             self.personal.delete(number)
@@ -193,7 +193,7 @@ class Desk:
         known = self.conductor.participant(number)
         if known.paused or known.gone or known.finished:
             raise NotNow(f"participant {number} pauses already, or is through, or gone")
-        self._stop(number)
+        self._stop(number, "interrupted by the experimenter")
         self.conductor.pause(number, reason.strip())
 
     def _go_on(self, number: int, part: Part, *, anew: bool) -> None:
@@ -214,7 +214,7 @@ class Desk:
     def _invalid(self, number: int, part: str, reason: str, *, repeat: bool) -> None:
         live = self.trials.live()
         if live is not None and (live.number, live.part) == (number, part):
-            self.trials.stop()
+            self.trials.stop("declared invalid")
         self.conductor.invalid(number, part, reason, repeat=repeat)
 
     def _note(self, number: int | None, text: str) -> None:
@@ -222,10 +222,10 @@ class Desk:
             raise NotNow("write something first")
         self.conductor.note(number, text.strip())
 
-    def _stop(self, number: int) -> None:
+    def _stop(self, number: int, why: str) -> None:
         live = self.trials.live()
         if live is not None and live.number == number:
-            self.trials.stop()
+            self.trials.stop(why)
 
     def _keeps_on(self, number: int) -> None:
         if self.conductor.participant(number).paused:

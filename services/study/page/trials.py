@@ -57,8 +57,12 @@ class Trials(Protocol):
         """
         ...
 
-    def stop(self) -> None:
-        """End what runs, if anything does: the robot stands; the part is not over."""
+    def stop(self, why: str) -> None:
+        """End what runs, if anything does: the robot stands; the part is not over.
+
+        Args:
+            why: it is written down with an attempt that comes to no end.
+        """
         ...
 
     def live(self) -> Live | None:

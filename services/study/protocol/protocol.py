@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import enum
+import hashlib
 from pathlib import Path
 from typing import Annotated
 
@@ -147,6 +148,10 @@ class Consent(Section, frozen=True):
 
     version: Text
     text: dict[str, Text]
+
+    def digest(self, language: str) -> str:
+        """Of the text of a language, as it is written down that somebody has agreed to it."""
+        return hashlib.sha256(self.text[language].strip().encode()).hexdigest()
 
 
 class Recruitment(Section, frozen=True):

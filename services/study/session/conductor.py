@@ -5,12 +5,11 @@ It holds nothing that the journal does not. Pages, live trials and synthetic par
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Mapping, Sequence
 from datetime import datetime
 
 from services.study import events
-from services.study.events import Answered, Attempted, Began, Entry, Event
+from services.study.events import Answered, Attempted, Began, BrokenOff, Entry, Event
 from services.study.exceptions import (
     NotNow,
     ParticipantThere,
@@ -21,11 +20,6 @@ from services.study.protocol.orders import Allocation, orders
 from services.study.protocol.protocol import Protocol
 from services.study.session.course import Agree, Fill, Part, Participant, participants
 from services.study.session.sheet import Questionnaire, Sheet
-
-
-def digest(text: str) -> str:
-    """Of a text that somebody agreed to."""
-    return hashlib.sha256(text.encode()).hexdigest()
 
 
 class Conductor:
@@ -125,13 +119,11 @@ class Conductor:
             NotNow: it is not their turn, or there is no such text.
         """
         self._at(number, Agree())
-        text = self.protocol.consent.text.get(language)
-        if text is None:
+        agreed = self.protocol.consent
+        if language not in agreed.text:
             raise NotNow(f"there is no consent text in {language!r}")
-        version = self.protocol.consent.version
-        self._happened(
-            events.Consented(participant=number, version=version, language=language, text=digest(text.strip()))
-        )
+        text = agreed.digest(language)
+        self._happened(events.Consented(participant=number, version=agreed.version, language=language, text=text))
 
     def answer(self, number: int, part: Fill, sheet: Sheet) -> None:
         """A questionnaire is filled in.
@@ -181,6 +173,10 @@ class Conductor:
         known = self.participant(attempt.participant).attempts.get(attempt.part, ())
         if attempt.number > len(known):
             self._happened(attempt)
+
+    def broke_off(self, event: BrokenOff) -> None:
+        """An execution came to no end, or what led to one."""
+        self._happened(event)
 
     def end(self, number: int, part: Part, *, passed: bool = True, seconds: float = 0.0) -> None:
         """A part is over; after the last one the participant has finished.

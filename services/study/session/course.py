@@ -13,6 +13,7 @@ from services.study.events import (
     Answered,
     Attempted,
     Began,
+    BrokenOff,
     Consented,
     Dropped,
     Ended,
@@ -122,6 +123,7 @@ class Participant:
         ended: parts that are over, with how they ended.
         attempts: of each part, the newest round of it; those of invalid rounds are in `void`.
         void: attempts that do not count, and why.
+        broken_off: what came to no end.
         answers: by part.
         invalid: parts that do not count and are not repeated, with the reason.
         consented: to the text.
@@ -140,6 +142,7 @@ class Participant:
     ended: dict[str, Ended] = field(default_factory=dict)
     attempts: dict[str, list[Attempted]] = field(default_factory=dict)
     void: list[tuple[Attempted, str]] = field(default_factory=list)
+    broken_off: list[BrokenOff] = field(default_factory=list)
     answers: dict[str, Answered] = field(default_factory=dict)
     invalid: dict[str, str] = field(default_factory=dict)
     consented: bool = False
@@ -181,10 +184,8 @@ class Participant:
         match event:
             case Began(part=part):
                 self.begun, self.begun_at = part, entry.at
-            case Paused():
-                self.paused = True
-            case GoneOn():
-                self.paused = False
+            case Paused() | GoneOn():
+                self.paused = isinstance(event, Paused)
             case Consented(language=language):
                 self.consented, self.language = True, language
             case Answered(instrument=instrument, after=after):
@@ -193,6 +194,8 @@ class Participant:
                 self.ended[name] = Ended(participant=self.number, part=name)
             case Attempted(part=part):
                 self.attempts.setdefault(part, []).append(event)
+            case BrokenOff():
+                self.broken_off.append(event)
             case Ended(part=part):
                 self.ended[part] = event
             case Invalid(part=part, reason=reason, repeat=repeat):

@@ -25,6 +25,11 @@ class _Times:
     began: float
     raw: dict[str, float] = field(default_factory=lambda: dict.fromkeys(("acting", "holding", "alone", "other"), 0.0))
 
+    @property
+    def told(self) -> dict[str, float]:
+        """As they are written down."""
+        return {name: round(seconds, 3) for name, seconds in self.raw.items()}
+
 
 class Watch:
     """Of one part of a participant's session.
@@ -68,6 +73,11 @@ class Watch:
         self._times = _Times(lasted)
         self._station = 0
         self._newest: int | None = None
+
+    @property
+    def unfinished(self) -> dict[str, float]:
+        """Times since the newest attempt has ended, by name [s]."""
+        return self._times.told
 
     def step(self, now_ns: int) -> list[Attempted]:
         """Look; the attempts that have ended since."""
@@ -114,7 +124,7 @@ class Watch:
             active=round(times.raw["acting"], 3),
             began=round(times.began, 3),
             ended=round(self.lasted, 3),
-            raw={name: round(seconds, 3) for name, seconds in times.raw.items()},
+            raw=times.told,
         )
         self.attempts.append(ended)
         return ended

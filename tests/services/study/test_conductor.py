@@ -18,7 +18,7 @@ from hypothesis.stateful import (
 )
 
 from services.offline.people.ways import Teaching
-from services.study.events import Attempted, Enrolled, Erased
+from services.study.events import Attempted, BrokenOff, Enrolled, Erased
 from services.study.exceptions import AnswerRefused, NotNow, ParticipantThere, ParticipantUnknown, StudyError
 from services.study.journal import Journal
 from services.study.protocol.protocol import load
@@ -146,6 +146,19 @@ def test_an_attempt_that_is_told_twice_is_one(conductor):
         conductor.attempted(attempt(number, part, 1))
     conductor.attempted(attempt(number, part, 2))
     assert [one.number for one in conductor.participant(number).attempts[part.name]] == [1, 2]
+
+
+def test_what_broke_off_is_kept_counts_for_nothing_and_the_part_goes_on(conductor):
+    conductor.enrol(1, "en")
+    go_through(conductor, 1, 2)
+    part = conductor.begin(1)
+    conductor.attempted(attempt(1, part, 1))
+    broken = BrokenOff(participant=1, part=part.name, why="killed", raw={"acting": 4.0})
+    conductor.broke_off(broken)
+    one = conductor.participant(1)
+    assert one.broken_off == [broken]
+    assert len(one.attempts[part.name]) == 1
+    assert conductor.now(1) == part
 
 
 def test_after_a_crash_an_old_checkpoint_is_the_experimenter_s_decision(conductor, journal, clock):

@@ -5,7 +5,7 @@ import json
 
 import pytest
 
-from services.study.events import Attempted, Noted
+from services.study.events import Attempted, BrokenOff, Noted
 from services.study.exceptions import StudyThere
 from services.study.export import export
 from services.study.instruments.library import of_protocol
@@ -28,6 +28,8 @@ def done(tmp_path, unsynchronised):
         SyntheticRun(study.protocol, instruments, conductor, clock, Rehearsal(3), lessons=in_order).go(1)
         conductor.withdraw(2, delete=True)
         conductor.invalid(1, "OnStyl/training", "the alarm rang", repeat=False)
+        times = {"acting": 3.5, "holding": 0.0, "alone": 1.0, "other": 2.0}
+        conductor.broke_off(BrokenOff(participant=3, part="OnKey/2", why="killed by signal 9", raw=times))
         journal.add(Noted(participant=1, text="Anna was tired"))
         entries = list(journal.entries)
     return study, entries, instruments, tmp_path / "out"
@@ -49,6 +51,8 @@ def test_every_attempt_is_there_and_whoever_withdrew_is_not(done):
     attempts = [entry.event for entry in entries if isinstance(entry.event, Attempted)]
     assert len(found["attempts"]) == len(attempts)
     assert {row["participant"] for table in found.values() for row in table} == {"P01", "P03"}
+    (broken,) = found["broken_off"]
+    assert (broken["participant"], broken["part"], broken["acting"]) == ("P03", "OnKey/2", "3.5")
     void = {
         row["void"] for row in found["attempts"] if row["part"] == "OnStyl/training" and row["participant"] == "P01"
     }
@@ -60,9 +64,9 @@ def test_every_column_is_explained_and_synthetic_rows_are_marked(done):
     export(study, entries, instruments, out)
     described = json.loads((out / "dataset_description.json").read_text(encoding="utf-8"))
     explained = {one["name"] for one in described["variableMeasured"] if one["description"]}
-    for rows in tables(out).values():
-        assert set(rows[0]) <= explained
-        assert {row["synthetic"] for row in rows} == {"True"}
+    rows = [row for table in tables(out).values() for row in table]
+    assert {column for row in rows for column in row} <= explained
+    assert {row["synthetic"] for row in rows} == {"True"}
     assert "no person took part" in described["description"]
 
 

@@ -1,10 +1,12 @@
 """A part that runs: with which model, and what is written down where its processes end by themselves."""
 
+from typing import ClassVar
+
 import pytest
 
 from services.process.clock import SystemClock
 from services.study.arrangement import arrangement
-from services.study.events import Noted
+from services.study.events import BrokenOff
 from services.study.live import trials as live
 from services.study.live.setting import Setting
 from services.study.page import acts
@@ -56,8 +58,8 @@ def waits_until_broken(study):
 
 def test_processes_that_end_by_themselves_are_noted_with_why_and_the_part_can_go_on(study):
     waits_until_broken(study)
-    (note,) = [event for event in study.events if isinstance(event, Noted)]
-    assert note.text == "OnKey/training broke off: master: the phantom is not there"
+    (broken,) = [event for event in study.events if isinstance(event, BrokenOff)]
+    assert (broken.part, broken.why) == ("OnKey/training", "master: the phantom is not there")
     assert study.trials.live() is None
     assert stage(study).resumed
     waits_until_broken(study)
@@ -87,4 +89,28 @@ def test_what_was_stopped_before_it_was_ready_is_neither_over_nor_broken(study):
     study.trials._trial.thread.join(WITHIN_S)
     assert Stack.started == []
     assert study.trials.live() is None
-    assert not any(isinstance(event, Noted) for event in study.events)
+    assert not any(isinstance(event, BrokenOff) for event in study.events)
+
+
+class Corrected:
+    """Stands in for a watch: a motion is being corrected."""
+
+    unfinished: ClassVar = {"acting": 3.5, "holding": 0.0, "alone": 1.0, "other": 2.0}
+
+
+@pytest.mark.parametrize(
+    ("act", "why"),
+    [
+        (acts.Pause(number=1, reason="coffee"), "interrupted by the experimenter"),
+        (acts.Abort(number=1, reason="ill"), "their session was ended by the experimenter"),
+        (acts.WithdrawFor(number=1, delete=False), "the participant has withdrawn"),
+    ],
+)
+def test_a_correction_that_somebody_interrupts_is_told_with_its_times(study, act, why):
+    with study.desk.lock:
+        begin(study)
+        study.trials._trial._watch = Corrected()
+        study.desk.console_does(act)
+    study.trials._trial.thread.join(WITHIN_S)
+    (broken,) = [event for event in study.events if isinstance(event, BrokenOff)]
+    assert (broken.part, broken.why, broken.raw) == ("OnKey/training", why, Corrected.unfinished)
