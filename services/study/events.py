@@ -10,21 +10,10 @@ from typing import Annotated
 import msgspec
 
 from services.offline.people.ways import Teaching
-
-Number = Annotated[int, msgspec.Meta(ge=1, le=9999)]
-Seconds = Annotated[float, msgspec.Meta(ge=0.0, le=1e6)]
-Short = Annotated[str, msgspec.Meta(max_length=200)]
-Long = Annotated[str, msgspec.Meta(max_length=4000)]
-
-Answer = bool | int | float | Annotated[str, msgspec.Meta(max_length=4000)]
-"""To one question."""
+from services.study.values import Answer, Long, Number, Recorded, Seconds, Short
 
 
-class _Event(msgspec.Struct, frozen=True, kw_only=True, tag_field="event", forbid_unknown_fields=True):
-    """Base of all of them."""
-
-
-class Opened(_Event, frozen=True, tag="opened"):
+class Opened(Recorded, frozen=True, tag="opened"):
     """A console or a run has begun to write.
 
     Attributes:
@@ -40,7 +29,7 @@ class Opened(_Event, frozen=True, tag="opened"):
     resumed: bool = False
 
 
-class Deviated(_Event, frozen=True, tag="deviated"):
+class Deviated(Recorded, frozen=True, tag="deviated"):
     """The study is no longer as it was frozen, and somebody says why.
 
     Attributes:
@@ -52,7 +41,7 @@ class Deviated(_Event, frozen=True, tag="deviated"):
     reason: Long
 
 
-class Enrolled(_Event, frozen=True, tag="enrolled"):
+class Enrolled(Recorded, frozen=True, tag="enrolled"):
     """Somebody takes part.
 
     Attributes:
@@ -72,7 +61,7 @@ class Enrolled(_Event, frozen=True, tag="enrolled"):
     seed: int = 0
 
 
-class Consented(_Event, frozen=True, tag="consented"):
+class Consented(Recorded, frozen=True, tag="consented"):
     """A participant has agreed to a text.
 
     Attributes:
@@ -88,7 +77,7 @@ class Consented(_Event, frozen=True, tag="consented"):
     text: Short
 
 
-class Answered(_Event, frozen=True, tag="answered"):
+class Answered(Recorded, frozen=True, tag="answered"):
     """A questionnaire was filled in, complete.
 
     Attributes:
@@ -110,14 +99,14 @@ class Answered(_Event, frozen=True, tag="answered"):
     after: Short = ""
 
 
-class Began(_Event, frozen=True, tag="began"):
+class Began(Recorded, frozen=True, tag="began"):
     """A part of a participant's session begins: see `services.study.session.course`."""
 
     participant: Number
     part: Short
 
 
-class Attempted(_Event, frozen=True, tag="attempted"):
+class Attempted(Recorded, frozen=True, tag="attempted"):
     """One execution, whoever led it, succeeded or not.
 
     Attributes:
@@ -155,7 +144,7 @@ class Attempted(_Event, frozen=True, tag="attempted"):
     recording: Short = ""
 
 
-class BrokenOff(_Event, frozen=True, tag="broken_off"):
+class BrokenOff(Recorded, frozen=True, tag="broken_off"):
     """An execution did not come to its end, nor did what would have led to one: it is made again.
 
     Attributes:
@@ -171,7 +160,7 @@ class BrokenOff(_Event, frozen=True, tag="broken_off"):
     raw: dict[Short, Seconds] = msgspec.field(default_factory=dict)
 
 
-class Ended(_Event, frozen=True, tag="ended"):
+class Ended(Recorded, frozen=True, tag="ended"):
     """A part is over.
 
     Attributes:
@@ -187,14 +176,14 @@ class Ended(_Event, frozen=True, tag="ended"):
     seconds: Seconds = 0.0
 
 
-class Paused(_Event, frozen=True, tag="paused"):
+class Paused(Recorded, frozen=True, tag="paused"):
     """The experimenter has interrupted."""
 
     participant: Number
     reason: Long = ""
 
 
-class GoneOn(_Event, frozen=True, tag="gone_on"):
+class GoneOn(Recorded, frozen=True, tag="gone_on"):
     """It goes on after a pause or a crash.
 
     Attributes:
@@ -210,7 +199,7 @@ class GoneOn(_Event, frozen=True, tag="gone_on"):
     by_hand: bool
 
 
-class Invalid(_Event, frozen=True, tag="invalid"):
+class Invalid(Recorded, frozen=True, tag="invalid"):
     """What was recorded of a part does not count.
 
     Attributes:
@@ -226,14 +215,14 @@ class Invalid(_Event, frozen=True, tag="invalid"):
     repeat: bool = False
 
 
-class Noted(_Event, frozen=True, tag="noted"):
+class Noted(Recorded, frozen=True, tag="noted"):
     """The experimenter has written something down."""
 
     participant: Number | None
     text: Long
 
 
-class Dropped(_Event, frozen=True, tag="dropped"):
+class Dropped(Recorded, frozen=True, tag="dropped"):
     """A participant does not go on.
 
     Attributes:
@@ -247,7 +236,7 @@ class Dropped(_Event, frozen=True, tag="dropped"):
     replaced: bool
 
 
-class Withdrawn(_Event, frozen=True, tag="withdrawn"):
+class Withdrawn(Recorded, frozen=True, tag="withdrawn"):
     """A participant has withdrawn; what was recorded of them is deleted where they want that.
 
     Attributes:
@@ -259,7 +248,7 @@ class Withdrawn(_Event, frozen=True, tag="withdrawn"):
     delete: bool
 
 
-class Erased(_Event, frozen=True, tag="erased"):
+class Erased(Recorded, frozen=True, tag="erased"):
     """Stands where something was that a participant has had deleted: their tombstone.
 
     Attributes:
@@ -271,13 +260,13 @@ class Erased(_Event, frozen=True, tag="erased"):
     was: Short
 
 
-class Finished(_Event, frozen=True, tag="finished"):
+class Finished(Recorded, frozen=True, tag="finished"):
     """A participant has done all of it."""
 
     participant: Number
 
 
-class Repaired(_Event, frozen=True, tag="repaired"):
+class Repaired(Recorded, frozen=True, tag="repaired"):
     """What a power cut left of a line stands before this one.
 
     Attributes:
@@ -288,19 +277,9 @@ class Repaired(_Event, frozen=True, tag="repaired"):
 
 
 OfParticipant = (
-    Consented
-    | Answered
-    | Began
-    | Attempted
-    | BrokenOff
-    | Ended
-    | Paused
-    | GoneOn
-    | Invalid
-    | Dropped
-    | Withdrawn
+    Consented | Answered | Began | Attempted | BrokenOff | Ended | Paused | GoneOn | Invalid | Dropped | Withdrawn
     | Finished
-)
+)  # fmt: skip
 """What happens to somebody who was enrolled."""
 
 Event = Opened | Deviated | Enrolled | OfParticipant | Noted | Erased | Repaired

@@ -9,11 +9,11 @@ import msgspec
 import numpy as np
 
 from services.process.section import Section
-from services.study.events import Answer
 from services.study.exceptions import AnswerRefused
 from services.study.instruments.questions import MISSING, Pairs, Question, Scale, Words
 from services.study.instruments.scoring import Score
 from services.study.protocol.protocol import Name
+from services.study.values import Answer
 
 
 class Instrument(Section, frozen=True):

@@ -10,8 +10,8 @@ from typing import Annotated, TypeGuard
 import msgspec
 
 from services.process.section import Positive, Section
-from services.study.events import Answer
 from services.study.protocol.protocol import Name
+from services.study.values import Answer
 
 LONGEST = 4000
 """Of a text, as the journal takes it."""

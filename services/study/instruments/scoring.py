@@ -9,9 +9,9 @@ from typing import Annotated
 import msgspec
 
 from services.process.section import Section
-from services.study.events import Answer
 from services.study.instruments.questions import Scale
 from services.study.protocol.protocol import Name
+from services.study.values import Answer
 
 Range = Annotated[tuple[float, ...], msgspec.Meta(max_length=2)]
 

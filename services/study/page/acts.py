@@ -6,7 +6,7 @@ from typing import Annotated
 
 import msgspec
 
-from services.study.events import Answer, Long, Number, Short
+from services.study.values import Answer, Long, Number, Short
 
 
 class _Act(msgspec.Struct, frozen=True, kw_only=True, tag_field="act", forbid_unknown_fields=True):

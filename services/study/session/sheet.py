@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from services.study.events import Answer
+from services.study.values import Answer
 
 
 class Questionnaire(Protocol):

@@ -8,10 +8,10 @@ from typing import assert_never
 
 import numpy as np
 
-from services.study.events import Answer
 from services.study.instruments.instrument import Instrument, shown_order
 from services.study.instruments.questions import Choice, Number, Pairs, Question, Scale, Text
 from services.study.synthetic.character import Nature
+from services.study.values import Answer
 
 EASY, HARD = 20.0, 80.0
 """Load of a method that went at once, and of one at which everything failed, in points of 100."""
