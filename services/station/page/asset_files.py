@@ -35,6 +35,7 @@ _SHEETS = (
     "tour",
     "compact",
     "narrow",
+    "settled",
     "contrast",
 )
 """In order: what comes later counts more."""

@@ -42,12 +42,14 @@ class _Html(Template):
     braceidpattern = r"[a-z][a-z0-9_]*\.[a-z0-9_]+"
 
 
-def document(robot: str, view: LiveFiles) -> str:
+def document(robot: str, view: LiveFiles, *, settled: Iterable[str] = (), framed: bool = False) -> str:
     """The page's HTML, in the language that the process speaks.
 
     Args:
         robot: its name.
         view: what the live view loads.
+        settled: names of the actions that are never the operator's: what does nothing else is not shown.
+        framed: it is shown in the frame of a page that says who is there and what is taught.
     """
     made = {
         "language": escape(speech.language),
@@ -55,6 +57,8 @@ def document(robot: str, view: LiveFiles) -> str:
         "robot": escape(robot),
         "description": escape(view.description_address),
         "version": version(),
+        "settled": " ".join(sorted(settled)),
+        "framed": "yes" if framed else "no",
         "style": STYLE_ADDRESS,
         "ahead": "\n".join(_ahead(view)),
         "words": _for_scripts(),

@@ -36,6 +36,7 @@ from services.station.page.login.judge import Judge
 from services.station.page.login.login import Login
 from services.station.page.view import Board, PageView
 from services.station.press import Press
+from services.station.settings import settings
 from services.web.guard import Guard, policy
 from services.web.server import Server
 
@@ -76,7 +77,8 @@ class Page:
         self._clock = clock
         self._files = Files(description)
         self._assets = asset_files()
-        self._document = document(robot, self._files)
+        settled = {action.value for action in settings(station, operator).settled}
+        self._document = document(robot, self._files, settled=settled, framed=bool(station.framed_by))
         self._board = Board(clock, load)
         self.effects = Effects()
         """What entries of the history change, as far as a tab wants to see it."""

@@ -48,12 +48,12 @@ export class Devices {
     }
   }
 
-  // The pad of the device that is in use comes forward when it is taken into use; a master that is not heard for a
-  // moment takes none into use.
+  // The pad of the device that is in use comes forward when it is taken into use, in a frame the first one too: there
+  // nobody chooses another. A master that is not heard for a moment takes none into use.
   follow() {
     const { device } = this.panel.dataset;
     if (device === "" || device === this.device) return;
-    if (this.device !== undefined) this.show(device === "spacemouse" ? "gamepad" : device);
+    if (this.device !== undefined || document.body.dataset.framed === "yes") this.show(device === "spacemouse" ? "gamepad" : device);
     this.device = device;
   }
 
