@@ -6,6 +6,7 @@ import math
 
 from protocol.messages import Verdict
 from services.station.page.view import Shown
+from services.station.words.heard import heard
 from services.station.words.table import say, speech
 
 STALE_AFTER_S = 0.3
@@ -36,7 +37,9 @@ def limited(clamped: tuple[str, ...]) -> str:
 def _limit(what: str) -> str:
     kind, _, place = what.partition(" ")
     kind, known = kind.rstrip(":"), speech.section("limit")
-    return known[kind].format(place=place) if kind in known and kind != "other" else say("limit.other", what=what)
+    if kind not in known or kind == "other":
+        return say("limit.other", what=what)
+    return known[kind].format(place=heard(place))
 
 
 def is_stale(shown: Shown) -> bool:

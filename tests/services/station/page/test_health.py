@@ -13,6 +13,7 @@ from services.process.clock import ManualClock
 from services.process.load import Load
 from services.station.page.health import commander, figures, health
 from services.station.page.view import Board, Picture
+from services.station.words.table import speech
 from tests.services.predictions import prediction
 
 MOTION = motion_to_wire([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], [[1.0, 0.0, 0.0, 0.0]] * 2, 1.0)
@@ -106,6 +107,15 @@ def test_what_is_limited_is_said_in_a_person_s_words_and_once():
     assert told["limited"].startswith("Limited: joint speed")
     assert figures(shown())["limited"] == ""
     assert figures(shown(("something new",)))["figure-limited"] == "something new"
+
+
+def test_by_how_much_it_is_limited_is_said_in_the_pages_language():
+    speech.speak("de")
+    try:
+        told = figures(shown(("reach: 12 mm short", "reach: 16 degrees short")))
+    finally:
+        speech.speak("en")
+    assert told["figure-limited"] == "außer Reichweite (es fehlen 12 mm), außer Reichweite (es fehlen 16°)"
 
 
 @pytest.mark.parametrize(
