@@ -43,6 +43,16 @@ class OnKeys:
         self._held = keys
 
 
+class Simulated:
+    """A stylus that the master's own simulated hand holds: the person only presses."""
+
+    def steer(self, wanted, applied):
+        """See `OnKeys`."""
+
+    def rest(self):
+        """See `OnKeys`."""
+
+
 class OnGamepad:
     """Deflects the sticks that lead there."""
 

@@ -1,5 +1,7 @@
 """A study's folder for tests on the live robot."""
 
+from services.offline.people.ways import Teaching
+
 PROTOCOL = """
 format = 1
 name = "live"
@@ -17,11 +19,11 @@ version = "1"
 [consent.text]
 en = "You agree."
 [[methods]]
-name = "Online"
-teaching = "prediction"
+name = "First"
+teaching = "{teaching}"
 device = "{device}"
 [[methods]]
-name = "Offline"
+name = "Second"
 teaching = "demonstration"
 device = "{device}"
 [task]
@@ -33,20 +35,20 @@ successes = {successes}
 of_last = 4
 [order]
 design = "table"
-table = [["Online", "Offline"]]
+table = [["First", "Second"]]
 participants = 1
 [instruments]
 before = []
 after_method = []
 """
 
-TRAINING, MODEL = "Online/training", "Online/1"
+TRAINING, MODEL = "First/training", "First/1"
 
 
-def study_in(folder, **task):
+def study_in(folder, teaching=Teaching.PREDICTION, **task):
     """Make one: see `PROTOCOL` for what can be different."""
     folder.mkdir()
-    (folder / "protocol.toml").write_text(PROTOCOL.format(**task))
+    (folder / "protocol.toml").write_text(PROTOCOL.format(teaching=teaching.value, **task))
     return folder
 
 

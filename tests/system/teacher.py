@@ -53,12 +53,18 @@ class Teacher:
         button = self._page.locator(f"[data-action={action}]{about}:enabled")
         before = self._witness.teaching
         # What the model does at once may be over before anybody looks.
-        counts = seen or (lambda: self._taught(lambda now: now.phase != "deciding" or now.event != before.event))
+        moved_on = seen or (lambda: self._taught(lambda now: now.phase != "deciding" or now.event != before.event))
+        pressed = seen is not None
+
+        def counts():
+            return pressed and moved_on()
+
         deadline = time.monotonic() + DECIDES_S
         while not counts():
             assert time.monotonic() < deadline, f"{action} does not count; {self._witness.teaching}"
             with contextlib.suppress(NotThere):
                 button.click(timeout=HEARD_S * 1e3)
+                pressed = True
             with contextlib.suppress(AssertionError):
                 self.until(counts, HEARD_S, action)
 
@@ -98,9 +104,8 @@ class Teacher:
         return np.array(received.message.pose.position)
 
     def take_up(self):
-        """Press for the robot to be led, and wait until it follows."""
-        self.press("lead")
-        self.until(self._follows, DECIDES_S, "the robot follows the hand")
+        """Press for the robot to be led until it follows: what is lost on the way is asked for again."""
+        self.press("lead", seen=self._follows)
 
     def lead_to(self, place):
         """Hold keys until the gripper is at a place, shape (3,) [m]."""

@@ -167,7 +167,7 @@ def test_a_training_and_a_model_are_told_whole_whatever_is_killed(folder, serve)
     assert adapted[-1].teaching is None
     assert adapted[-1].updates >= 1
     assert [(one.part, one.passed) for one in events(folder, Ended)] == [(TRAINING, True), (MODEL, True)]
-    assert [one.part for one in events(folder, Began)] == [TRAINING, MODEL, "break/Online"]
+    assert [one.part for one in events(folder, Began)] == [TRAINING, MODEL, "break/First"]
     assert [one.part for one in events(folder, GoneOn)] == [TRAINING, MODEL]
     (broken,) = events(folder, BrokenOff)
     assert (broken.part, broken.why) == (MODEL, "killed by signal 9")
