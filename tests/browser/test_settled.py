@@ -61,3 +61,11 @@ def test_the_pad_of_the_one_device_is_there_from_the_beginning(settled, open_tab
     tab = open_tab(page.url)
     tab.wait(pad)
     assert not tab.shows(".key-cap")
+
+
+def test_who_comes_back_in_another_browser_has_the_seat_of_their_address(settled, open_tab):
+    address = f"{settled[0].url}#seat={'5e' * 12}"
+    open_tab(address).wait("body[data-link=armed]")
+    open_tab(address).wait("body[data-link=armed]")
+    stranger = open_tab(settled[0].url)
+    stranger.wait("body[data-link=view-only]")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import secrets
 from pathlib import Path
 
 from services.process.clock import Clock
@@ -41,13 +42,14 @@ class LiveTrials:
         self._demonstrations = demonstrations
         self._clock = clock
         self._station = station
+        self._seat = secrets.token_hex(12)
         self._desk: Desk | None = None
         self._trial: Trial | None = None
 
     @property
     def url(self) -> str:
-        """Of the station's page, which the participant's shows in a frame."""
-        return f"http://127.0.0.1:{self._station}/"
+        """Of the station's page, which the participant's shows in a frame: in whatever browser, it is the same seat."""
+        return f"http://127.0.0.1:{self._station}/#seat={self._seat}"
 
     def attend(self, desk: Desk) -> None:
         """Tell this desk what comes of them."""

@@ -1,4 +1,5 @@
 // What a tab carries over a reload: its seat, and a stop that was not acknowledged. A duplicated tab carries nothing.
+// In a frame the seat is whose the address says it is: they find it again in another browser.
 
 import { given } from "/assets/js/identity.js";
 
@@ -9,7 +10,7 @@ export class Tab {
   constructor() {
     Object.assign(this, given());
     this.load = random();
-    this.seat = take(SEAT) ?? random();
+    this.seat = addressed() ?? take(SEAT) ?? random();
     this.stopIsDue = take(STOP) !== null;
     this.stopWaits = () => false;
     window.addEventListener("pagehide", () => {
@@ -18,6 +19,11 @@ export class Tab {
     });
     window.addEventListener("pageshow", ({ persisted }) => persisted && [SEAT, STOP].forEach(take));
   }
+}
+
+function addressed() {
+  const { framed } = document.body.dataset;
+  return framed === "yes" ? new URLSearchParams(location.hash.slice(1)).get("seat") : null;
 }
 
 function random() {
