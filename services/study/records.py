@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+from services.study.analysis.hypotheses import Measure
 from services.study.analysis.observations import Background, Observations, Outcome, Rating, Training, Trial
 from services.study.events import Answered, Entry
 from services.study.instruments.instrument import Instrument
@@ -11,6 +12,14 @@ from services.study.protocol.protocol import Protocol
 from services.study.session.course import Adapt, Participant, Train, course, participants
 
 _BACKGROUND = ("gender", "age", "field", "gaming", "teleoperation", "handedness")
+
+SCORES = {
+    Measure.WORKLOAD: "workload",
+    Measure.RAW_TLX: "raw_workload",
+    Measure.SUS: "usability",
+    Measure.TRUST: "trust",
+}
+"""Of a questionnaire, that a measure is."""
 
 
 def code(number: int) -> str:
@@ -74,10 +83,7 @@ def _ratings(one: Participant, instruments: Mapping[str, Instrument]) -> Iterabl
             yield Rating(
                 participant=code(one.number),
                 method=method,
-                workload=scores.get("workload"),
-                raw_tlx=scores.get("raw_workload"),
-                sus=scores.get("sus"),
-                trust=scores.get("trust"),
+                **{measure.value: scores.get(name) for measure, name in SCORES.items()},
             )
 
 

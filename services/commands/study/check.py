@@ -9,8 +9,8 @@ from services.commands.arguments import add_debug
 from services.commands.terminal import Terminal
 from services.process.exit_codes import Exit
 from services.study import freezing
-from services.study.instruments.library import of_protocol
 from services.study.protocol.orders import Allocation, orders
+from services.study.readiness import ready
 from services.study.session.course import course, participants
 from services.study.study import Study, open_study
 
@@ -28,7 +28,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """See `Action`."""
     study = open_study(arguments.folder)
-    of_protocol(study.protocol, study.folder)
+    ready(study)
     say = Terminal(highlight=False, soft_wrap=True).print
     for line in (*_design(study), *_frozen(study), *_people(study)):
         say(line, markup=False)

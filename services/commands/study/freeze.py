@@ -9,8 +9,8 @@ from pathlib import Path
 from services.commands.arguments import add_debug
 from services.commands.terminal import Terminal
 from services.process.exit_codes import Exit
-from services.study.instruments.library import of_protocol
 from services.study.preregistration import FILE
+from services.study.readiness import ready
 from services.study.study import open_study
 
 
@@ -27,7 +27,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(arguments: Namespace) -> int:
     """See `Action`."""
     study = open_study(arguments.folder)
-    of_protocol(study.protocol, study.folder)
+    ready(study)
     frozen = study.freeze(datetime.now(UTC).isoformat(timespec="seconds"))
     say = Terminal(highlight=False, soft_wrap=True).print
     say(f"frozen at {frozen.at}; the preregistration is {study.folder / FILE}", markup=False)

@@ -15,7 +15,7 @@ from services.process.exceptions import CommandFailed
 from services.process.exit_codes import Exit
 from services.process.ports import check_port
 from services.process.runner import stop_on_signals
-from services.study.instruments.library import of_protocol
+from services.study.readiness import ready
 from services.study.session.conductor import Conductor
 from services.study.session.markers import lab_streaming, stream
 from services.study.study import Study, open_study
@@ -102,7 +102,7 @@ def _with_pages(study: Study, arguments: Namespace, rehearsal: Rehearsal | None)
 
 
 def _rehearse(study: Study, arguments: Namespace, rehearsal: Rehearsal) -> None:
-    instruments = of_protocol(study.protocol, study.folder)
+    instruments = ready(study).instruments
     written = study.entries()
     clock = StudyClock(datetime.fromisoformat(written[-1].at)) if written else StudyClock()
     console = Terminal(stderr=True, highlight=False)

@@ -8,19 +8,17 @@ from datetime import UTC, datetime
 
 from services.offline.first_demonstrations import first_demonstrations
 from services.process.clock import SystemClock
-from services.study.arrangement import arrangement
 from services.study.events import Entry
-from services.study.instruments.library import of_protocol
 from services.study.live.setting import Setting
 from services.study.live.trials import LiveTrials
 from services.study.page.desk import Desk
 from services.study.page.page import StudyPage
 from services.study.personal import Personal
+from services.study.readiness import ready
 from services.study.session.conductor import Conductor
 from services.study.session.markers import Marked
 from services.study.study import Study
 from services.study.synthetic.rehearsal import Rehearsal
-from sim.tasks import scene as scene_named
 
 ADDRESS = "127.0.0.1"
 """Of the pages: of this machine alone."""
@@ -55,8 +53,8 @@ def served(
         SimError: there is no such scene, or no such target in it.
     """
     clock, synthetic = SystemClock(), rehearsal is not None
-    instruments, scene = of_protocol(study.protocol, study.folder), scene_named(study.protocol.task.scene)
-    setting = Setting(study.protocol, arrangement(study.protocol, scene), f"http://{ADDRESS}:{port}", synthetic)
+    instruments, scene, arrangement = ready(study)
+    setting = Setting(study.protocol, arrangement, f"http://{ADDRESS}:{port}", synthetic)
     personal = Personal(study.folder)
     with study.journal(_utc, synthetic=synthetic, deviation=deviation, marked=marked or _unmarked) as journal:
         demonstrations = len(first_demonstrations(scene))
