@@ -61,7 +61,7 @@ ServiceError
     ├── StudyInUse           another console or run has the study open (an EnvironmentFault too)
     ├── StudyFrozen          what was frozen has changed since, and nobody has said why
     ├── NotFrozen            a study that has to be frozen before people take part
-    ├── FrozenAlready        one that was frozen before
+    ├── FrozenAlready        one that was frozen before, and has begun
     ├── Mixed                people and simulated participants in one study
     ├── JournalBroken        a journal that is not as it was written, or of another version
     ├── ParticipantUnknown   no participant has this number

@@ -7,7 +7,7 @@ StudyError
 ├── StudyInUse         another console or run has the study open (an EnvironmentFault too)
 ├── StudyFrozen        what was frozen has changed since, and nobody has said why
 ├── NotFrozen          a study that has to be frozen before people take part
-├── FrozenAlready      one that was frozen before
+├── FrozenAlready      one that was frozen before, and has begun
 ├── Mixed              people and simulated participants in one study
 ├── JournalBroken      a journal that is not as it was written, or of another version
 ├── ParticipantUnknown no participant has this number
@@ -79,11 +79,14 @@ class NotFrozen(StudyError):
 
 
 class FrozenAlready(StudyError):
-    """A study is frozen once."""
+    """A study that was begun is not frozen anew."""
 
     def __init__(self, folder: Path, at: str) -> None:
         self.folder, self.at = folder, at
-        super().__init__(f"the study in {folder} was frozen at {at}; what changes since then is a deviation")
+        super().__init__(
+            f"the study in {folder} was frozen at {at}, and has begun: what changes is a deviation;"
+            f" 'retouch study run {folder} --deviation REASON' writes it down, or begin another study in a new folder"
+        )
 
 
 class Mixed(StudyError):

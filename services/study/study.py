@@ -70,14 +70,15 @@ class Study:
         return freezing.frozen_now(self._files(), at)
 
     def freeze(self, at: str) -> Frozen:
-        """Freeze it, and write the preregistration.
+        """Freeze it, anew while its journal holds nothing, and write the preregistration.
 
         Raises:
-            FrozenAlready: it was before.
+            FrozenAlready: it was before, and somebody has begun it.
+            JournalBroken: the journal is not as it was written.
             CannotWrite: it cannot be written.
         """
         before = self.frozen()
-        if before is not None:
+        if before is not None and self.entries():
             raise FrozenAlready(self.folder, before.at)
         frozen = self.now(at)
         path = self.folder / preregistration.FILE

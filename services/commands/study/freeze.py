@@ -18,7 +18,8 @@ def add_arguments(parser: ArgumentParser) -> None:
     """See `Action`."""
     parser.description = (
         f"Writes down digests of protocol, questionnaires and analysis, and the versions of the software, and {FILE},"
-        " a text for a registry and an ethics board. What changes later is refused until somebody says why."
+        " a text for a registry and an ethics board. What changes later is refused until somebody says why;"
+        " before anybody has begun the study it can be frozen anew."
     )
     parser.add_argument("folder", type=Path, metavar="FOLDER", help="of the study")
     add_debug(parser)
@@ -28,7 +29,9 @@ def run(arguments: Namespace) -> int:
     """See `Action`."""
     study = open_study(arguments.folder)
     ready(study)
+    before = study.frozen()
     frozen = study.freeze(datetime.now(UTC).isoformat(timespec="seconds"))
     say = Terminal(highlight=False, soft_wrap=True).print
-    say(f"frozen at {frozen.at}; the preregistration is {study.folder / FILE}", markup=False)
+    when = f"anew at {frozen.at}, before that at {before.at}" if before is not None else f"at {frozen.at}"
+    say(f"frozen {when}; the preregistration is {study.folder / FILE}", markup=False)
     return Exit.DONE

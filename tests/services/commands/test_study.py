@@ -31,6 +31,13 @@ def test_a_new_study_is_checked_and_frozen(study, capsys):
     assert (study / "preregistration.md").exists()
 
 
+def test_freezing_anew_is_said(study, capsys):
+    said(capsys, "freeze", study)
+    code, text = said(capsys, "freeze", study)
+    assert code == Exit.DONE
+    assert "frozen anew" in text
+
+
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [

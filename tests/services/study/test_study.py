@@ -35,8 +35,19 @@ def test_people_take_part_only_once_it_is_frozen(study):
     study.freeze(NOW.isoformat())
     with study.journal(now, synthetic=False) as journal:
         assert isinstance(journal.entries[0].event, Opened)
-    with pytest.raises(FrozenAlready):
+
+
+def test_it_is_frozen_anew_until_it_has_begun(study):
+    study.freeze(NOW.isoformat())
+    with (study.folder / "protocol.toml").open("a", encoding="utf-8") as file:
+        file.write("# changed\n")
+    anew = study.freeze(NOW.isoformat())
+    assert study.frozen() == anew == study.now(NOW.isoformat())
+    assert anew.files["protocol.toml"] in (study.folder / "preregistration.md").read_text(encoding="utf-8")
+    study.journal(now, synthetic=False).close()
+    with pytest.raises(FrozenAlready, match="--deviation"):
         study.freeze(NOW.isoformat())
+    assert study.frozen() == anew
 
 
 def test_the_preregistration_names_hypotheses_orders_and_digests(study):
