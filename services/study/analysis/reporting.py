@@ -6,23 +6,21 @@ the form of the reporting appendix that was asked for since (doi 10.1145/3568294
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Sequence
 from statistics import median
 
 import msgspec
-from scipy.special import ndtri
 
 from services.study.analysis.analysis import Analysis
 from services.study.analysis.exclusion import Sample
-from services.study.analysis.hypotheses import Direction, Measure
+from services.study.analysis.hypotheses import Measure
 from services.study.analysis.numerals import figure
 from services.study.analysis.observations import Background, Observations, in_order
 from services.study.analysis.rules import RETOUCH
+from services.study.analysis.sensitivity import sensitivity
 
 NOT_GIVEN = "not given"
-_POWER = 0.8
 
 
 class Reporting(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -110,32 +108,10 @@ def appendix(observations: Observations, analysis: Analysis, reporting: Reportin
 
 
 def _sensitivity(analysis: Analysis) -> str:
-    """What the tests could find, of the people who were there; never of the effect that was found (Hoenig 2001)."""
     if analysis.plan.rules != RETOUCH.name:
         return ""
     decided = [one for one in analysis.results if one.sample is Sample.PLANNED and one.hypothesis.confirmatory]
-    said = []
-    for people in sorted({one.people for one in decided if one.people}):
-        # Each hypothesis at the least level that Holm's method can ask of it.
-        tails = [1 if one.hypothesis.direction is not Direction.DIFFERENT else 2 for one in decided]
-        level = analysis.alpha / len(decided) / max(tails)
-        shift = detectable(people, level)
-        said.append(f"{people} participants: a shift of {figure(shift, 2)} standard deviations of the differences")
-    if not said:
-        return ""
-    return f"found with {100.0 * _POWER:g} % power at Holm's strictest level: {'; '.join(said)}"
-
-
-def detectable(people: int, level: float) -> float:
-    """The shift that a signed-rank test finds with `_POWER`, in standard deviations of normal differences.
-
-    By the test's asymptotic efficiency of 3 / pi relative to Student's (Lehmann 2006, section 4.3).
-
-    Args:
-        people: in the test.
-        level: of the test, in one tail.
-    """
-    return float((ndtri(1.0 - level) + ndtri(_POWER)) / math.sqrt(people * 3.0 / math.pi))
+    return sensitivity(decided, analysis.alpha)
 
 
 def _counted(people: Sequence[Background], name: str) -> str:

@@ -13,12 +13,11 @@ from services.cli import main
 from services.process.written import read
 from services.study.analysis.analysis import analysed
 from services.study.analysis.exceptions import NothingToAnalyse
-from services.study.analysis.hypotheses import Direction, Hypothesis, Measure, Plan
+from services.study.analysis.hypotheses import Hypothesis, Measure, Plan
 from services.study.analysis.numerals import equals, exactly, figure, p_value
 from services.study.analysis.observations import Observations, Outcome
-from services.study.analysis.ranks import signed_rank
 from services.study.analysis.report import REPORT, report
-from services.study.analysis.reporting import Reporting, appendix, detectable
+from services.study.analysis.reporting import Reporting, appendix
 from tests.services.study.analysis.studies import METHODS, changed, study
 
 
@@ -195,12 +194,6 @@ def test_two_hypotheses_of_one_name_are_refused():
 def test_the_example_of_a_plan_is_one():
     plan = read(Path(__file__).parents[4] / "deploy/examples/analysis.toml", Plan, "plan")
     assert [one.confirmatory for one in plan.hypotheses] == [True, True, False]
-
-
-def test_what_the_people_could_have_shown_is_what_simulated_ones_show():
-    rng, shift = np.random.default_rng(11), detectable(24, 0.05)
-    found = [signed_rank(rng.normal(shift, 1.0, 24), Direction.GREATER).p <= 0.05 for _ in range(800)]
-    assert np.mean(found) == pytest.approx(0.8, abs=0.05)
 
 
 def test_numbers_are_said_as_papers_do():
