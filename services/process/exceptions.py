@@ -171,9 +171,10 @@ class PortInUse(EnvironmentFault):
         self.host = host
         self.port = port
         self.setting = setting
+        where = "" if setting.startswith("--") else " in the configuration"
         super().__init__(
             f"cannot serve {what} on {host}:{port}: {reason.lower() or 'the address cannot be used'};"
-            f" set another one with {setting} in the configuration"
+            f" set another one with {setting}{where}"
         )
 
 

@@ -150,6 +150,25 @@ class Journal:
             self.add(Repaired(size=torn))
 
 
+def check_closed(folder: Path) -> None:
+    """Let a journal pass that no process has open for writing now; one may in a moment.
+
+    Raises:
+        StudyInUse: one has.
+        CannotWrite: it cannot be opened.
+    """
+    path = folder / FILE
+    if not path.exists():
+        return
+    try:
+        with path.open("rb") as file:
+            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise StudyInUse(folder.parent) from None
+    except OSError as error:
+        raise CannotWrite(path, error.strerror or str(error)) from None
+
+
 def read(folder: Path) -> list[Entry]:
     """What a journal holds, without opening it for writing; a line that is being written is left out.
 

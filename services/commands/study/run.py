@@ -15,6 +15,7 @@ from services.process.exceptions import CommandFailed
 from services.process.exit_codes import Exit
 from services.process.ports import check_port
 from services.process.runner import stop_on_signals
+from services.study.journal import check_closed
 from services.study.readiness import ready
 from services.study.session.conductor import Conductor
 from services.study.session.markers import lab_streaming, stream
@@ -82,6 +83,7 @@ def _with_pages(study: Study, arguments: Namespace, rehearsal: Rehearsal | None)
     port = arguments.port
     if port > LAST_PORT:
         raise CommandFailed(f"--port: must be at most {LAST_PORT}, not {port}: the robot's page has the next one")
+    check_closed(study.raw)  # before the ports, which who has it open listens at
     check_port("the study's page", ADDRESS, port, "--port")
     check_port("the robot's page", ADDRESS, port + 1, "--port")
     say = Terminal(highlight=False, soft_wrap=True).print

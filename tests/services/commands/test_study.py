@@ -1,9 +1,13 @@
 """`retouch study`: what is wrong is told in one line, and nothing is lost or half made."""
 
+import datetime
+import socket
+
 import pytest
 
 from services.cli import main
 from services.process.exit_codes import Exit
+from services.study.journal import Journal
 
 
 @pytest.fixture
@@ -21,6 +25,15 @@ def said(capsys, *arguments):
     return code, out.out + out.err
 
 
+def test_what_a_new_study_hints_at_leaves_it_to_people(tmp_path, capsys):
+    folder = tmp_path / "mine"
+    code, text = said(capsys, "new", folder)
+    assert code == Exit.DONE
+    (rehearsal,) = [line.split()[3] for line in text.splitlines() if "--synthetic" in line]
+    assert rehearsal != str(folder)
+    assert f"cp -r {folder} {rehearsal} " in text
+
+
 def test_a_new_study_is_checked_and_frozen(study, capsys):
     code, text = said(capsys, "check", study)
     assert code == Exit.DONE
@@ -29,6 +42,32 @@ def test_a_new_study_is_checked_and_frozen(study, capsys):
     assert said(capsys, "freeze", study)[0] == Exit.DONE
     assert "and as it was" in said(capsys, "check", study)[1]
     assert (study / "preregistration.md").exists()
+
+
+@pytest.fixture
+def taken():
+    """A port where somebody listens."""
+    with socket.create_server(("127.0.0.1", 0)) as listening:
+        yield listening.getsockname()[1]
+
+
+def utc():
+    return datetime.datetime(2026, 1, 1, tzinfo=datetime.UTC)
+
+
+def test_a_study_that_is_open_elsewhere_is_told_before_its_port(study, taken, capsys):
+    with Journal(study / "raw", utc):
+        code, text = said(capsys, "run", study, "--port", taken, "--no-browser")
+    assert code == Exit.ENVIRONMENT
+    assert "is open elsewhere" in text
+    assert str(taken) not in text
+
+
+def test_a_port_that_is_taken_is_another_flag_and_no_configuration(study, taken, capsys):
+    code, text = said(capsys, "run", study, "--port", taken, "--no-browser")
+    assert code == Exit.ENVIRONMENT
+    assert "with --port" in text
+    assert "configuration" not in text
 
 
 def test_freezing_anew_is_said(study, capsys):
