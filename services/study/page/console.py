@@ -71,7 +71,7 @@ class Done(msgspec.Struct, frozen=True, kw_only=True):
 
     Attributes:
         part: which.
-        state: "open", "begun", "passed" or "failed".
+        state: "open", "begun", "passed", "failed" or "invalid".
         seconds: that the operator could act in it [s].
         invalid: why it does not count; empty where it does.
         attempts: that count.
@@ -204,13 +204,10 @@ def _parts(desk: Desk, known: Participant) -> tuple[Done, ...]:
     found = []
     for part in course(desk.conductor.protocol, known.enrolled.order):
         ended = known.ended.get(part.name)
-        state = "begun" if known.begun == part.name else "open"
-        if ended is not None or (part.name == "consent" and known.consented):
-            state = "failed" if ended is not None and not ended.passed else "passed"
         found.append(
             Done(
                 part=part_view(desk, part),
-                state=state,
+                state=_how_far(known, part.name),
                 seconds=ended.seconds if ended is not None else 0.0,
                 invalid=known.invalid.get(part.name, ""),
                 attempts=tuple(_attempt(attempt, attempt.why) for attempt in known.attempts.get(part.name, ())),
@@ -218,6 +215,15 @@ def _parts(desk: Desk, known: Participant) -> tuple[Done, ...]:
             )
         )
     return tuple(found)
+
+
+def _how_far(known: Participant, part: str) -> str:
+    ended = known.ended.get(part)
+    if part in known.invalid:
+        return "invalid"
+    if ended is not None or (part == "consent" and known.consented):
+        return "failed" if ended is not None and not ended.passed else "passed"
+    return "begun" if known.begun == part else "open"
 
 
 def _attempt(attempt: events.Attempted, why: str) -> AttemptView:

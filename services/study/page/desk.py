@@ -213,9 +213,13 @@ class Desk:
 
     def _invalid(self, number: int, part: str, reason: str, *, repeat: bool) -> None:
         live = self.trials.live()
-        if live is not None and (live.number, live.part) == (number, part):
-            self.trials.stop("declared invalid")
+        runs = live.part if live is not None and live.number == number else ""
+        if repeat and runs not in ("", part):
+            raise NotNow(f"{runs} of participant {number} runs: interrupt it first, or wait for its end")
         self.conductor.invalid(number, part, reason, repeat=repeat)
+        if runs == part:
+            self.trials.stop("declared invalid")
+        self.settle(number)
 
     def _note(self, number: int | None, text: str) -> None:
         if not text.strip():

@@ -10,11 +10,7 @@ from datetime import datetime
 
 from services.study import events
 from services.study.events import Answered, Attempted, Began, BrokenOff, Entry, Event
-from services.study.exceptions import (
-    NotNow,
-    ParticipantThere,
-    ParticipantUnknown,
-)
+from services.study.exceptions import NotNow, ParticipantThere, ParticipantUnknown
 from services.study.journal import Journal
 from services.study.protocol.orders import Allocation, orders
 from services.study.protocol.protocol import Protocol
@@ -220,15 +216,15 @@ class Conductor:
         self._happened(events.GoneOn(participant=number, part=name, since=max(0.0, since), by_hand=by_hand))
 
     def invalid(self, number: int, part: str, reason: str, *, repeat: bool) -> None:
-        """What was recorded of a part does not count; nothing of it is lost.
+        """What was recorded of a part does not count; nothing of it is lost. What is not repeated is over.
 
         Raises:
-            NotNow: there is no reason, or nothing of that part.
+            NotNow: there is no reason, or that part has not begun.
         """
         if not reason.strip():
             raise NotNow("say why it does not count")
         known = self.participant(number)
-        if part not in known.attempts and part not in known.ended:
+        if part not in (*known.attempts, *known.ended, known.begun):
             raise NotNow(f"participant {number} has done nothing that is called {part!r}")
         self._happened(events.Invalid(participant=number, part=part, reason=reason.strip(), repeat=repeat))
 

@@ -125,7 +125,7 @@ class Participant:
         void: attempts that do not count, and why.
         broken_off: what came to no end.
         answers: by part.
-        invalid: parts that do not count and are not repeated, with the reason.
+        invalid: parts that do not count and are not repeated, with the reason: they are over, ended or not.
         consented: to the text.
         language: of the pages: that of the text that they agreed to; as they were enrolled until then.
         paused: the experimenter has interrupted.
@@ -173,7 +173,8 @@ class Participant:
         ended = self.ended.items()
         failed = {name.partition("/")[0] for name, end in ended if name.endswith("/training") and not end.passed}
         for part in course(protocol, self.enrolled.order) if not self.gone else ():
-            over = part.name in self.ended or (isinstance(part, Agree) and self.consented)
+            done = part.name in self.ended or part.name in self.invalid
+            over = self.consented if isinstance(part, Agree) else done
             if not over and not (isinstance(part, Adapt) and part.method in failed):
                 yield part
 
@@ -213,6 +214,7 @@ class Participant:
         self.void += [(attempt, reason) for attempt in self.attempts.pop(part, [])]
         if repeat:
             self.ended.pop(part, None)
+            self.invalid.pop(part, None)
         else:
             self.invalid[part] = reason
 

@@ -248,6 +248,10 @@ class Any(RuleBasedStateMachine):
         self.tried(lambda: self.conductor.invalid(number, part, "because", repeat=repeat))
 
     @rule(number=st.integers(1, 4))
+    def begin_and_void(self, number):
+        self.tried(self.begun_and_void, number)
+
+    @rule(number=st.integers(1, 4))
     def pause(self, number):
         self.tried(self.conductor.pause, number, "")
 
@@ -270,6 +274,11 @@ class Any(RuleBasedStateMachine):
     def teardown(self):
         if hasattr(self, "journal"):
             self.journal.close()
+
+    def begun_and_void(self, number):
+        part = self.conductor.begin(number)
+        self.conductor.invalid(number, part.name, "because", repeat=False)
+        assert self.conductor.now(number) != part or part == Agree()
 
     def tried(self, act, *arguments):
         with contextlib.suppress(StudyError):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from services.study.events import Answered, Consented, Ended, Enrolled, Entry, Invalid, Withdrawn
+from services.study.events import Answered, Began, Consented, Ended, Enrolled, Entry, Invalid, Withdrawn
 from services.study.protocol.protocol import load
 from services.study.protocols import SHIPPED
 from services.study.session.course import Adapt, Agree, Fill, Rest, Train, course, participants
@@ -71,6 +71,15 @@ def test_what_is_invalid_is_done_again_where_the_experimenter_says_so(repeat):
     done = [over(part) for part in parts[:5]]
     invalid = Invalid(participant=4, part=parts[3].name, reason="the fire alarm", repeat=repeat)
     assert after(*done, invalid).next(PROTOCOL) == (parts[3] if repeat else parts[5])
+
+
+def test_what_is_invalid_and_not_repeated_is_over_though_it_did_not_end():
+    parts = course(PROTOCOL, ORDER)
+    invalid = Invalid(participant=4, part=parts[2].name, reason="the fire alarm", repeat=False)
+    begun = [*(over(part) for part in parts[:2]), Began(participant=4, part=parts[2].name), invalid]
+    assert after(*begun).next(PROTOCOL) == parts[3]
+    again = Invalid(participant=4, part=parts[2].name, reason="it does count", repeat=True)
+    assert after(*begun, again).next(PROTOCOL) == parts[2]
 
 
 def test_nothing_comes_after_a_withdrawal():

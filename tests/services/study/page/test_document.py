@@ -28,6 +28,7 @@ MADE = {
         "begun",
         "passed",
         "failed",
+        "invalid",
     ),
     "end": ("finished", "withdrawn", "deleted", "gone"),
     "wait": ("paused", "old", "busy"),

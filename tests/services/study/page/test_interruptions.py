@@ -94,6 +94,37 @@ def test_what_does_not_count_is_done_again_or_not_and_stops_what_runs(ready):
     assert [len(done.void) for done in shown if done.part.name == part] == [1]
 
 
+def test_a_part_that_runs_and_is_invalid_without_repetition_is_over_and_the_next_one_comes(ready):
+    begin(ready)
+    part = ready.desk.conductor.now(1).name
+    ready.desk.console_does(acts.Invalid(number=1, part=part, reason="wrong device", repeat=False))
+    assert ready.trials.live() is None
+    assert ready.desk.conductor.now(1).name == "OnKey/1"
+    assert not stage(ready).resumed
+    (told,) = [done for done in console_view(ready.desk, 1, "v").parts if done.part.name == part]
+    assert (told.state, told.invalid) == ("invalid", "wrong device")
+    begin(ready)
+    assert ready.trials.started[-1][1] == "OnKey/1"
+
+
+def test_an_earlier_part_is_not_repeated_while_another_one_of_theirs_runs(ready):
+    begin(ready)
+    earlier = acts.Invalid(number=1, part="participant", reason="typed by somebody else", repeat=True)
+    with pytest.raises(NotNow, match="OnKey/training of participant 1 runs: interrupt it first, or wait for its end"):
+        ready.desk.console_does(earlier)
+    assert isinstance(stage(ready), Trial)
+    ready.desk.console_does(acts.Pause(number=1, reason=""))
+    ready.desk.console_does(earlier)
+    assert ready.desk.conductor.now(1).name == "participant"
+
+
+def test_what_is_refused_for_want_of_a_reason_stops_nothing(ready):
+    begin(ready)
+    with pytest.raises(NotNow, match="say why"):
+        ready.desk.console_does(acts.Invalid(number=1, part="OnKey/training", reason=" ", repeat=True))
+    assert isinstance(stage(ready), Trial)
+
+
 def test_who_withdraws_may_have_all_of_it_deleted_and_the_robot_stops(ready):
     begin(ready)
     ready.desk.participant_does(1, acts.Withdraw(delete=True))

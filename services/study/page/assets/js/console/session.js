@@ -84,7 +84,7 @@ export class Session {
     const here = row.part?.name === part.name;
     const voided = done.void.length;
     const marks = attempts.map((one) => make("i", { data: { success: `${one.success}` } }));
-    const may = (attempts.length > 0 || ["passed", "failed"].includes(state)) && !["consent", "rest"].includes(part.kind) && row.state !== "gone";
+    const may = (attempts.length > 0 || ["begun", "passed", "failed"].includes(state)) && !["consent", "rest"].includes(part.kind) && !row.gone;
     const line = [
       make("span.part-name", {}, partTitle(part)),
       make("span.part-state", { data: { state } }, say(`state.${state}`)),
