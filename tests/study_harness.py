@@ -48,9 +48,9 @@ class StandInTrials:
         self.ready = True
         self.started = []
 
-    def start(self, number, part):
+    def start(self, number, part, language):
         self.running = (number, part)
-        self.started.append((number, part.name))
+        self.started.append((number, part.name, language))
 
     def stop(self, why):
         self.running = None

@@ -100,10 +100,11 @@ class Answered(Recorded, frozen=True, tag="answered"):
 
 
 class Began(Recorded, frozen=True, tag="began"):
-    """A part of a participant's session begins: see `services.study.session.course`."""
+    """A part (`services.study.session.course`) begins, in the language of the participant's page; empty for none."""
 
     participant: Number
     part: Short
+    language: Short = ""
 
 
 class Attempted(Recorded, frozen=True, tag="attempted"):
@@ -191,12 +192,14 @@ class GoneOn(Recorded, frozen=True, tag="gone_on"):
         part: that begins anew.
         since: the last checkpoint [s].
         by_hand: the experimenter has decided it, since that was long ago.
+        language: of the participant's page; empty where it was not they who let it go on.
     """
 
     participant: Number
     part: Short
     since: Seconds
     by_hand: bool
+    language: Short = ""
 
 
 class Invalid(Recorded, frozen=True, tag="invalid"):
@@ -237,12 +240,7 @@ class Dropped(Recorded, frozen=True, tag="dropped"):
 
 
 class Withdrawn(Recorded, frozen=True, tag="withdrawn"):
-    """A participant has withdrawn; what was recorded of them is deleted where they want that.
-
-    Attributes:
-        participant: number.
-        delete: they want it.
-    """
+    """A participant has withdrawn; what was recorded of them is deleted where they want that (`delete`)."""
 
     participant: Number
     delete: bool

@@ -36,7 +36,7 @@ def trial(study):
     parts(study, 1)
     from services.study.page import acts
 
-    study.desk.participant_does(1, acts.Begin(part=study.desk.conductor.now(1).name))
+    study.desk.participant_does(1, acts.Begin(part=study.desk.conductor.now(1).name, language="en"))
 
 
 def test_a_participant_is_enrolled_with_the_next_number_and_a_number_twice_is_one_line(study, console):

@@ -27,7 +27,7 @@ def framed(tmp_path):
         conductor.enrol(1, "en")
         conductor.consent(1, "en")
         parts(study, 1)
-        study.desk.participant_does(1, acts.Begin(part=conductor.now(1).name))
+        study.desk.participant_does(1, acts.Begin(part=conductor.now(1).name, language="en"))
         yield study, page
         study.page.close()
         study.journal.close()

@@ -179,6 +179,6 @@ def begin(person, part, *, resumed=False):
     ready = person.sees("ready", START_S, part)
     assert ready["resumed"] is resumed
     assert person.part == part
-    person.does("begin", part=part)
+    person.does("begin", part=part, language="en")
     person.sees("wait", 5.0, "the robot is being made ready")
     person.sees("trial", START_S, part)

@@ -55,12 +55,13 @@ class LiveTrials:
         """Tell this desk what comes of them."""
         self._desk = desk
 
-    def start(self, number: int, part: Train | Adapt) -> None:
+    def start(self, number: int, part: Train | Adapt, language: str) -> None:
         """Run a part, from its last checkpoint where it has begun before.
 
         Args:
             number: of the participant.
             part: that has begun in the journal.
+            language: of the participant's page.
 
         Raises:
             CannotWrite: an old model cannot be taken out of the way.
@@ -73,7 +74,7 @@ class LiveTrials:
         database = folder / f"model-{void + 1}.sqlite"  # that of a round which does not count is kept
         if not known:
             _remove(database)
-        run = Run(part, code(number), participant.language, folder, database)
+        run = Run(part, code(number), language, folder, database)
         ports = Ports(router=free_port(), station=self._station, web=free_port(), stream=free_port())
         begun = Begun(number, part, known, self._demonstrations, self._folder)
         before = self._trial.thread if self._trial is not None else None

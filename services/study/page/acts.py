@@ -37,9 +37,15 @@ class Fill(_Act, frozen=True, tag="fill"):
 
 
 class Begin(_Act, frozen=True, tag="begin"):
-    """A training or a model begins, or goes on after an interruption."""
+    """A training or a model begins, or goes on after an interruption.
+
+    Attributes:
+        part: of the session.
+        language: in which their page is shown: the robot's speaks it, too.
+    """
 
     part: Short
+    language: Short
 
 
 class EndBreak(_Act, frozen=True, tag="end_break"):

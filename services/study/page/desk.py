@@ -68,8 +68,8 @@ class Desk:
                     self._consent(number, version, language)
                 case acts.Fill():
                     self._fill(number, act)
-                case acts.Begin(part=part):
-                    self._begin(number, self._at(number, part))
+                case acts.Begin(part=part, language=language):
+                    self._begin(number, self._at(number, part), language)
                 case acts.EndBreak(part=part):
                     self._end_break(number, self._at(number, part))
                 case acts.Withdraw(delete=delete):
@@ -157,20 +157,22 @@ class Desk:
         part = self._at(number, act.part)
         if not isinstance(part, Fill):
             raise NotNow(f"{part.name} is no questionnaire")
+        self.conductor.speaks(act.language)
         self._keeps_on(number)
         shown = [name for name in self.order(number, part) if name in act.answers]
         self.conductor.answer(number, part, Sheet(act.language, act.version, shown, act.answers))
 
-    def _begin(self, number: int, part: Part) -> None:
+    def _begin(self, number: int, part: Part, language: str) -> None:
         if not isinstance(part, Train | Adapt):
             raise NotNow(f"{part.name} is neither a training nor a model")
+        self.conductor.speaks(language)
         self._keeps_on(number)
         self._free_for(number)
         if self.conductor.participant(number).begun == part.name:
-            self.conductor.go_on(number, self.utc())
+            self.conductor.go_on(number, self.utc(), language=language)
         else:
-            self.conductor.begin(number)
-        self.trials.start(number, part)
+            self.conductor.begin(number, language)
+        self.trials.start(number, part, language)
 
     def _end_break(self, number: int, part: Part) -> None:
         if not isinstance(part, Rest):
@@ -209,7 +211,7 @@ class Desk:
             self.conductor.invalid(number, part.name, "begun anew after an interruption", repeat=True)
         self.conductor.go_on(number, self.utc(), by_hand=by_hand)
         if runs and isinstance(part, Train | Adapt):
-            self.trials.start(number, part)
+            self.trials.start(number, part, known.language)
 
     def _invalid(self, number: int, part: str, reason: str, *, repeat: bool) -> None:
         live = self.trials.live()

@@ -45,12 +45,13 @@ class Trials(Protocol):
         """Of the station's page, which the participant's shows in a frame."""
         ...
 
-    def start(self, number: int, part: Train | Adapt) -> None:
+    def start(self, number: int, part: Train | Adapt, language: str) -> None:
         """Run a part, from its last checkpoint where it has begun before.
 
         Args:
             number: of the participant.
             part: that has begun in the journal.
+            language: of the participant's page.
 
         Raises:
             ServiceError: it cannot.

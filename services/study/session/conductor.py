@@ -14,6 +14,7 @@ from services.study.exceptions import NotNow, ParticipantThere, ParticipantUnkno
 from services.study.journal import Journal
 from services.study.protocol.orders import Allocation, orders
 from services.study.protocol.protocol import Protocol
+from services.study.session.allocation import allocated
 from services.study.session.course import Agree, Fill, Part, Participant, participants
 from services.study.session.sheet import Questionnaire, Sheet
 
@@ -93,8 +94,7 @@ class Conductor:
         chosen = self.proposed() if number is None else number
         if chosen in self._participants:
             raise ParticipantThere(chosen)
-        if language not in self.protocol.languages:
-            raise NotNow(f"the study speaks {', '.join(self.protocol.languages)}, not {language!r}")
+        self.speaks(language)
         group = self._allocation().draw()
         event = events.Enrolled(
             participant=chosen,
@@ -107,6 +107,15 @@ class Conductor:
         self._journal.add(event)
         self._participants[chosen] = Participant(event)
         return self._participants[chosen]
+
+    def speaks(self, language: str) -> None:
+        """It has this language.
+
+        Raises:
+            NotNow: it has not.
+        """
+        if language not in self.protocol.languages:
+            raise NotNow(f"the study speaks {', '.join(self.protocol.languages)}, not {language!r}")
 
     def consent(self, number: int, language: str) -> None:
         """They agree to the text of that language.
@@ -150,8 +159,8 @@ class Conductor:
             )
         )
 
-    def begin(self, number: int) -> Part:
-        """Their next part begins.
+    def begin(self, number: int, language: str = "") -> Part:
+        """Their next part begins, in the language of their page where they are shown one.
 
         Raises:
             NotNow: there is none.
@@ -161,7 +170,7 @@ class Conductor:
             raise NotNow(f"participant {number} is through, or gone")
         if self.participant(number).paused:
             raise NotNow(f"participant {number} pauses: go on first")
-        self._happened(Began(participant=number, part=part.name))
+        self._happened(Began(participant=number, part=part.name, language=language))
         return part
 
     def attempted(self, attempt: Attempted) -> None:
@@ -194,13 +203,14 @@ class Conductor:
         )
         return (now - datetime.fromisoformat(last)).total_seconds()
 
-    def go_on(self, number: int, now: datetime, *, by_hand: bool = False) -> None:
+    def go_on(self, number: int, now: datetime, *, by_hand: bool = False, language: str = "") -> None:
         """After a pause or a crash, from the last checkpoint: the newest entry of the participant.
 
         Args:
             number: whose session.
             now: time of day.
             by_hand: the experimenter has seen how long ago that is.
+            language: of their page, where it was they who pressed.
 
         Raises:
             NotNow: it is longer ago than the protocol allows, and nobody has decided it.
@@ -213,7 +223,8 @@ class Conductor:
             )
         part = self.now(number)
         name = part.name if part is not None else ""
-        self._happened(events.GoneOn(participant=number, part=name, since=max(0.0, since), by_hand=by_hand))
+        since = max(0.0, since)
+        self._happened(events.GoneOn(participant=number, part=name, since=since, by_hand=by_hand, language=language))
 
     def invalid(self, number: int, part: str, reason: str, *, repeat: bool) -> None:
         """What was recorded of a part does not count; nothing of it is lost. What is not repeated is over.
@@ -273,17 +284,7 @@ class Conductor:
             one.hear(self._journal.add(events.Finished(participant=one.number)))
 
     def _allocation(self) -> Allocation:
-        """As it stands after all who were enrolled and dropped out."""
-        allocation = Allocation(self.protocol.order, len(self._orders))
-        for entry in self._journal.entries:
-            match entry.event:
-                case events.Enrolled():
-                    allocation.draw()
-                case events.Dropped(participant=number, replaced=True) | events.Withdrawn(participant=number):
-                    allocation.dropped(self._participants[number].enrolled.group)
-                case _:
-                    pass
-        return allocation
+        return allocated(self.protocol.order, len(self._orders), self._journal.entries)
 
 
 def _erasable(event: Event) -> bool:

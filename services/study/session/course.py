@@ -127,7 +127,7 @@ class Participant:
         answers: by part.
         invalid: parts that do not count and are not repeated, with the reason: they are over, ended or not.
         consented: to the text.
-        language: of the pages: that of the text that they agreed to; as they were enrolled until then.
+        language: of the pages: in which they last agreed, answered or began; as they were enrolled until then.
         paused: the experimenter has interrupted.
         begun: the part that has begun last.
         begun_at: when, UTC, ISO 8601; empty where none has.
@@ -182,13 +182,14 @@ class Participant:
         """Something of theirs has happened."""
         event = entry.event
         self.last = self.last if isinstance(event, Invalid) else entry.at
+        self.language = getattr(event, "language", "") or self.language
         match event:
             case Began(part=part):
                 self.begun, self.begun_at = part, entry.at
             case Paused() | GoneOn():
                 self.paused = isinstance(event, Paused)
-            case Consented(language=language):
-                self.consented, self.language = True, language
+            case Consented():
+                self.consented = True
             case Answered(instrument=instrument, after=after):
                 name = Fill(instrument, after).name
                 self.answers[name] = event

@@ -216,6 +216,14 @@ def test_whose_place_became_free_is_replaced_with_the_same_order(conductor):
     assert conductor.enrol(None, "en").enrolled.group == groups[1]
 
 
+def test_a_place_becomes_free_once_however_often_somebody_leaves_it(conductor):
+    groups = [conductor.enrol(None, "en").enrolled.group for _ in range(3)]
+    conductor.withdraw(2, delete=False)
+    conductor.withdraw(2, delete=True)
+    assert conductor.enrol(None, "en").enrolled.group == groups[1]
+    assert conductor.enrol(None, "en").enrolled.group not in groups
+
+
 class Any(RuleBasedStateMachine):
     """Whatever a study's people do: the journal says it all."""
 

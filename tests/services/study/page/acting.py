@@ -33,8 +33,9 @@ def agree(study, number=1, version="2"):
     study.desk.participant_does(number, acts.Consent(version=version, language="de"))
 
 
-def begin(study, number=1):
-    study.desk.participant_does(number, acts.Begin(part=study.desk.conductor.now(number).name))
+def begin(study, number=1, language="de"):
+    part = study.desk.conductor.now(number).name
+    study.desk.participant_does(number, acts.Begin(part=part, language=language))
 
 
 def stage(study, number=1):

@@ -18,7 +18,7 @@ def test_nothing_comes_before_the_consent_to_the_text_that_was_shown(study):
     with pytest.raises(NotNow, match="version 1 of the text was shown, the study has 2"):
         agree(study, version="1")
     with pytest.raises(NotNow):
-        study.desk.participant_does(1, acts.Begin(part="OnKey/training"))
+        study.desk.participant_does(1, acts.Begin(part="OnKey/training", language="en"))
     agree(study)
     assert isinstance(stage(study), Form)
     assert participant_view(study.desk, 1, "v").language == "de"
@@ -67,6 +67,25 @@ def test_who_begins_sees_the_robots_page_and_the_console_sees_who_runs(ready):
     assert stage(ready).attempts == 1
     assert row(ready).state == "runs"
     assert console_view(ready.desk, 1, "v").live.number == 1
+
+
+def test_the_robots_page_speaks_as_the_participants_did_when_they_pressed_and_so_does_a_fresh_browser(ready):
+    begin(ready, language="nl")
+    ready.trials.running = None  # the robot's process has died
+    begin(ready, language="en")
+    part = ready.desk.conductor.now(1).name
+    ready.desk.console_does(acts.Pause(number=1))
+    ready.desk.console_does(acts.GoOn(number=1, part=part))
+    assert [language for *_, language in ready.trials.started] == ["nl", "en", "en"]
+    assert participant_view(ready.desk, 1, "v").language == "en"
+    with pytest.raises(NotNow, match="the study speaks en, de, nl, not 'fr'"):
+        begin(ready, language="fr")
+
+
+def test_a_fresh_browser_opens_in_the_language_of_the_last_form(study):
+    agree(study)
+    fill(study, language="nl")
+    assert participant_view(study.desk, 1, "v").language == "nl"
 
 
 def test_a_second_press_starts_nothing_twice(ready):

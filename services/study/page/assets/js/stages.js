@@ -42,7 +42,7 @@ function form(view, link) {
 function ready({ part, stage }, link) {
   const problem = make("p.problem", { role: "alert" });
   const begin = async () => {
-    problem.textContent = (await link.act({ act: "begin", part: part.name })).refused;
+    problem.textContent = (await link.act({ act: "begin", part: part.name, language: spoken() })).refused;
   };
   const element = make(
     "div.sheet.narrow",
