@@ -69,3 +69,15 @@ def test_who_comes_back_in_another_browser_has_the_seat_of_their_address(settled
     open_tab(address).wait("body[data-link=armed]")
     stranger = open_tab(settled[0].url)
     stranger.wait("body[data-link=view-only]")
+
+
+def test_what_somebody_has_seen_the_next_person_has_not(settled, open_tab):
+    address = f"{settled[0].url}#person="
+    tab = open_tab(address + "P01")
+    tab.page.click(".tour-skip")
+    tab.page.reload()
+    tab.wait("body[data-link=armed]")
+    assert not tab.shows(".tour")
+    tab.page.goto("about:blank")  # the address of the next person differs by its end alone
+    tab.page.goto(address + "P02")
+    tab.wait(".tour:visible")

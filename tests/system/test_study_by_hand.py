@@ -79,7 +79,7 @@ class Trial:
 def tab(browser):
     """A tab whose robot's page shows no tour; nobody looks at its 3-D view: the person goes by what the robot says."""
     opened = browser.new_page(viewport={"width": 1280, "height": 800})
-    opened.add_init_script(f"localStorage.setItem('retouch-tour', 'seen'); {UNDRAWN}")
+    opened.add_init_script(f"localStorage.setItem('retouch-tour-P01', 'seen'); {UNDRAWN}")
     yield opened
     opened.close()
 

@@ -48,8 +48,12 @@ class LiveTrials:
 
     @property
     def url(self) -> str:
-        """Of the station's page, which the participant's shows in a frame: in whatever browser, it is the same seat."""
-        return f"http://127.0.0.1:{self._station}/#seat={self._seat}"
+        """Of the station's page, which the participant's shows in a frame.
+
+        In whatever browser it is the same seat; what the browser keeps for it is that participant's.
+        """
+        person = code(self._trial.live.number) if self._trial is not None else ""
+        return f"http://127.0.0.1:{self._station}/#seat={self._seat}&person={person}"
 
     def attend(self, desk: Desk) -> None:
         """Tell this desk what comes of them."""

@@ -1,5 +1,7 @@
 // Who is at this tab: a name, which the browser remembers, and a role, which stands in the page's address.
 
+import { remember, remembered } from "/assets/js/memory.js";
+
 const NAME = "retouch-name";
 
 export class Identity {
@@ -27,7 +29,7 @@ export class Identity {
     event.preventDefault();
     this.tab.name = this.name.value.trim();
     this.tab.role = this.role.value;
-    remember(this.tab.name);
+    remember(NAME, this.tab.name);
     const address = new URL(location.href);
     address.searchParams.set("role", this.tab.role);
     address.searchParams.delete("name");
@@ -41,22 +43,6 @@ export class Identity {
 export function given() {
   const parameters = new URLSearchParams(location.search);
   const name = parameters.get("name")?.trim();
-  if (name) remember(name);
-  return { name: (name || remembered()).slice(0, 64), role: (parameters.get("role") ?? "").slice(0, 64) };
-}
-
-function remembered() {
-  try {
-    return localStorage.getItem(NAME) ?? "";
-  } catch {
-    return "";
-  }
-}
-
-function remember(name) {
-  try {
-    localStorage.setItem(NAME, name);
-  } catch {
-    // Then it is given anew next time.
-  }
+  if (name) remember(NAME, name);
+  return { name: (name || (remembered(NAME) ?? "")).slice(0, 64), role: (parameters.get("role") ?? "").slice(0, 64) };
 }

@@ -1,6 +1,7 @@
 // Which key a person has set for what. Everything that leads the robot is named by the place of the key that does it
 // where nothing was set; that name is what the station is told, wherever the key lies that was set.
 
+import { remember, remembered } from "/assets/js/memory.js";
 import { say } from "/assets/js/words.js";
 
 const KEPT = "retouch-keys";
@@ -11,7 +12,7 @@ const MODIFIER = /^(Shift|Control|Alt|Meta|OS)(Left|Right)?$/;
 export class KeySettings {
   constructor(names) {
     this.names = new Set(names);
-    this.places = new Map(Object.entries(remembered()).filter(([name, place]) => this.names.has(name) && PLACE.test(place)));
+    this.places = new Map(Object.entries(kept()).filter(([name, place]) => this.names.has(name) && PLACE.test(place)));
   }
 
   // The place of the key that does what a name says.
@@ -47,11 +48,7 @@ export class KeySettings {
   }
 
   keep() {
-    try {
-      localStorage.setItem(KEPT, JSON.stringify(Object.fromEntries(this.places)));
-    } catch {
-      // Then they hold until the page is loaded again.
-    }
+    remember(KEPT, JSON.stringify(Object.fromEntries(this.places)));
   }
 }
 
@@ -59,10 +56,10 @@ export function whatDoes(name) {
   return document.querySelector(`[data-key="${name}"] .key-direction`).textContent;
 }
 
-function remembered() {
+function kept() {
   try {
-    return JSON.parse(localStorage.getItem(KEPT)) ?? {};
+    return JSON.parse(remembered(KEPT)) ?? {};
   } catch {
-    return {};
+    return {}; // what is there was not written here
   }
 }

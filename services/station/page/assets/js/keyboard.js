@@ -2,6 +2,7 @@
 // place. What is printed where is asked of the browser, or learnt from the keys that are pressed.
 
 import { KeySettings } from "/assets/js/key_settings.js";
+import { remember, remembered } from "/assets/js/memory.js";
 import { say } from "/assets/js/words.js";
 
 const UNKNOWN = new Set(["", "Unidentified", undefined]);
@@ -23,7 +24,7 @@ export class Keyboard {
     this.settings = new KeySettings(this.keys.keys());
     this.legends = new Map([...this.keys].map(([place, { dataset }]) => [place, dataset.cap]));
     this.known = false;
-    for (const [place, legend] of Object.entries(remembered())) this.print(place, legend);
+    for (const [place, legend] of Object.entries(kept())) this.print(place, legend);
     this.show();
     this.ask();
     window.addEventListener("focus", () => this.ask());
@@ -67,11 +68,7 @@ export class Keyboard {
     if (this.legends.get(code) === legendOf(key) && this.known) return;
     this.print(code, key);
     this.show();
-    try {
-      localStorage.setItem(LEGENDS, JSON.stringify(Object.fromEntries(this.legends)));
-    } catch {
-      // Then they are learnt anew next time.
-    }
+    remember(LEGENDS, JSON.stringify(Object.fromEntries(this.legends)));
   }
 
   print(place, key) {
@@ -111,10 +108,10 @@ function fromMadeUp(place) {
   return point && String.fromCodePoint(parseInt(point, 16));
 }
 
-function remembered() {
+function kept() {
   try {
-    return JSON.parse(localStorage.getItem(LEGENDS)) ?? {};
+    return JSON.parse(remembered(LEGENDS)) ?? {};
   } catch {
-    return {};
+    return {}; // what is there was not written here
   }
 }

@@ -2,6 +2,7 @@
 
 import { contextOf } from "/assets/js/drawing/context.js";
 import { Force } from "/assets/js/force.js";
+import { remember, remembered } from "/assets/js/memory.js";
 import { say } from "/assets/js/words.js";
 
 const HEADER_BYTES = 12;
@@ -25,7 +26,7 @@ export class LiveView {
     this.cloudButton = document.querySelector(".cloud");
     this.cloudButton.addEventListener("click", ({ detail }) => {
       this.showCloud(!this.wantsCloud);
-      remember(this.wantsCloud);
+      remember(SHOWN, this.wantsCloud);
       if (detail > 0) this.cloudButton.blur();
     });
     document.querySelector(".scene-home").addEventListener("click", ({ currentTarget }) => {
@@ -110,7 +111,7 @@ export class LiveView {
       this.drawing.mark(this.part ?? null);
       this.drawing.compare(this.compared ?? null);
       if (this.moment) this.drawing.receive(this.moment);
-      this.showCloud(remembered() ?? !means.isSlow);
+      this.showCloud(chosen() ?? !means.isSlow);
       await this.drawing.prepare();
     } catch (error) {
       console.warn("the live view is not there:", error);
@@ -149,18 +150,6 @@ async function fetched(address) {
 }
 
 // Whether the person wants to see the point cloud; null where s/he has not said so: then it depends on the computer.
-function remembered() {
-  try {
-    return JSON.parse(localStorage.getItem(SHOWN));
-  } catch {
-    return null;
-  }
-}
-
-function remember(wanted) {
-  try {
-    localStorage.setItem(SHOWN, JSON.stringify(wanted));
-  } catch {
-    // Then it is chosen anew next time.
-  }
+function chosen() {
+  return { true: true, false: false }[remembered(SHOWN)] ?? null;
 }

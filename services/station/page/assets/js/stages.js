@@ -1,18 +1,16 @@
 // The three views: one large, two as insets. An inset that is pressed and the large view change places.
 
+import { remember, remembered } from "/assets/js/memory.js";
+
 const MAIN = "retouch-main";
 
 export function swapOnPress() {
   const scene = document.querySelector(".scene");
-  show(scene, remembered());
+  show(scene, remembered(MAIN) ?? "live");
   for (const button of scene.querySelectorAll(".swap")) {
     button.addEventListener("click", ({ detail }) => {
       show(scene, button.dataset.swap);
-      try {
-        localStorage.setItem(MAIN, button.dataset.swap);
-      } catch {
-        // Then it is chosen anew next time.
-      }
+      remember(MAIN, button.dataset.swap);
       // The button of what is large now is gone; whoever came by key goes on at the next one.
       if (detail > 0) button.blur();
       else scene.querySelector(".swap:not([hidden])")?.focus();
@@ -24,12 +22,4 @@ function show(scene, view) {
   if (!scene.querySelector(`[data-stage="${view}"]`)) return;
   scene.dataset.main = view;
   for (const button of scene.querySelectorAll(".swap")) button.hidden = button.dataset.swap === view;
-}
-
-function remembered() {
-  try {
-    return localStorage.getItem(MAIN) ?? "live";
-  } catch {
-    return "live";
-  }
 }

@@ -2,6 +2,7 @@
 // In a frame the seat is whose the address says it is: they find it again in another browser.
 
 import { given } from "/assets/js/identity.js";
+import { addressed } from "/assets/js/memory.js";
 
 const SEAT = "retouch-seat";
 const STOP = "retouch-stop";
@@ -10,7 +11,7 @@ export class Tab {
   constructor() {
     Object.assign(this, given());
     this.load = random();
-    this.seat = addressed() ?? take(SEAT) ?? random();
+    this.seat = addressed("seat") ?? take(SEAT) ?? random();
     this.stopIsDue = take(STOP) !== null;
     this.stopWaits = () => false;
     window.addEventListener("pagehide", () => {
@@ -19,11 +20,6 @@ export class Tab {
     });
     window.addEventListener("pageshow", ({ persisted }) => persisted && [SEAT, STOP].forEach(take));
   }
-}
-
-function addressed() {
-  const { framed } = document.body.dataset;
-  return framed === "yes" ? new URLSearchParams(location.hash.slice(1)).get("seat") : null;
 }
 
 function random() {

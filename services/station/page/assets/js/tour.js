@@ -1,5 +1,6 @@
 // Five steps through the page, for whoever sees it for the first time; the browser remembers that they were seen.
 
+import { remember, remembered } from "/assets/js/memory.js";
 import { say } from "/assets/js/words.js";
 
 const SEEN = "retouch-tour";
@@ -23,7 +24,7 @@ export class Tour {
     this.button("back").addEventListener("click", () => this.go(this.step - 1));
     this.button("next").addEventListener("click", () => this.go(this.step + 1));
     window.addEventListener("resize", () => this.place());
-    if (!wasSeen()) this.open({ focus: false });
+    if (remembered(SEEN, "seen") === null) this.open({ focus: false });
   }
 
   button(name) {
@@ -58,11 +59,7 @@ export class Tour {
     this.panel.hidden = true;
     this.mark(null);
     if (hadFocus) this.opener.focus();
-    try {
-      localStorage.setItem(SEEN, "seen");
-    } catch {
-      // Then it is shown again next time.
-    }
+    remember(SEEN, "seen");
   }
 
   mark(place) {
@@ -98,12 +95,4 @@ export class Tour {
 
 function meets([x, y], { width, height }, other) {
   return x < other.right && x + width > other.left && y < other.bottom && y + height > other.top;
-}
-
-function wasSeen() {
-  try {
-    return localStorage.getItem(SEEN) !== null;
-  } catch {
-    return true;
-  }
 }
