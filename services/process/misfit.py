@@ -13,6 +13,7 @@ from services.process.suggestion import right
 _UNKNOWN = re.compile(r"Object contains unknown field `(.+)`")
 _PLACE = re.compile(r" - at `\$\.?(.*)`$")
 _COUNTED = re.compile(r"\[(\d+)\]")
+_MISSING = re.compile(r"Object missing required field `(.+)`")
 _PATTERN = re.compile(r" matching regex '.*'$")
 _NAMED = re.compile(r"\^\(([\w|]+)\)\$")  # a pattern that is a list of texts
 
@@ -30,32 +31,35 @@ _WORDS = {
 }
 
 
-def told(error: msgspec.ValidationError, kind: type) -> str:
+def told(error: msgspec.ValidationError, kind: type, written: Any) -> str:
     """What does not fit, in one line.
 
     Args:
         error: as raised.
         kind: of the struct that was to be read.
+        written: what was read instead, as dictionaries and lists.
     """
     said = str(error)
     place = _PLACE.search(said)
     keys = place[1].split(".") if place and place[1] else []
     what = _PATTERN.sub("", _PLACE.sub("", said))
-    fits = _type_at(inspect.type_info(kind), keys)
-    unknown = _UNKNOWN.match(what)
+    fits, there = _at(inspect.type_info(kind), written, keys)
+    unknown, missing = _UNKNOWN.match(what), _MISSING.match(what)
     if unknown:
-        known = [field.encode_name for field in _fields(fits)]
-        better = "only others of these kinds have it" if unknown[1] in known else right(unknown[1], known)
+        elsewhere = unknown[1] in _names(fits)
+        better = "only others of these kinds have it" if elsewhere else right(unknown[1], _names(_meant(fits, there)))
         return f"{_named([*keys, ''])}unknown key {unknown[1]}; {better}"
     for name, words in _WORDS.items():
         what = what.replace(name, words)
-    choices = _choices(fits)
+    choices = [] if missing and missing[1] not in _tags(fits) else _choices(fits)
+    if missing and keys and _COUNTED.search(keys[-1]):
+        keys = [*keys, ""]  # of a section among several, not the section itself
     return f"{_named(keys)}{what[0].lower()}{what[1:]}" + (f"; one of {', '.join(choices)}" if choices else "")
 
 
 def _named(keys: list[str]) -> str:
     """Section and key, as they stand in a file; of a list of sections the one that it is, counted from 1."""
-    if not keys:
+    if not any(keys):
         return ""
     section, key = ".".join(keys[:-1]), _COUNTED.sub(lambda m: f", number {int(m[1]) + 1}", keys[-1])
     if not section:
@@ -66,16 +70,37 @@ def _named(keys: list[str]) -> str:
     return f"[[{_COUNTED.sub('', section)}]] number {int(counted[1]) + 1}{f', {key}' if key else ''}: "
 
 
-def _type_at(kind: Any, keys: list[str]) -> Any:
-    """What is expected under some keys; None where nothing is known of them."""
+def _at(kind: Any, written: Any, keys: list[str]) -> tuple[Any, Any]:
+    """What is expected under some keys, and what is written there; None where nothing is known of them."""
     for key in keys:
-        if isinstance(kind, inspect.UnionType) and any(key == getattr(one, "tag_field", None) for one in kind.types):
-            return kind  # the key says which of them it is
-        name = _COUNTED.sub("", key)
-        kind = next((field.type for field in _fields(kind) if field.encode_name == name), None)
-        if name != key:
+        if key in _tags(kind):
+            return kind, None  # the key says which of them it is
+        name, places = _COUNTED.sub("", key), [int(place) for place in _COUNTED.findall(key)]
+        kind = next((field.type for field in _fields(_meant(kind, written)) if field.encode_name == name), None)
+        written = written.get(name) if isinstance(written, dict) else None
+        for place in places:
             kind = getattr(kind, "item_type", None)
+            written = written[place] if isinstance(written, list) else None
+    return kind, written
+
+
+def _meant(kind: Any, written: Any) -> Any:
+    """Of several kinds of sections the one that was written, where that says which."""
+    if isinstance(kind, inspect.UnionType) and isinstance(written, dict):
+        tagged = [one for one in kind.types if isinstance(one, inspect.StructType) and one.tag_field]
+        return next((one for one in tagged if written.get(one.tag_field) == one.tag), kind)
     return kind
+
+
+def _tags(kind: Any) -> set[str]:
+    """Keys that say which of several kinds of sections it is."""
+    types = kind.types if isinstance(kind, inspect.UnionType) else ()
+    return {one.tag_field for one in types if isinstance(one, inspect.StructType) and one.tag_field}
+
+
+def _names(kind: Any) -> list[str]:
+    """Keys of a section, or of any that can stand there, each once."""
+    return list(dict.fromkeys(field.encode_name for field in _fields(kind)))
 
 
 def _fields(kind: Any) -> list[inspect.Field]:

@@ -32,14 +32,14 @@ def read(path: Path, type_: type[S], what: str) -> S:
         ConfigurationError: it is not there, cannot be parsed, or has a wrong key, type or value; says which.
     """
     text = _text(path, what)
+    decode = msgspec.json.decode if path.suffix == ".json" else msgspec.toml.decode
     try:
-        if path.suffix == ".json":
-            return msgspec.json.decode(text, type=type_)
-        return msgspec.toml.decode(text, type=type_)
+        written = decode(text)
+        return decode(text, type=type_)
     except RecursionError:
         raise ConfigurationError(path, f"it is nested too deeply for a {what}", what) from None
     except msgspec.ValidationError as error:
-        raise ConfigurationError(path, told(error, type_), what) from None
+        raise ConfigurationError(path, told(error, type_, written), what) from None
     except msgspec.DecodeError as error:
         raise ConfigurationError(path, _BYTE.sub(lambda m: _place(text, int(m[1])), str(error)), what) from None
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from services.commands.arguments import add_debug
 from services.commands.terminal import Terminal
 from services.process.exit_codes import Exit
+from services.study.instruments.library import FOLDER
 from services.study.protocol.protocol import FILE
 from services.study.protocols import SHIPPED
 from services.study.study import new_study
@@ -25,12 +26,15 @@ def run(arguments: Namespace) -> int:
     """See `Action`."""
     study = new_study(arguments.folder, SHIPPED[arguments.like])
     say = Terminal(highlight=False, soft_wrap=True).print
-    rehearsal = study.folder.with_name(f"{study.folder.name}_rehearsal")
+    home = study.folder.resolve()
+    rehearsal = home.with_name(f"{home.name}_rehearsal")
     for line in (
-        f"{study.folder / FILE}: change it to yours, then",
+        f"{study.folder / FILE}: change it to yours",
+        f"{study.folder / FOLDER / 'NAME.toml'}: questionnaires of your own, like deploy/examples/questionnaire.toml",
+        "then",
         f"  retouch study check {study.folder}",
         # In the study's own folder simulated participants would keep people out.
-        f"  cp -r {study.folder} {rehearsal}   # a rehearsal has a folder of its own",
+        f"  cp -r {home} {rehearsal}   # a rehearsal has a folder of its own",
         f"  retouch study run {rehearsal} --synthetic 4 --headless",
         f"  retouch study freeze {study.folder}",
     ):

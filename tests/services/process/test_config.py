@@ -37,7 +37,7 @@ def test_what_is_saved_is_what_is_loaded(tmp_path):
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("naem = 'x'", "unknown key naem; did you mean name?"),
+        ("naem = 'x'", "retouch.toml: unknown key naem; did you mean name?"),
         ("[robot]\nscnee = 'table'", "[robot]: unknown key scnee; did you mean scene?"),
         ("[viewer]\nqqq = 1", "[viewer]: unknown key qqq; one of "),
         ("[master.device]\nkind = 'keyboard'\ngrwoth = 1", "[master.device]: unknown key grwoth; did you mean growth?"),

@@ -242,6 +242,16 @@ def test_a_studys_own_goes_before_the_one_of_that_name_that_comes_with_retouch(t
             'kind = "numbers"',
             "[[questions]] number 2, kind: invalid value 'numbers'; one of scale, choice",
         ),
+        (
+            'text = { en = "Slept", fr = "Dormi" }',
+            'txet = { en = "Slept", fr = "Dormi" }',
+            "[[questions]] number 2: unknown key txet; did you mean text?",
+        ),
+        (
+            'kind = "number"',
+            'kind = "number"\nqqq = 1',
+            "[[questions]] number 2: unknown key qqq; one of name, text, about, required, low, high, whole",
+        ),
     ],
 )
 def test_what_contradicts_itself_is_told_in_one_line_with_its_place(strangers, old, new, said):
@@ -263,3 +273,9 @@ def test_a_name_that_nothing_has_is_told_with_the_nearest(tmp_path):
 
 def test_a_protocol_has_all_questionnaires_that_it_names(protocol):
     assert set(of_protocol(protocol, None)) == {"participant", "nasa_tlx"}
+
+
+def test_a_key_that_is_missing_is_no_value_to_choose(strangers):
+    with pytest.raises(ConfigurationError) as caught:
+        strangers('text = { en = "Slept", fr = "Dormi" }', "")
+    assert str(caught.value).endswith("[[questions]] number 2: the key is missing: `text`")
