@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from services.study.analysis.hypotheses import Direction, Hypothesis
+from collections.abc import Mapping
+
+from services.study.analysis.exclusion import Sample
+from services.study.analysis.hypotheses import Direction, Hypothesis, Measure
 from services.study.analysis.rules import rules_of
 from services.study.freezing import Frozen
 from services.study.protocol.orders import Allocation, orders
@@ -42,7 +45,7 @@ def text(protocol: Protocol, frozen: Frozen) -> str:
             "",
             "## Exclusions",
             "",
-            "By the rules of the analysis; every result is reported with and without them.",
+            *_exclusions(),
             "",
             "## Analysis",
             "",
@@ -68,7 +71,8 @@ def _hypothesis(one: Hypothesis) -> str:
             said = f"{one.measure.title} differs between {first} and {second}"
         case Direction.LESS | Direction.GREATER:
             said = f"{one.measure.title} is {one.direction.value} with {first} than with {second}"
-    smallest = f"; the smallest effect of interest is {one.smallest:g}{one.measure.unit}" if one.smallest else ""
+    shift = f"{one.smallest:g} {one.measure.unit}".rstrip() if one.smallest else ""
+    smallest = f"; the smallest effect of interest is {shift}" if shift else ""
     return f"- {one.name}: {said} ({'confirmatory' if one.confirmatory else 'exploratory'}{smallest})."
 
 
@@ -76,6 +80,7 @@ def _design(protocol: Protocol) -> list[str]:
     task, training = protocol.task, protocol.training
     rows = orders(protocol.order, [method.name for method in protocol.methods])
     allocation = Allocation(protocol.order, len(rows))
+    models = f"{task.models} identical models are" if task.models > 1 else "one model is"
     return [
         "Within participants: each does all methods, in one of these orders.",
         "",
@@ -88,15 +93,39 @@ def _design(protocol: Protocol) -> list[str]:
         else "Who drops out is not replaced.",
         "",
         *(
-            f"- {method.name}: {method.teaching.value}, {method.device.value}. {method.about}"
+            f"- {method.name}: {method.teaching.value}, {method.device.value}. {_spoken(method.about)}".rstrip()
             for method in protocol.methods
         ),
         "",
-        f"With each method {task.models} identical models are adapted, with at most {task.updates} updates each and"
-        f" {task.refinements} attempts at an update.",
+        f"With each method {models} adapted, with at most {_counted(task.updates, 'update')} each and {_counted(task.refinements, 'attempt')} at an update.",
         f"Before each method: training until {training.successes} of the last {training.of_last} attempts succeeded,"
-        f" {training.minutes:g} minutes at most.",
+        f" {_counted(training.minutes, 'minute')} at most.",
     ]
+
+
+def _exclusions() -> list[str]:
+    """The rules in words, and what is reported beside them."""
+    return [
+        f"What is measured ({_measures(rated=False)}): {Sample.PLANNED.meaning(Measure.SECONDS)}.",
+        f"What is rated ({_measures(rated=True)}): {Sample.PLANNED.meaning(Measure.WORKLOAD)}.",
+        "",
+        "Reported beside these results:",
+        "",
+        *(f"- {one.value}: {one.meaning(Measure.SECONDS)}." for one in Sample if one is not Sample.PLANNED),
+    ]
+
+
+def _measures(*, rated: bool) -> str:
+    return ", ".join(f"`{one.value}`" for one in Measure if one.rated is rated)
+
+
+def _spoken(words: Mapping[str, str]) -> str:
+    """A text in English, or else in its first language; empty where there is none."""
+    return words.get("en") or next(iter(words.values()), "")
+
+
+def _counted(number: float, what: str) -> str:
+    return f"{number:g} {what}{'s' * (number != 1)}"
 
 
 def _whole(text: str) -> str:

@@ -59,6 +59,18 @@ def test_the_preregistration_names_hypotheses_orders_and_digests(study):
     assert "2. OnKey, OffStyl, OnStyl, OffKey" in text
 
 
+@pytest.mark.parametrize(("models", "said"), [(1, "one model is adapted"), (3, "3 identical models are adapted")])
+def test_the_preregistration_is_for_people_to_read(study, models, said):
+    path = study.folder / "protocol.toml"
+    path.write_text(path.read_text(encoding="utf-8").replace("models = 3", f"models = {models}"), encoding="utf-8")
+    open_study(study.folder).freeze(NOW.isoformat())
+    text = (study.folder / "preregistration.md").read_text(encoding="utf-8")
+    assert "- OnKey: prediction, keyboard. You correct the robot's motion with the keys while it runs." in text
+    assert said in text
+    assert "without who failed to adapt a model or a training in any method" in text
+    assert not set("{}") & set(text)
+
+
 @pytest.mark.parametrize("what", ["protocol.toml", "instruments/own.toml"])
 def test_what_changes_after_freezing_is_refused_until_somebody_says_why(study, what):
     own = study.folder / "instruments" / "own.toml"
