@@ -58,6 +58,7 @@ ServiceError
     ├── ProtocolUnfit        a protocol or questionnaire that contradicts itself
     ├── NoStudy              a folder that holds none
     ├── StudyThere           one that holds one already
+    ├── DataSetThere         one that holds something, where a data set is to be
     ├── StudyInUse           another console or run has the study open (an EnvironmentFault too)
     ├── StudyFrozen          what was frozen has changed since, and nobody has said why
     ├── NotFrozen            a study that has to be frozen before people take part

@@ -4,6 +4,7 @@ StudyError
 ├── ProtocolUnfit      a protocol or questionnaire that contradicts itself
 ├── NoStudy            a folder that holds none
 ├── StudyThere         one that holds one already
+├── DataSetThere       one that holds something, where a data set is to be
 ├── StudyInUse         another console or run has the study open (an EnvironmentFault too)
 ├── StudyFrozen        what was frozen has changed since, and nobody has said why
 ├── NotFrozen          a study that has to be frozen before people take part
@@ -49,6 +50,14 @@ class StudyThere(StudyError):
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         super().__init__(f"{folder} is not empty: a new study wants a folder of its own")
+
+
+class DataSetThere(StudyError):
+    """The folder is not empty."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        super().__init__(f"{folder} is not empty: a data set goes into a new folder, over nothing that is there")
 
 
 class StudyInUse(StudyError, EnvironmentFault):

@@ -2,7 +2,7 @@
 
     dataset_description.json   what it is, and every variable (schema.org)
     data/*_data.csv            tidy tables; made from the journal, never changed
-    materials/                 protocol, questionnaires, preregistration
+    materials/                 protocol, preregistration, every questionnaire that was asked
     README.md                  the codebook, for people
 
 No name, no contact and no note of the experimenter is in it: those are not data of the participants.
@@ -21,9 +21,10 @@ import msgspec
 
 from services.process.exceptions import CannotWrite
 from services.process.files import make_folder, write_whole
-from services.study import preregistration
+from services.study import codebook, preregistration
 from services.study.events import Attempted, Entry
-from services.study.exceptions import StudyThere
+from services.study.exceptions import DataSetThere
+from services.study.instruments import library
 from services.study.instruments.instrument import Instrument
 from services.study.protocol import protocol as protocol_file
 from services.study.records import code, observed
@@ -31,53 +32,6 @@ from services.study.session.course import Participant, participants
 from services.study.study import Study
 
 SYNTHETIC = "no person took part: simulated"
-
-_MEANINGS = {
-    "participant": "code of the participant; no name",
-    "method": "by its name in the protocol",
-    "model": "number of the model that was adapted, from 1",
-    "position": "of the method in the participant's order, from 1",
-    "adapted": "the robot alone succeeded within what is allowed",
-    "seconds": "time in which the operator could act, until the model was adapted [s]",
-    "refinements": "attempts that the operator led",
-    "updates": "of the model",
-    "valid": "the experimenter did not declare it invalid",
-    "reason": "why not",
-    "part": "of the session: METHOD/MODEL or METHOD/training",
-    "number": "of the attempt in its part, from 1",
-    "teaching": "how the operator led; empty where the robot moved alone",
-    "success": "reached, nothing kicked over, no collision",
-    "reached": "the target",
-    "kicked_over": "something was",
-    "collision": "with something",
-    "active": "time in which the operator could act [s]",
-    "began": "since the part's begin [s]",
-    "ended": "since the part's begin [s]",
-    "void": "why the attempt does not count; empty where it does",
-    "recording": "file of the run; not in this data set",
-    "why": "what ended an attempt that came to no end, and was made again",
-    "acting": "time in which the operator could act, of an attempt that came to no end [s]",
-    "holding": "the same in which the robot held [s]",
-    "alone": "the same in which it moved alone [s]",
-    "other": "the rest of the time since the attempt before [s]",
-    "gender": "as the participant said",
-    "age": "band, as the participant said",
-    "field": "of study or work, as the participant said",
-    "gaming": "experience, as the participant said",
-    "teleoperation": "experience, as the participant said",
-    "handedness": "as the participant said",
-    "group": "number of the order of methods, from 1",
-    "workload": "NASA-TLX, weighted, 0 to 100",
-    "raw_tlx": "NASA-TLX, mean of the six scales, 0 to 100",
-    "sus": "system usability scale, 0 to 100",
-    "trust": "as its questionnaire has it",
-    "instrument": "name of the questionnaire",
-    "after": "the method that it is about; empty for none",
-    "question": "by its name in the questionnaire",
-    "place": "of the question in the order in which it was shown, from 1",
-    "answer": "as it was given",
-    "synthetic": "true: no person took part, the participant is simulated",
-}
 
 Row = Sequence[object]
 
@@ -112,20 +66,20 @@ def export(study: Study, entries: Sequence[Entry], instruments: Mapping[str, Ins
         The tables.
 
     Raises:
-        StudyThere: the folder holds something.
+        DataSetThere: the folder holds something.
         CannotWrite: it cannot be written.
     """
     tables = list(_tables(study, entries, instruments))
     try:
         if folder.exists() and any(folder.iterdir()):
-            raise StudyThere(folder)
-        for part in (folder, folder / "data", folder / "materials", folder / "materials" / "instruments"):
+            raise DataSetThere(folder)
+        for part in (folder, folder / "data", folder / "materials", folder / "materials" / library.FOLDER):
             make_folder(part)
         written = [_written(folder / "data", study.protocol.name, table) for table in tables]
-        description = msgspec.json.format(msgspec.json.encode(_description(study, entries, tables)))
+        description = msgspec.json.format(msgspec.json.encode(_description(study, entries, instruments, tables)))
         write_whole(folder / "dataset_description.json", description + b"\n")
-        write_whole(folder / "README.md", _readme(study, entries, tables).encode())
-        _materials(study, folder / "materials")
+        write_whole(folder / "README.md", _readme(study, entries, instruments, tables).encode())
+        _materials(study, instruments, folder / "materials")
     except OSError as error:
         raise CannotWrite(folder, error.strerror or str(error)) from None
     return written
@@ -137,12 +91,15 @@ def _written(folder: Path, study: str, table: _Table) -> Path:
     return path
 
 
-def _materials(study: Study, folder: Path) -> None:
+def _materials(study: Study, instruments: Iterable[str], folder: Path) -> None:
     for name in (protocol_file.FILE, preregistration.FILE):
         if (study.folder / name).exists():
             shutil.copyfile(study.folder / name, folder / name)
-    for path in sorted((study.folder / "instruments").glob("*.toml")):
-        shutil.copyfile(path, folder / "instruments" / path.name)
+    own = sorted((study.folder / library.FOLDER).glob("*.toml"))
+    # Those that come with Retouch as well: another version of it may ask otherwise.
+    asked = [library.file(study.folder, name) for name in instruments]
+    for path in dict.fromkeys((*own, *asked)):
+        shutil.copyfile(path, folder / library.FOLDER / path.name)
 
 
 def _tables(study: Study, entries: Sequence[Entry], instruments: Mapping[str, Instrument]) -> Iterator[_Table]:
@@ -200,7 +157,9 @@ def _answers(one: Participant) -> Iterator[Row]:
             )
 
 
-def _description(study: Study, entries: Sequence[Entry], tables: Sequence[_Table]) -> dict[str, object]:
+def _description(
+    study: Study, entries: Sequence[Entry], instruments: Mapping[str, Instrument], tables: Sequence[_Table]
+) -> dict[str, object]:
     columns = dict.fromkeys(column for table in tables for column in table.columns)
     return {
         "@context": "https://schema.org/",
@@ -210,9 +169,7 @@ def _description(study: Study, entries: Sequence[Entry], tables: Sequence[_Table
         "version": study.protocol.version,
         "schemaVersion": "Psych-DS 1.0.0",
         "temporalCoverage": f"{entries[0].at[:10]}/{entries[-1].at[:10]}" if entries else "",
-        "variableMeasured": [
-            {"@type": "PropertyValue", "name": column, "description": _MEANINGS[column]} for column in columns
-        ],
+        "variableMeasured": codebook.variables(list(columns), instruments),
     }
 
 
@@ -223,10 +180,12 @@ def _about(study: Study, entries: Sequence[Entry]) -> str:
     return f"{len(people)} participants{f' ({SYNTHETIC})' if synthetic else ''} adapted models by {methods}."
 
 
-def _readme(study: Study, entries: Sequence[Entry], tables: Sequence[_Table]) -> str:
+def _readme(
+    study: Study, entries: Sequence[Entry], instruments: Mapping[str, Instrument], tables: Sequence[_Table]
+) -> str:
     lines = [f"# {study.protocol.title}", "", _about(study, entries), "", "## Codebook", ""]
     for table in tables:
-        lines += [f"### {table.name}, {len(table.rows)} rows", ""]
-        lines += [f"- `{column}`: {_MEANINGS[column]}" for column in table.columns]
-        lines.append("")
+        lines += [f"### {table.name}, {len(table.rows)} rows", "", *codebook.columns(table.columns, instruments), ""]
+    for instrument in instruments.values():
+        lines += [*codebook.questions(instrument), ""]
     return "\n".join(lines)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from services.study.analysis.exclusion import Sample
 from services.study.analysis.hypotheses import Direction, Hypothesis, Measure
 from services.study.analysis.rules import rules_of
 from services.study.freezing import Frozen
+from services.study.instruments.questions import in_english
 from services.study.protocol.orders import Allocation, orders
 from services.study.protocol.protocol import Protocol
 
@@ -93,11 +92,12 @@ def _design(protocol: Protocol) -> list[str]:
         else "Who drops out is not replaced.",
         "",
         *(
-            f"- {method.name}: {method.teaching.value}, {method.device.value}. {_spoken(method.about)}".rstrip()
+            f"- {method.name}: {method.teaching.value}, {method.device.value}. {in_english(method.about)}".rstrip()
             for method in protocol.methods
         ),
         "",
-        f"With each method {models} adapted, with at most {_counted(task.updates, 'update')} each and {_counted(task.refinements, 'attempt')} at an update.",
+        f"With each method {models} adapted, with at most {_counted(task.updates, 'update')} each and"
+        f" {_counted(task.refinements, 'attempt')} at an update.",
         f"Before each method: training until {training.successes} of the last {training.of_last} attempts succeeded,"
         f" {_counted(training.minutes, 'minute')} at most.",
     ]
@@ -117,11 +117,6 @@ def _exclusions() -> list[str]:
 
 def _measures(*, rated: bool) -> str:
     return ", ".join(f"`{one.value}`" for one in Measure if one.rated is rated)
-
-
-def _spoken(words: Mapping[str, str]) -> str:
-    """A text in English, or else in its first language; empty where there is none."""
-    return words.get("en") or next(iter(words.values()), "")
 
 
 def _counted(number: float, what: str) -> str:

@@ -33,15 +33,25 @@ def load(folder: Path | None, name: str, languages: Sequence[str] = (), methods:
         ConfigurationError: it cannot be read, or has a wrong key, type or value.
         ProtocolUnfit: there is none of that name, or two of its parts contradict each other.
     """
+    path = file(folder, name)
+    instrument = read(path, Instrument, "questionnaire")
+    for place, reason in contradictions(instrument, path.stem, languages, among=bool(methods)):
+        raise ProtocolUnfit(path, place, reason)
+    return _among(instrument, methods)
+
+
+def file(folder: Path | None, name: str) -> Path:
+    """Where a questionnaire is: the study's own of that name, or else the one that comes with Retouch.
+
+    Raises:
+        ProtocolUnfit: there is none.
+    """
     own = folder / FOLDER / f"{name}.toml" if folder is not None else None
     path = own if own is not None and own.exists() else SHIPPED.get(name)
     if path is None:
         where = own if own is not None else Path(f"{name}.toml")
         raise ProtocolUnfit(where, "instruments", f"there is no such file; {right(name, list(SHIPPED))}")
-    instrument = read(path, Instrument, "questionnaire")
-    for place, reason in contradictions(instrument, path.stem, languages, among=bool(methods)):
-        raise ProtocolUnfit(path, place, reason)
-    return _among(instrument, methods)
+    return path
 
 
 def of_protocol(protocol: Protocol, folder: Path | None) -> dict[str, Instrument]:

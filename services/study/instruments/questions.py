@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import combinations
 from typing import Annotated, TypeGuard
 
@@ -20,6 +20,11 @@ MISSING = "there is no answer"
 
 Words = dict[Annotated[str, msgspec.Meta(min_length=2, max_length=12)], Annotated[str, msgspec.Meta(min_length=1)]]
 """A text, by language."""
+
+
+def in_english(words: Mapping[str, str]) -> str:
+    """A text for readers of the data: in English, or else in its first language; empty where there is none."""
+    return words.get("en") or next(iter(words.values()), "")
 
 
 class _Question(Section, frozen=True, kw_only=True, tag_field="kind"):

@@ -6,8 +6,9 @@ import json
 import pytest
 
 from services.study.events import Attempted, BrokenOff, Noted
-from services.study.exceptions import StudyThere
+from services.study.exceptions import DataSetThere
 from services.study.export import export
+from services.study.instruments import SHIPPED as SHIPPED_INSTRUMENTS
 from services.study.instruments.library import of_protocol
 from services.study.journal import Journal
 from services.study.protocols import SHIPPED
@@ -82,5 +83,25 @@ def test_two_exports_are_the_same_and_none_goes_over_another(done):
     export(study, entries, instruments, out.parent / "again")
     files = sorted(path.relative_to(out) for path in out.rglob("*") if path.is_file())
     assert all((out / one).read_bytes() == (out.parent / "again" / one).read_bytes() for one in files)
-    with pytest.raises(StudyThere):
+    with pytest.raises(DataSetThere, match="a data set goes into a new folder"):
         export(study, entries, instruments, out)
+
+
+def test_every_questionnaire_that_was_asked_is_there_as_it_was(done):
+    study, entries, instruments, out = done
+    export(study, entries, instruments, out)
+    there = {path.stem: path.read_bytes() for path in (out / "materials" / "instruments").iterdir()}
+    assert there == {name: SHIPPED_INSTRUMENTS[name].read_bytes() for name in instruments}
+
+
+def test_every_question_and_every_level_of_an_answer_is_explained(done):
+    study, entries, instruments, out = done
+    export(study, entries, instruments, out)
+    text = (out / "README.md").read_text(encoding="utf-8")
+    for question in (one for instrument in instruments.values() for one in instrument.questions):
+        assert f"- `{question.name}`: {question.text['en']}" in text
+        for option in getattr(question, "options", ()):
+            assert f"  - `{option.name}`: {option.text['en']}" in text
+    described = json.loads((out / "dataset_description.json").read_text(encoding="utf-8"))
+    (age,) = [one for one in described["variableMeasured"] if one["name"] == "age"]
+    assert {"@type": "DefinedTerm", "termCode": "from_55", "name": "55–64"} in age["valueReference"]
