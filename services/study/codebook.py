@@ -94,8 +94,9 @@ def questions(instrument: Instrument) -> list[str]:
 
 
 def _question(question: Question) -> list[str]:
-    text = " ".join(f"{in_english(question.text)} {in_english(question.about)}".split())
-    return [f"- `{question.name}`: {text}", *_answers(question)]
+    text, about = (" ".join(in_english(words).split()) for words in (question.text, question.about))
+    between = " " if text.endswith((".", "?", "!")) else ": "
+    return [f"- `{question.name}`: {text}{between + about if about else ''}", *_answers(question)]
 
 
 def _answers(question: Question) -> list[str]:
