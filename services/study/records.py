@@ -8,6 +8,7 @@ from services.study.analysis.hypotheses import Measure
 from services.study.analysis.observations import Background, Observations, Outcome, Rating, Training, Trial
 from services.study.events import Answered, Entry
 from services.study.instruments.instrument import Instrument
+from services.study.instruments.questions import Choice, in_english
 from services.study.protocol.protocol import Protocol
 from services.study.session.course import Adapt, Participant, Train, course, participants
 
@@ -47,7 +48,18 @@ def observed(
         trainings=tuple(training for one in people for training in _trainings(one)),
         synthetic=any(one.enrolled.synthetic for one in people),
         source=source,
+        words=_words(instruments),
     )
+
+
+def _words(instruments: Mapping[str, Instrument]) -> dict[str, dict[str, str]]:
+    """What the answers about the participants are called."""
+    return {
+        question.name: {option.name: in_english(option.text) for option in question.options}
+        for instrument in instruments.values()
+        for question in instrument.questions
+        if question.name in _BACKGROUND and isinstance(question, Choice)
+    }
 
 
 def _outcomes(protocol: Protocol, one: Participant) -> Iterable[Outcome]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from textwrap import fill
 
 import numpy as np
 
@@ -11,9 +12,9 @@ from services.reproduction.style import TRUTH, panels
 from services.study.analysis.analysis import Analysis
 from services.study.analysis.comparison import Result
 from services.study.analysis.exclusion import Sample
-from services.study.analysis.figures import finished
+from services.study.analysis.figures import finished, from_zero
 from services.study.analysis.hypotheses import Measure
-from services.study.analysis.observations import Observations, in_order
+from services.study.analysis.observations import Observations
 from services.study.analysis.units import of_people, side
 
 _COLORS = {Sample.PLANNED: TRUTH, Sample.ALL: "#0072b2", Sample.RANKED_LAST: "#d55e00", Sample.SUCCEEDED: "#009e73"}
@@ -21,6 +22,7 @@ _POINT = "#0072b2"
 _APART = 0.2
 _ROW = 0.55  # of a hypothesis [inch]
 _COLUMNS = 3
+_LETTERS = 38  # that fit below a panel of so many columns
 
 
 def effects(analysis: Analysis) -> Figure | None:
@@ -78,11 +80,11 @@ def backgrounds(observations: Observations, analysis: Analysis) -> list[Figure]:
         for pane, one in zip(axes, found, strict=True):
             said = {b.participant: str(getattr(b, one.background)) for b in observations.backgrounds}
             known = {p: side(values, p, analysis.methods) for p in observations.participants if said.get(p)}
-            texts = in_order(said[p] for p, value in known.items() if value is not None)
-            pane.set_ylim(0.0, 1.06 * max(value for value in known.values() if value is not None))
+            texts = observations.levels(one.background, (said[p] for p, value in known.items() if value is not None))
             if one.scale:
                 pairs = [(float(said[p].replace(",", ".")), value) for p, value in known.items() if value is not None]
                 pane.scatter([x for x, _ in pairs], [y for _, y in pairs], s=15, color=_POINT, alpha=0.75, linewidths=0)
+                from_zero(pane)
                 continue
             for x, text in enumerate(texts):
                 of = sorted(value for p, value in known.items() if value is not None and said[p] == text)
@@ -90,8 +92,10 @@ def backgrounds(observations: Observations, analysis: Analysis) -> list[Figure]:
                 pane.plot([x - 0.25, x + 0.25], [np.median(of)] * 2, color=TRUTH, linewidth=2.0)
             # Where they are many their names do not fit: each second one, and so on.
             step = max(1, -(-len(texts) // 8))
-            labels = [text if len(text) <= 12 else f"{text[:11]}…" for text in texts]
+            wide = max(6, _LETTERS * step // len(texts))
+            labels = [fill(observations.called(one.background, text), wide, max_lines=3) for text in texts]
             pane.set(xticks=range(0, len(texts), step), xticklabels=labels[::step], xlim=(-0.6, len(texts) - 0.4))
+            from_zero(pane)
         for pane in axes[::_COLUMNS]:
             pane.set_ylabel(f"{measure.title.split(' (')[0]}{' [s]' if measure.unit else ''}")
         caption = (

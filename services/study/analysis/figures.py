@@ -28,6 +28,8 @@ _LINE = "#9aa4b1"
 _WIDE = 0.30  # of a box, of the distance between two
 _SPREAD = 0.18
 _HEADROOM = 1.15
+_ABOVE = 1.06  # of the largest value, so that what stands for it is whole
+_TICKS = 3  # of a logarithmic axis, at least
 
 
 def color_of(analysis: Analysis, method: str) -> str:
@@ -55,7 +57,7 @@ def _compared(observations: Observations, analysis: Analysis, measures: Sequence
         values = of_people(observations, measure, Sample.PLANNED)
         _boxes(pane, analysis, values)
         pane.set_ylabel(_axis(measure))
-        pane.set_ylim(bottom=0.0)
+        from_zero(pane)
     caption = (
         "A point is a participant: the median over models, or what was rated; a grey line joins the same participant."
         " Boxes have medians and quartiles, whiskers reach to the last value within one and a half of the box's height."
@@ -89,7 +91,7 @@ def by_model(observations: Observations, analysis: Analysis) -> Figure:
             )
         pane.set(xlabel="model", xticks=list(analysis.models), xlim=_around(len(analysis.models), analysis.models[0]))
         pane.set_yscale("log")
-        pane.set_yticks(*_round_times(min(seconds), max(seconds)), minor=False)
+        pane.set_yticks(*round_times(min(seconds), max(seconds)), minor=False)
         pane.minorticks_off()
         pane.set_ylim(min(seconds) / _HEADROOM, max(seconds) * _HEADROOM)
     axes[0].set_ylabel(_axis(Measure.SECONDS))
@@ -120,6 +122,7 @@ def adaptation(observations: Observations, analysis: Analysis) -> Figure:
                     axes[0].text(x, bottom + count / 2.0, str(count), ha="center", va="center", fontsize=7.5)
             below += np.array(counts)
     axes[0].set(xticks=at, xticklabels=_ticks(analysis))
+    from_zero(axes[0], whole=True)
     for pane, measure in zip(axes[1:], measures, strict=True):
         values = of_models(observations, measure, Sample.PLANNED)
         for x, method in enumerate(analysis.methods):
@@ -129,7 +132,7 @@ def adaptation(observations: Observations, analysis: Analysis) -> Figure:
                 x + _jitter(of), of, s=9, color=color_of(analysis, method), alpha=0.6, linewidths=0.0, zorder=3.0
             )
         pane.set(xticks=at, xticklabels=_ticks(analysis), xlim=_around(len(at)))
-        pane.set_ylim(bottom=0.0)
+        from_zero(pane, whole=True)
     caption = (
         "Left: what became of all models of all participants; a model is not attempted where there was no refinement of"
         " it. Right: refinements and updates of each adapted model of the participants in the analysis."
@@ -155,7 +158,7 @@ def learning(observations: Observations, analysis: Analysis) -> Figure | None:
         pane.plot(*zip(*medians, strict=True), "o-", color=TRUTH, linewidth=2.0, markersize=5.0, label="median")
         label = "time / method's median" if course.relative else _axis(Measure.SECONDS)
         pane.set(xlabel=course.over, ylabel=label, xticks=list(course.medians))
-        pane.set_ylim(bottom=0.0)
+        from_zero(pane)
     if analysis.attempts:
         _attempts(axes[-1], analysis)
     caption = "Grey: participants, their median over all methods."
@@ -182,7 +185,7 @@ def _attempts(pane: Axes, analysis: Analysis) -> None:
     numbers = sorted({one.number for one in analysis.attempts})
     # Of many, every so many-th: what is between two attempts is none.
     shown = numbers[:: 1 + len(numbers) // 10]
-    pane.set(xlabel="attempt at a model", ylabel="succeeded", xticks=shown, ylim=(-0.02, 1.02))
+    pane.set(xlabel="attempt at a model", ylabel="succeeded", xticks=shown, ylim=(-0.05, 1.05))
 
 
 def _boxes(pane: Axes, analysis: Analysis, values: Values) -> None:
@@ -225,10 +228,18 @@ def _jitter(values: Sequence[float]) -> NDArray[np.float64]:
     return np.asarray(_SPREAD * (2.0 * np.mod(ranks * 0.6180339887, 1.0) - 1.0), dtype=np.float64)
 
 
-def _round_times(low: float, high: float) -> tuple[list[float], list[str]]:
-    """Round numbers among times, for a logarithmic axis, and their labels."""
-    steps = [digit * 10.0**power for power in range(-1, 6) for digit in (1.0, 2.0, 5.0)]
-    ticks = [one for one in steps if low / _HEADROOM <= one <= high * _HEADROOM]
+def round_times(low: float, high: float) -> tuple[list[float], list[str]]:
+    """Round numbers among times, for a logarithmic axis, and their labels: the coarsest of which there are enough."""
+    first, last = low / _HEADROOM, high * _HEADROOM
+    steps = [
+        [digit * 10.0**power for power in range(-1, 6) for digit in digits]
+        for digits in ((1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 5.0, 7.0))
+    ]
+    # Times that are close to each other: multiples of a round number.
+    size = 10.0 ** np.floor(np.log10(last - first))
+    steps += [(share * size * np.arange(1.0, last / (share * size) + 1.0)).tolist() for share in (1.0, 0.5, 0.2)]
+    among = ([one for one in of if first <= one <= last] for of in steps)
+    ticks = next(of for of in among if len(of) >= _TICKS)
     return ticks, [f"{one:g}" for one in ticks]
 
 
@@ -242,6 +253,21 @@ def _around(count: int, first: float = 0.0) -> tuple[float, float]:
 
 def _axis(measure: Measure) -> str:
     return f"{measure.title} [{measure.unit}]" if measure.unit else measure.title
+
+
+def from_zero(pane: Axes, *, whole: bool = False) -> None:
+    """Let what is drawn stand on zero, with room above the largest value.
+
+    Args:
+        pane: with all that it has.
+        whole: the values are counts: between two of them is no tick.
+    """
+    top = pane.dataLim.y1
+    pane.set_ylim(0.0, _ABOVE * top if top > 0.0 else 1.0)
+    if whole:
+        from matplotlib.ticker import MaxNLocator  # noqa: PLC0415 - see services.reproduction.style
+
+        pane.yaxis.set_major_locator(MaxNLocator("auto", steps=(1, 2, 5, 10), integer=True))
 
 
 def _titled(measure: Measure) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import platform
+from collections.abc import Sequence
 from importlib.metadata import PackageNotFoundError, version
 
 from services.study.analysis.analysis import Analysis
@@ -28,11 +29,13 @@ def paragraph(analysis: Analysis) -> str:
         sentences += [
             "The unit of analysis is the participant: of each participant and method the median over models of the"
             " refinement time, and the one workload that was stated.",
-            f"{len(family)} confirmatory hypotheses ({listed}) were tested within participants, on each participant's"
-            " mean over the methods of either side, by Wilcoxon signed-rank tests: exact conditional on the observed"
+            f"{_counted(family, listed)} tested within participants, on each participant's mean over"
+            " the methods of either side, by Wilcoxon signed-rank tests: exact conditional on the observed"
             f" ranks (Streitberg and Röhmel 1986) up to {rules.exact_up_to} pairs, by the normal approximation with its"
             " correction for ties beyond; differences of zero were left out.",
-            f"Their p-values were adjusted by Holm's method for a family-wise error rate of {analysis.alpha:g}.",
+            f"Their p-values were adjusted by Holm's method for a family-wise error rate of {analysis.alpha:g}."
+            if len(family) > 1
+            else f"The error rate was {analysis.alpha:g}.",
             "Effect sizes are matched-pairs rank-biserial correlations with"
             f" {_percent(plan.confidence)} percentile bootstrap intervals ({RESAMPLES} resamples of participants) and"
             f" Hodges-Lehmann shifts with exact {_percent(plan.confidence)} intervals.",
@@ -64,6 +67,12 @@ def paragraph(analysis: Analysis) -> str:
         f"Resampling was seeded ({plan.seed}). {_software()}.",
     ]
     return " ".join(sentences)
+
+
+def _counted(family: Sequence[Hypothesis], listed: str) -> str:
+    if len(family) == 1:
+        return f"One confirmatory hypothesis ({listed}) was"
+    return f"{len(family)} confirmatory hypotheses ({listed}) were"
 
 
 def _stated(hypothesis: Hypothesis) -> str:

@@ -130,6 +130,7 @@ class Observations(msgspec.Struct, frozen=True, kw_only=True):
         synthetic: no person took part; marked in all that is made of it.
         source: where they are from, for the report.
         notes: about how they were read, for the report.
+        words: what answers about the participants are called, in their order, by the background's name and the answer.
     """
 
     outcomes: tuple[Outcome, ...]
@@ -140,6 +141,26 @@ class Observations(msgspec.Struct, frozen=True, kw_only=True):
     synthetic: bool = False
     source: str = ""
     notes: tuple[str, ...] = ()
+    words: dict[str, dict[str, str]] = msgspec.field(default_factory=dict)
+
+    def called(self, background: str, said: str) -> str:
+        """An answer as people read it.
+
+        Args:
+            background: what about the participants, such as "gaming".
+            said: as it was recorded.
+        """
+        return self.words.get(background, {}).get(said) or said.replace("_", " ")
+
+    def levels(self, background: str, said: Iterable[str]) -> list[str]:
+        """Answers once each, in the order in which they were offered; where that is not known as `in_order`.
+
+        Args:
+            background: what about the participants.
+            said: as they were recorded.
+        """
+        offered, there = list(self.words.get(background, {})), in_order(said)
+        return [one for one in offered if one in there] + [one for one in there if one not in offered]
 
     @property
     def participants(self) -> list[str]:

@@ -7,7 +7,6 @@ the form of the reporting appendix that was asked for since (doi 10.1145/3568294
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
 from statistics import median
 
 import msgspec
@@ -16,7 +15,7 @@ from services.study.analysis.analysis import Analysis
 from services.study.analysis.exclusion import Sample
 from services.study.analysis.hypotheses import Measure
 from services.study.analysis.numerals import figure
-from services.study.analysis.observations import Background, Observations, in_order
+from services.study.analysis.observations import Observations
 from services.study.analysis.rules import RETOUCH
 from services.study.analysis.sensitivity import sensitivity
 
@@ -76,7 +75,7 @@ class Item(msgspec.Struct, frozen=True):
 
 def appendix(observations: Observations, analysis: Analysis, reporting: Reporting) -> tuple[Item, ...]:
     """The reporting appendix, in the order in which papers have it."""
-    flow, people = analysis.flow, observations.backgrounds
+    flow = analysis.flow
     excluded = f"{len(flow.excluded)} of {flow.participants} from the refinement time, nobody from the workload"
     # By the frozen rules and no others: what was found is not a reason to leave anybody out.
     invalid = sum(cell.invalid for cell in flow.cells)
@@ -86,12 +85,12 @@ def appendix(observations: Observations, analysis: Analysis, reporting: Reportin
         ("Compensation", reporting.compensation),
         ("Consent", reporting.consent),
         ("Ethics approval", reporting.ethics),
-        ("Gender", _counted(people, "gender")),
-        ("Age", _aged(people)),
-        ("Handedness", _counted(people, "handedness")),
-        ("Field of study or work", _counted(people, "field")),
-        ("Gaming experience", _counted(people, "gaming")),
-        ("Teleoperation experience", _counted(people, "teleoperation")),
+        ("Gender", _counted(observations, "gender")),
+        ("Age", _aged(observations)),
+        ("Handedness", _counted(observations, "handedness")),
+        ("Field of study or work", _counted(observations, "field")),
+        ("Gaming experience", _counted(observations, "gaming")),
+        ("Teleoperation experience", _counted(observations, "teleoperation")),
         ("Sample size and power", reporting.sample_size),
         ("Sensitivity", _sensitivity(analysis)),
         ("Rules of exclusion", reporting.exclusion or f"refinement time: {Sample.PLANNED.meaning(Measure.SECONDS)}"),
@@ -114,20 +113,22 @@ def _sensitivity(analysis: Analysis) -> str:
     return sensitivity(decided, analysis.alpha)
 
 
-def _counted(people: Sequence[Background], name: str) -> str:
+def _counted(observations: Observations, name: str) -> str:
     """How many said what."""
-    said = Counter(str(getattr(one, name)) or NOT_GIVEN for one in people)
+    said = Counter(str(getattr(one, name)) or NOT_GIVEN for one in observations.backgrounds)
     if not set(said) - {NOT_GIVEN}:
         return ""
-    known = [text for text in in_order(said) if text != NOT_GIVEN]
-    return ", ".join(f"{text}: {said[text]}" for text in (*known, *(NOT_GIVEN for _ in [1] if NOT_GIVEN in said)))
+    known = observations.levels(name, set(said) - {NOT_GIVEN})
+    last = [NOT_GIVEN] if NOT_GIVEN in said else []
+    return ", ".join(f"{observations.called(name, text)}: {said[text]}" for text in (*known, *last))
 
 
-def _aged(people: Sequence[Background]) -> str:
+def _aged(observations: Observations) -> str:
     """Median and range where ages are years, else how many are in each band."""
+    people = observations.backgrounds
     years = [float(one.age) for one in people if one.age.replace(".", "", 1).isdecimal()]
     if not years or len(years) < sum(bool(one.age) for one in people):
-        return _counted(people, "age")
+        return _counted(observations, "age")
     missing = len(people) - len(years)
     said = f"median {figure(median(years), 0)}, {figure(min(years), 0)} to {figure(max(years), 0)} years"
     return said + (f", {missing} {NOT_GIVEN}" if missing else "")

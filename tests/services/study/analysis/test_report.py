@@ -116,6 +116,18 @@ def test_little_data_make_a_report_as_well(tmp_path, rules):
     assert "too few" in (tmp_path / REPORT).read_text()
 
 
+def test_a_single_hypothesis_and_no_test_of_backgrounds_are_said_as_such(tmp_path):
+    one = Hypothesis("x", Measure.SECONDS, METHODS[:1], METHODS[1:2])
+    observations = study(np.random.default_rng(12), people=5)
+    said = tuple(msgspec.structs.replace(b, age="") for b in observations.backgrounds)
+    report(tmp_path, msgspec.structs.replace(observations, backgrounds=said), Plan(hypotheses=(one,)))
+    text = (tmp_path / REPORT).read_text()
+    assert "One confirmatory hypothesis (" in text
+    assert "1 confirmatory hypotheses" not in text
+    assert "of 0 tests" not in text
+    assert "of the other hypotheses" not in text, "there are none"
+
+
 def test_a_study_in_which_everybody_fails_makes_a_report(tmp_path):
     failed = changed(
         study(np.random.default_rng(4)), lambda one: msgspec.structs.replace(one, adapted=False, seconds=None)
