@@ -7,10 +7,11 @@ from pathlib import Path
 
 import msgspec
 from rich.console import Console
-from rich.table import Table
+from rich.text import Text
 
 from services.commands.arguments import add_debug, whole
 from services.commands.progress import share_bar
+from services.commands.study import grouped
 from services.commands.terminal import Terminal
 from services.process.exit_codes import Exit
 from services.process.written import read
@@ -53,6 +54,15 @@ examples:
   retouch study analyse data.csv --columns participant=subject,seconds=time --methods OnStyl=online_pen
   retouch study analyse data.csv --plan plan.toml     # hypotheses of your own
 """
+
+
+_EFFECT = ("p, Holm", "rank-biserial", "shift (interval)")
+
+_VERDICTS = {
+    None: Text("exploratory"),
+    True: Text("supported", style="green"),
+    False: Text("not shown", style="yellow"),
+}
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -124,16 +134,13 @@ def summarise(analysis: Analysis, console: Console) -> None:
         soft_wrap=True,
     )
     ours = analysis.plan.rules == RETOUCH.name
-    extra = ("p, Holm", "rank-biserial", "shift, with its interval") if ours else ()
-    table = Table("hypothesis", "pairs", "p", *extra, "", box=None, pad_edge=False)
+    groups: dict[str, list[list[str | Text]]] = {}
     for one in analysis.results:
-        if one.sample is not Sample.PLANNED or one.test is None:
-            continue
-        verdict = {None: "exploratory", True: "[green]supported[/]", False: "[yellow]not shown[/]"}[one.rejected]
-        shift = f"{figure(one.shift.value)} ({bounds})" if (bounds := interval(one.shift)) else figure(one.shift.value)
-        effect = (p_value(one.adjusted), figure(one.effect.value, 2), shift) if ours else ()
-        table.add_row(one.hypothesis.name, str(one.pairs), p_value(one.test.p), *effect, verdict)
-    console.print(table)
+        if one.sample is Sample.PLANNED and one.test is not None:
+            shift = f"{figure(one.shift.value)}{f' ({bounds})' if (bounds := interval(one.shift)) else ''}"
+            effect = [p_value(one.adjusted), figure(one.effect.value, 2), shift] if ours else []
+            groups[one.hypothesis.name] = [[_VERDICTS[one.rejected], str(one.pairs), p_value(one.test.p), *effect]]
+    grouped.show(console, ["", "pairs", "p", *(_EFFECT if ours else ())], groups)
 
 
 def renamed(text: str) -> dict[str, str]:

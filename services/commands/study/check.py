@@ -40,12 +40,13 @@ def _design(study: Study) -> list[str]:
     rows = orders(protocol.order, [method.name for method in protocol.methods])
     allocation = list(Allocation(protocol.order, len(rows)).table())
     each = [allocation.count(group) for group in range(len(rows))]
+    count = len(protocol.analysis.hypotheses)
     return [
         f"{protocol.title}: protocol {protocol.name}, version {protocol.version}, in {', '.join(protocol.languages)}",
         f"{protocol.order.participants} participants; {len(rows)} orders of {len(protocol.methods)} methods, of each"
         f" {min(each)}" + (f" to {max(each)}: not balanced" if min(each) != max(each) else ""),
         "a participant goes through: " + ", ".join(part.name for part in course(protocol, rows[0])),
-        f"{len(protocol.analysis.hypotheses)} hypotheses,"
+        f"{count} {'hypothesis' if count == 1 else 'hypotheses'},"
         f" {sum(one.confirmatory for one in protocol.analysis.hypotheses)} of them confirmatory; rules"
         f" {protocol.analysis.rules}",
     ]

@@ -9,10 +9,9 @@ from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Mapping
 from pathlib import Path
 
-from rich.table import Table
-
 from services.commands.arguments import add_debug, whole
 from services.commands.progress import share_bar
+from services.commands.study import grouped
 from services.commands.terminal import Terminal
 from services.offline.proportion import Proportion
 from services.process.exit_codes import Exit
@@ -35,6 +34,10 @@ examples:
   retouch study power my_study
   retouch study power my_study --people 12,18,24 --effects 0,0.1,0.2 --studies 2000
 """
+
+
+_LOOSE = 0.1
+"""Width of an interval from which on a share is not told without it."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -79,15 +82,23 @@ def run(arguments: Namespace) -> int:
 
 
 def _show(found: Mapping[Cell, Proportion], question: Question) -> None:
-    table = Table("hypothesis", "people", *(f"effect {effect:g}" for effect in question.effects), box=None)
-    for name in dict.fromkeys(cell.hypothesis for cell in found):
-        for people in question.people:
-            cells = [found[Cell(people, effect, name)] for effect in question.effects]
-            told = name if people == question.people[0] else ""
-            table.add_row(told, str(people), *(f"{one.successes / one.trials:.0%}" for one in cells))
+    loose = any(one.interval[1] - one.interval[0] > _LOOSE for one in found.values())
+    groups = {
+        name: [
+            [str(people), *(_told(found[Cell(people, effect, name)], loose=loose) for effect in question.effects)]
+            for people in question.people
+        ]
+        for name in dict.fromkeys(cell.hypothesis for cell in found)
+    }
     console = Terminal(highlight=False)
-    console.print(table)
-    console.print(f"Of {question.studies} synthetic studies each; no person took part.", markup=False)
+    grouped.show(console, ["people", *(f"effect {effect:g}" for effect in question.effects)], groups)
+    drawn = f"Of {question.studies} synthetic studies each{', with 95 % intervals' if loose else ''}"
+    console.print(f"{drawn}; no person took part.", markup=False)
+
+
+def _told(one: Proportion, *, loose: bool) -> str:
+    low, high = (100.0 * end for end in one.interval)
+    return f"{one.successes / one.trials:.0%}{f' ({low:.0f}-{high:.0f})' if loose else ''}"
 
 
 def _csv(found: Mapping[Cell, Proportion]) -> str:
