@@ -46,6 +46,7 @@ class StandInTrials:
         self.desk = None
         self.running = None
         self.ready = True
+        self.fault = ""
         self.started = []
 
     def start(self, number, part, language):
@@ -62,8 +63,9 @@ class StandInTrials:
         known = self.desk.conductor.participant(number).attempts.get(part.name, [])
         active = sum(attempt.active for attempt in known)
         updates = sum(attempt.success for attempt in known)
-        said = {"said": "This is a stand-in: there is no robot.", "ready": self.ready}
-        return Live(number, part.name, acting=True, active=active, attempts=len(known), updates=updates, **said)
+        lasted = int(known[-1].ended) if known else 0
+        counted = {"attempts": len(known), "updates": updates, "lasted": lasted}
+        return Live(number, part.name, acting=True, active=active, ready=self.ready, fault=self.fault, **counted)
 
     def attempt(self, *, success):
         """An execution ends."""

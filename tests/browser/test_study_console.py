@@ -118,6 +118,32 @@ def test_a_session_is_ended_with_a_reason_and_its_order_is_open_again(study, con
     expect(console.locator(".allocation tbody tr.quiet")).to_have_count(6)
 
 
+def test_who_is_gone_is_not_counted_and_what_was_deleted_is_not_offered_again(study, console):
+    expect(console.locator(".people-panel h2")).to_have_text("Participants · 1 / 6")
+    console.click("[data-action=withdraw]")
+    console.get_by_role("button", name="Stop, and keep it").click()
+    expect(state(console)).to_have_text("withdrawn")
+    expect(console.locator(".people-panel h2")).to_have_text("Participants · 0 / 6")
+    console.click("[data-action=delete]")
+    console.get_by_role("button", name="Delete it").click()
+    expect(state(console)).to_have_text("withdrawn, deleted")
+    expect(console.locator("[data-action=withdraw], [data-action=delete]")).to_have_count(0)
+
+
+def test_what_is_wrong_with_what_runs_is_told(study, console):
+    trial(study)
+    study.trials.ready = False
+    expect(console.locator(".now-acting")).to_have_text("The robot is being made ready.")
+    study.trials.fault = "the disk is full"
+    expect(console.locator(".now .problem")).to_have_text("the disk is full")
+
+
+def test_a_rehearsal_is_marked_on_both_pages(study, visit):
+    study.desk.synthetic = True
+    for address in (study.page.console_url, study.page.participant_url(1)):
+        expect(visit(address, locale="de").locator(".rehearsal")).to_be_visible()
+
+
 def test_notes_are_written_about_a_participant_or_the_study(study, console):
     console.click("[data-tab=notes]")
     console.fill(".note-form textarea", "Somebody <b>came</b> in.")

@@ -6,6 +6,7 @@ import pytest
 from study_person import agree, answer, missing, parts, send, set_
 
 from services.study.events import Answered, Consented, Withdrawn
+from services.study.page.acts import Begin
 
 pytest.importorskip("uvicorn")
 from playwright.sync_api import expect
@@ -146,10 +147,27 @@ def test_a_trial_shows_the_robots_page_and_its_attempts(study, tab):
     expect(tab.frame_locator("iframe").get_by_text("stands in for the robot's page")).to_be_visible()
     tab.evaluate("document.querySelector('iframe').dataset.same = 'yes'")
     study.trials.attempt(success=False)
-    expect(tab.get_by_text("Attempts: 1")).to_be_visible()
+    expect(tab.locator(".header-standing")).to_have_text(
+        "Attempts: 1 · 0 of the last 4 succeeded (2 are needed); 30 min left"
+    )
     assert tab.locator("iframe[data-same=yes]").count() == 1  # it was not loaded anew
     study.trials.finish()
     expect(tab.locator("h1")).to_have_text("Model 1 of 2")
+
+
+@pytest.mark.parametrize("width", [700, 1000, 1280])
+def test_the_way_out_and_how_a_training_stands_are_seen_whole_in_a_rehearsal_too(study, visit, width):
+    study.desk.synthetic = True
+    study.desk.conductor.consent(1, "de")
+    parts(study, 1)
+    study.desk.participant_does(1, Begin(part=study.desk.conductor.now(1).name, language="de"))
+    tab = visit(study.page.participant_url(1), viewport={"width": width, "height": 720})
+    standing = tab.locator(".header-standing")
+    expect(standing).to_contain_text("0 der letzten 4 gelungen (2 nötig); noch 30 min")
+    assert standing.evaluate("one => one.scrollWidth <= one.clientWidth")
+    for one in ("#withdraw", ".rehearsal"):
+        box = tab.locator(one).bounding_box()
+        assert box["x"] + box["width"] <= width
 
 
 def test_a_break_counts_down_and_lets_nobody_go_on_before(study, tab):

@@ -73,7 +73,7 @@ class Trial:
 
     def __init__(self, desk: Desk, clock: Clock, begun: Begun, stack: Stack, before: threading.Thread | None) -> None:
         self.over = False
-        self.live = self._live(begun, begun.known, said="The robot is being made ready.")
+        self.live = self._live(begun, begun.known)
         self.thread = threading.Thread(target=self.run, name=f"trial {begun.part.name}", daemon=True)
         self._desk = desk
         self._clock = clock
@@ -167,8 +167,7 @@ class Trial:
         place = self._in_study(recording)
         self._untold += [msgspec.structs.replace(attempt, recording=place) for attempt in ended]
         fault = self._tell()
-        said = fault or (watch.told.told if watch.told is not None else "")
-        self.live = self._live(self._begun, self._attempts, said, watch)
+        self.live = self._live(self._begun, self._attempts, fault, watch)
         finished = watch.told is not None and watch.told.finished
         passed = self._passed(watch.lasted, finished=finished)
         if passed is None or self._untold:
@@ -230,8 +229,9 @@ class Trial:
         return str(path.relative_to(self._begun.folder)) if path.is_relative_to(self._begun.folder) else ""
 
     @staticmethod
-    def _live(begun: Begun, attempts: Sequence[Attempted], said: str, watch: Watch | None = None) -> Live:
+    def _live(begun: Begun, attempts: Sequence[Attempted], fault: str = "", watch: Watch | None = None) -> Live:
         known = sum(attempt.active for attempt in begun.known)
+        before = begun.known[-1].ended if begun.known else 0.0
         return Live(
             number=begun.number,
             part=begun.part.name,
@@ -239,6 +239,7 @@ class Trial:
             active=round(known + (watch.active if watch is not None else 0.0), 1),
             attempts=len(attempts),
             updates=watch.updates if watch is not None else 0,
-            said=said,
+            lasted=int(watch.lasted if watch is not None else before),
+            fault=fault,
             ready=watch is not None,
         )

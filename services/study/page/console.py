@@ -26,7 +26,7 @@ class Row(msgspec.Struct, frozen=True, kw_only=True):
         part: that they are at; None at the end.
         step: number of it, from 1.
         steps: of the session.
-        state: "ready", "form", "runs", "rest", "paused", "interrupted", "finished", or "gone".
+        state: "ready", "form", "runs", "rest", "paused", "interrupted", "finished", "gone", "withdrawn" or "deleted".
         gone: why.
         age_s: since their last checkpoint [s].
         old: that is longer than the protocol lets go on from without a decision.
@@ -108,6 +108,7 @@ class ConsoleView(msgspec.Struct, frozen=True, kw_only=True):
     Attributes:
         version: of the page's files.
         title: of the study.
+        rehearsal: nobody takes part.
         protocol: its name and version.
         languages: that the study speaks.
         proposed: the next number that nobody has.
@@ -124,6 +125,7 @@ class ConsoleView(msgspec.Struct, frozen=True, kw_only=True):
 
     version: str
     title: str
+    rehearsal: bool
     protocol: str
     languages: tuple[str, ...]
     proposed: int
@@ -152,6 +154,7 @@ def console_view(desk: Desk, number: int | None, version: str) -> ConsoleView:
     return ConsoleView(
         version=version,
         title=protocol.title,
+        rehearsal=desk.synthetic,
         protocol=f"{protocol.name} {protocol.version}",
         languages=protocol.languages,
         proposed=conductor.proposed(),
@@ -187,7 +190,7 @@ def _row(desk: Desk, known: Participant) -> Row:
 
 def _state(desk: Desk, known: Participant) -> str:
     if known.gone:
-        return "gone"
+        return known.end
     part, live = desk.conductor.now(known.number), desk.trials.live()
     if part is None:
         return "finished"

@@ -184,7 +184,8 @@ class Desk:
         self.conductor.end(number, part)
 
     def _withdraw(self, number: int, *, delete: bool) -> None:
-        if self.conductor.participant(number).gone == "withdrawn" and not delete:
+        end = self.conductor.participant(number).end
+        if end == "deleted" or (end == "withdrawn" and not delete):
             raise NotNow(f"participant {number} has withdrawn already")
         self._stop(number, "the participant has withdrawn")
         self.conductor.withdraw(number, delete=delete)

@@ -9,7 +9,9 @@ import msgspec
 from services.study.instruments.questions import Question, Words
 from services.study.page.desk import Desk
 from services.study.page.parts import PartView, part_view
+from services.study.page.trials import Live
 from services.study.session.course import Adapt, Agree, Fill, Part, Participant, Rest, Train, course
+from services.study.session.rules import standing
 
 
 class _Stage(msgspec.Struct, frozen=True, kw_only=True, tag_field="stage"):
@@ -68,16 +70,34 @@ class Ready(_Stage, frozen=True, tag="ready"):
     resumed: bool
 
 
+class Practice(msgspec.Struct, frozen=True, kw_only=True):
+    """How a training stands.
+
+    Attributes:
+        succeeded: of the last attempts, as many as the protocol says.
+        of_last: so many.
+        successes: that are needed.
+        minutes: that are left, a begun one too.
+    """
+
+    succeeded: int
+    of_last: int
+    successes: int
+    minutes: int
+
+
 class Trial(_Stage, frozen=True, tag="trial"):
     """It runs.
 
     Attributes:
         url: of the station's page.
-        attempts: so far.
+        attempts: so far; in a training, those that count.
+        practice: how a training stands; None for a model.
     """
 
     url: str
     attempts: int
+    practice: Practice | None = None
 
 
 class Break(_Stage, frozen=True, tag="rest"):
@@ -124,8 +144,9 @@ class ParticipantView(msgspec.Struct, frozen=True, kw_only=True):
     Attributes:
         version: of the page's files.
         title: of the study.
+        rehearsal: nobody takes part.
         number: of the participant.
-        language: of the text that they agreed to, or as they were enrolled.
+        language: in which they last did something, or as they were enrolled.
         languages: that the study speaks.
         part: that they are at; None at the end.
         step: number of it, from 1.
@@ -135,6 +156,7 @@ class ParticipantView(msgspec.Struct, frozen=True, kw_only=True):
 
     version: str
     title: str
+    rehearsal: bool
     number: int
     language: str
     languages: tuple[str, ...]
@@ -161,6 +183,7 @@ def participant_view(desk: Desk, number: int, version: str) -> ParticipantView:
     return ParticipantView(
         version=version,
         title=protocol.title,
+        rehearsal=desk.synthetic,
         number=number,
         language=known.language,
         languages=protocol.languages,
@@ -174,7 +197,7 @@ def participant_view(desk: Desk, number: int, version: str) -> ParticipantView:
 def _stage(desk: Desk, known: Participant, part: Part | None) -> Stage:
     protocol = desk.conductor.protocol
     if part is None:
-        return End(how=_how(known), contact=protocol.recruitment.contact)
+        return End(how=known.end, contact=protocol.recruitment.contact)
     if known.paused:
         return Wait(why="paused")
     match part:
@@ -191,14 +214,6 @@ def _stage(desk: Desk, known: Participant, part: Part | None) -> Stage:
             return _trial(desk, known, part)
 
 
-def _how(known: Participant) -> str:
-    if not known.gone:
-        return "finished"
-    if known.gone != "withdrawn":
-        return "gone"
-    return "deleted" if known.deleted else "withdrawn"
-
-
 def _form(desk: Desk, number: int, part: Fill) -> Form:
     instrument = desk.instruments[part.instrument]
     return Form(
@@ -209,10 +224,24 @@ def _form(desk: Desk, number: int, part: Fill) -> Form:
     )
 
 
+def _runs(desk: Desk, known: Participant, part: Train | Adapt, live: Live) -> Trial:
+    if isinstance(part, Adapt):
+        return Trial(url=desk.trials.url, attempts=live.attempts)
+    rule = desk.conductor.protocol.training
+    now = standing(known.attempts.get(part.name, ()), rule, live.lasted)
+    practice = Practice(
+        succeeded=now.succeeded,
+        of_last=rule.of_last,
+        successes=rule.successes,
+        minutes=math.ceil(now.left_s / 60.0),
+    )
+    return Trial(url=desk.trials.url, attempts=now.attempts, practice=practice)
+
+
 def _trial(desk: Desk, known: Participant, part: Train | Adapt) -> Stage:
     live = desk.trials.live()
     if live is not None and (live.number, live.part) == (known.number, part.name):
-        return Trial(url=desk.trials.url, attempts=live.attempts) if live.ready else Wait(why="starting")
+        return _runs(desk, known, part, live) if live.ready else Wait(why="starting")
     if live is not None:
         return Wait(why="busy")
     resumed = known.begun == part.name

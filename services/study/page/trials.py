@@ -19,7 +19,8 @@ class Live:
         active: how long they could, in this part so far [s].
         attempts: executions so far, those before a resumption too.
         updates: of the model so far.
-        said: one line for the experimenter: what the robot does, or what is wrong.
+        lasted: since the part's begin, the interruptions of it left out, to the second [s].
+        fault: what is wrong, one line for the experimenter; empty for nothing.
         ready: the station's page is there.
     """
 
@@ -29,7 +30,8 @@ class Live:
     active: float
     attempts: int
     updates: int
-    said: str = ""
+    lasted: int = 0
+    fault: str = ""
     ready: bool = True
 
 

@@ -164,6 +164,15 @@ class Participant:
         """Their number."""
         return self.enrolled.participant
 
+    @property
+    def end(self) -> str:
+        """How it comes to an end for them: "finished", "withdrawn", "deleted" or "gone"."""
+        if not self.gone:
+            return "finished"
+        if self.gone != "withdrawn":
+            return "gone"
+        return "deleted" if self.deleted else "withdrawn"
+
     def next(self, protocol: Protocol) -> Part | None:
         """The part that comes now; None where they are through, or gone."""
         return next(iter(self.left(protocol)), None)

@@ -3,24 +3,52 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import takewhile
 
 from services.study.events import Attempted
 from services.study.protocol.protocol import Task, Training
 
 
-def trained(attempts: Sequence[Attempted], rule: Training, lasted: float) -> bool | None:
-    """Whether a training is passed; None while it goes on.
+@dataclass(frozen=True)
+class Standing:
+    """How a training stands.
+
+    Attributes:
+        attempts: that count: those of the robot alone do not.
+        succeeded: of the last ones among which the rule asks for successes.
+        left_s: of the time that it may take [s].
+    """
+
+    attempts: int
+    succeeded: int
+    left_s: float
+
+
+def standing(attempts: Sequence[Attempted], rule: Training, lasted: float) -> Standing:
+    """How a training stands.
 
     Args:
-        attempts: so far; those of the robot alone count for nothing.
+        attempts: so far.
         rule: of the protocol.
         lasted: since its begin, the interruptions of it left out [s].
     """
     led = [attempt.success for attempt in attempts if attempt.teaching is not None]
-    if sum(led[-rule.of_last :]) >= rule.successes:
+    return Standing(len(led), sum(led[-rule.of_last :]), max(0.0, 60.0 * rule.minutes - lasted))
+
+
+def trained(attempts: Sequence[Attempted], rule: Training, lasted: float) -> bool | None:
+    """Whether a training is passed; None while it goes on.
+
+    Args:
+        attempts: so far.
+        rule: of the protocol.
+        lasted: since its begin, the interruptions of it left out [s].
+    """
+    now = standing(attempts, rule, lasted)
+    if now.succeeded >= rule.successes:
         return True
-    return False if len(led) >= rule.attempts or lasted >= 60.0 * rule.minutes else None
+    return False if now.attempts >= rule.attempts or now.left_s == 0.0 else None
 
 
 def adapted(attempts: Sequence[Attempted], task: Task) -> bool | None:

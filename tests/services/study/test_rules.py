@@ -5,7 +5,7 @@ import pytest
 from services.offline.people.ways import Teaching
 from services.study.events import Attempted
 from services.study.protocol.protocol import Task, Training
-from services.study.session.rules import adapted, trained
+from services.study.session.rules import Standing, adapted, standing, trained
 
 RULE = Training(successes=2, of_last=4, minutes=30.0, attempts=6)
 TASK = Task(updates=2, refinements=3)
@@ -76,3 +76,16 @@ def test_a_training_that_takes_too_long_is_failed_but_not_one_that_is_passed_the
 )
 def test_a_model_is_adapted_once_the_robot_alone_succeeds_and_is_not_once_all_was_used(said, updates, passed):
     assert adapted(attempts(said, updates), TASK) is passed
+
+
+@pytest.mark.parametrize(
+    ("said", "lasted", "stands"),
+    [
+        ("", 0.0, Standing(0, 0, 1800.0)),
+        ("sfS", 90.0, Standing(2, 1, 1710.0)),  # the robot alone did not practise
+        ("sffff", 600.0, Standing(5, 0, 1200.0)),
+        ("f", 2000.0, Standing(1, 0, 0.0)),
+    ],
+)
+def test_how_a_training_stands_is_said_by_what_ends_it(said, lasted, stands):
+    assert standing(attempts(said), RULE, lasted) == stands

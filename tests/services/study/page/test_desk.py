@@ -2,13 +2,14 @@
 
 from datetime import timedelta
 
+import msgspec
 import pytest
 
 from services.study import events
 from services.study.exceptions import AnswerRefused, NotNow, ParticipantThere, ParticipantUnknown
 from services.study.page import acts
 from services.study.page.console import console_view
-from services.study.page.participant import Break, Consent, Form, Ready, Trial, Wait, participant_view
+from services.study.page.participant import Break, Consent, Form, Practice, Ready, Trial, Wait, participant_view
 from tests.services.study.page.acting import agree, answers, begin, fill, row, stage
 from tests.study_harness import Served
 
@@ -62,9 +63,12 @@ def test_a_form_is_asked_in_the_same_order_however_often_it_is_loaded(study):
 def test_who_begins_sees_the_robots_page_and_the_console_sees_who_runs(ready):
     assert isinstance(stage(ready), Ready)
     begin(ready)
-    assert stage(ready) == Trial(url=ready.trials.url, attempts=0)
+    practice = Practice(succeeded=0, of_last=4, successes=2, minutes=30)
+    assert stage(ready) == Trial(url=ready.trials.url, attempts=0, practice=practice)
     ready.trials.attempt(success=True)
-    assert stage(ready).attempts == 1
+    assert stage(ready) == Trial(
+        url=ready.trials.url, attempts=1, practice=msgspec.structs.replace(practice, succeeded=1)
+    )
     assert row(ready).state == "runs"
     assert console_view(ready.desk, 1, "v").live.number == 1
 

@@ -24,6 +24,8 @@ MADE = {
         "interrupted",
         "finished",
         "gone",
+        "withdrawn",
+        "deleted",
         "open",
         "begun",
         "passed",
@@ -31,7 +33,7 @@ MADE = {
         "invalid",
     ),
     "end": ("finished", "withdrawn", "deleted", "gone"),
-    "wait": ("paused", "old", "busy"),
+    "wait": ("paused", "old", "busy", "starting"),
     "kind": ("note", "pause", "go_on", "invalid", "gone", "withdrawn", "deviation"),
     "attempt": ("alone", "prediction", "refinement", "waypoints", "demonstration", "missed", "kicked", "collision"),
 }

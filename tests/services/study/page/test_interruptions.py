@@ -140,6 +140,15 @@ def test_who_withdrew_and_kept_it_may_have_it_deleted_later(ready):
     assert stage(ready).how == "deleted"
 
 
+def test_what_was_deleted_is_deleted_once_and_said_so_to_the_experimenter(ready):
+    ready.desk.console_does(acts.WithdrawFor(number=1, delete=False))
+    assert row(ready).state == "withdrawn"
+    ready.desk.console_does(acts.WithdrawFor(number=1, delete=True))
+    assert row(ready).state == "deleted"
+    with pytest.raises(NotNow, match="has withdrawn already"):
+        ready.desk.console_does(acts.WithdrawFor(number=1, delete=True))
+
+
 def test_who_is_ended_by_the_experimenter_sees_so_and_their_order_is_given_again(ready):
     coming = console_view(ready.desk, None, "v").coming
     ready.desk.console_does(acts.Abort(number=1, reason="ill"))

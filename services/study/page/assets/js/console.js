@@ -71,14 +71,16 @@ function showHeader(view) {
   const key = JSON.stringify([spoken(), view.title, view.protocol]);
   if (header.dataset.key === key) return;
   header.dataset.key = key;
-  header.replaceChildren(
+  const content = [
     brand(),
     make("span.header-title", {}, say("console.name")),
     make("span.header-part", {}, view.title),
     make("span.spring"),
+    view.rehearsal ? make("span.badge.rehearsal", {}, say("page.rehearsal")) : null,
     make("span.badge", {}, view.protocol),
     language,
-  );
+  ];
+  header.replaceChildren(...content.filter(Boolean));
 }
 
 function showTabs() {

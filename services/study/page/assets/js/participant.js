@@ -13,6 +13,7 @@ const { number } = document.body.dataset;
 const LANGUAGE = `language ${number}`;
 
 const header = make("header.header");
+const standing = make("span.header-standing.quiet");
 const offline = make("div.offline", { role: "status", hidden: true });
 const stage = make("main.stage");
 document.getElementById("page").append(header, offline, stage);
@@ -43,12 +44,16 @@ function show(view) {
 }
 
 // What changes while a stage stays as it is.
-function identity({ left_s, attempts, ...stage }) {
+function identity({ left_s, attempts, practice, ...stage }) {
   return stage;
 }
 
 function showHeader(view) {
+  standing.textContent = howItStands(view.stage);
   const ended = view.stage.stage === "end";
+  const key = JSON.stringify([spoken(), view.part, view.step, ended]);
+  if (header.dataset.key === key) return;
+  header.dataset.key = key;
   const languages = view.languages.map((tag) =>
     make("option", { value: tag, selected: tag === spoken() }, nameOf(tag)),
   );
@@ -58,23 +63,24 @@ function showHeader(view) {
     { title: say("page.step", view) },
     make("i", { style: `width: ${(100 * (ended ? view.steps : view.step - 1)) / view.steps}%` }),
   );
-  const attempts = view.stage.stage === "trial" ? say("trial.attempts", { count: view.stage.attempts }) : "";
   const content = [
     brand(),
     make("span.header-title", {}, view.title),
-    make("span.header-part", {}, partTitle(view.part)),
-    attempts ? make("span.quiet", {}, attempts) : null,
+    make("span.header-part", {}, make("span", {}, partTitle(view.part)), standing),
     make("span.spring"),
-    make("span.quiet.header-step", {}, ended ? "" : say("page.step", view)),
-    progress,
+    view.rehearsal ? make("span.badge.rehearsal", {}, say("page.rehearsal")) : null,
+    make("div.header-progress", {}, make("span.quiet.header-step", {}, ended ? "" : say("page.step", view)), progress),
     chosen,
     make("span.badge", {}, say("page.participant", view)),
     ended ? null : button(say("withdraw.open"), () => askToWithdraw(link), { kind: "quiet", id: "withdraw" }),
   ];
-  const key = JSON.stringify([spoken(), view.part, view.step, attempts, ended]);
-  if (header.dataset.key === key) return;
-  header.dataset.key = key;
   header.replaceChildren(...content.filter(Boolean));
+}
+
+function howItStands({ stage, attempts, practice }) {
+  if (stage !== "trial") return "";
+  const made = say("trial.attempts", { count: attempts });
+  return practice ? `${made} · ${say("trial.practice", practice)}` : made;
 }
 
 function choose({ target }) {

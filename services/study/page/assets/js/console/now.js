@@ -17,7 +17,7 @@ export function nowElements({ live, rows }) {
       "p.now-acting",
       { data: { tone: live.acting ? "good" : "none" } },
       make("span.mark"),
-      say(live.acting ? "console.acting" : "console.not_acting"),
+      say(live.ready ? (live.acting ? "console.acting" : "console.not_acting") : "wait.starting"),
     ),
     make(
       "dl.facts",
@@ -26,6 +26,6 @@ export function nowElements({ live, rows }) {
       fact("updates", `${live.updates}`),
       fact("active", seconds(live.active)),
     ),
-    live.said ? make("p.quiet", {}, live.said) : null,
+    live.fault ? make("p.problem", {}, live.fault) : null,
   ];
 }

@@ -33,7 +33,7 @@ export class People {
   }
 
   show(view) {
-    this.title.textContent = `${say("console.participants")} · ${view.rows.length} / ${view.aimed}`;
+    this.title.textContent = `${say("console.participants")} · ${view.rows.filter((row) => !row.gone).length} / ${view.aimed}`;
     this.send.textContent = say("console.enrol");
     this.label.textContent = say("console.number");
     this.identity.textContent = say("console.identity");
@@ -50,7 +50,7 @@ export class People {
 
   row(row, chosen) {
     const state = say(`state.${row.state}`);
-    const where = row.part ? partTitle(row.part) : row.gone ? row.gone : "";
+    const where = row.part ? partTitle(row.part) : row.state === "gone" ? row.gone : "";
     return make(
       "button.person",
       {

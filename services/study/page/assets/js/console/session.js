@@ -33,7 +33,7 @@ export class Session {
       going && row.state !== "paused" ? this.action("pause", () => this.pause(row)) : null,
       going && row.state === "paused" && !row.old ? this.action("go_on", () => this.goOn(row), "go") : null,
       going ? this.action("abort", () => this.abort(row)) : null,
-      this.action("withdraw", () => this.withdraw(row)),
+      this.leave(row),
     ];
     return make(
       "div.session-head",
@@ -48,8 +48,14 @@ export class Session {
         `${say("console.order", { order: row.order.join(", ") })} · ${row.language.toUpperCase()} · `,
         make("a.link", { href: `/participant/${row.number}`, target: "_blank", rel: "noopener" }, say("console.their_page")),
       ),
-      row.gone ? make("p.notice", {}, say("console.gone", { reason: row.gone })) : null,
+      row.state === "gone" ? make("p.notice", {}, say("console.gone", { reason: row.gone })) : null,
     );
+  }
+
+  leave(row) {
+    if (row.state === "deleted") return null;
+    if (row.state === "withdrawn") return this.action("delete", () => this.delete(row));
+    return this.action("withdraw", () => this.withdraw(row));
   }
 
   // After a crash or a long pause: how it goes on is the experimenter's to say, who sees how long ago it was.
@@ -162,6 +168,12 @@ export class Session {
       about: say("ask.withdraw_about"),
       buttons: [cancel(), [say("withdraw.keep"), "", act(false)], [say("withdraw.delete"), "danger", act(true)]],
     });
+  }
+
+  delete({ number }) {
+    const yes = () => this.act({ act: "withdraw_for", number, delete: true });
+    const buttons = [cancel(), [say("ask.delete_yes"), "danger", yes]];
+    ask({ heading: say("ask.delete", { number }), about: say("ask.withdraw_about"), buttons });
   }
 }
 
