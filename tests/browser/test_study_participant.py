@@ -211,7 +211,7 @@ def test_a_withdrawal_during_a_trial_stops_the_robot(study, tab):
     assert study.trials.live() is None
 
 
-def test_a_language_is_chosen_and_written_down_with_what_is_read_in_it(study, tab):
+def test_a_language_is_chosen_and_written_down_with_what_is_read_in_it(study, tab, visit):
     tab.select_option(".language", "de")
     expect(tab.locator("h1")).to_have_text("Bevor Sie teilnehmen")
     assert tab.evaluate("document.documentElement.lang") == "de"
@@ -225,6 +225,11 @@ def test_a_language_is_chosen_and_written_down_with_what_is_read_in_it(study, ta
     expect(tab.locator("h1")).to_have_text("Oefening")
     (consented,), (answered,) = events(study, Consented), events(study, Answered)
     assert (consented.language, answered.language) == ("de", "nl")
+    expect(visit(study.page.participant_url(1)).locator("h1")).to_have_text("Oefening")
+    tab.select_option(".language", "de")
+    tab.click("button.go")
+    tab.wait_for_selector("iframe")
+    assert study.trials.started == [(1, "OnKey/training", "de")]
 
 
 def test_two_browsers_on_one_session_show_the_same(study, tab, visit):

@@ -73,6 +73,13 @@ def test_a_part_has_its_folder_and_one_that_goes_on_the_model_that_it_had(study,
     assert Stack.started[-1].folder == model.parent
 
 
+def test_the_robots_page_speaks_the_language_of_the_press(study):
+    for language in ("en", "de"):
+        begin(study, language=language)
+        study.trials._trial.thread.join(WITHIN_S)
+        assert Stack.started[-1].configuration.station.language == language
+
+
 def test_a_model_of_which_nothing_was_told_begins_anew(study, tmp_path):
     model = tmp_path / "recordings" / "P01" / "OnKey-training" / "model-1.sqlite"
     model.parent.mkdir(parents=True)
