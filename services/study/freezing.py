@@ -48,7 +48,7 @@ def analysis() -> str:
     """Digest of the analysis' own code, whatever its name in the file system."""
     total = hashlib.sha256()
     for path in sorted(_ANALYSIS.rglob("*")):
-        if path.suffix in {".py", ".html", ".css"}:
+        if path.suffix in {".py", ".jinja"}:
             total.update(path.relative_to(_ANALYSIS).as_posix().encode() + b"\0" + path.read_bytes())
     return total.hexdigest()
 

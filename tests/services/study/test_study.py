@@ -1,9 +1,11 @@
 """A study's folder: made, frozen, opened; what changes afterwards is told, and written down with its reason."""
 
 import datetime
+import shutil
 
 import pytest
 
+from services.study import freezing
 from services.study.events import Deviated, Enrolled, Opened
 from services.study.exceptions import FrozenAlready, Mixed, NoStudy, NotFrozen, StudyFrozen, StudyInUse, StudyThere
 from services.study.protocols import SHIPPED
@@ -86,6 +88,16 @@ def test_what_changes_after_freezing_is_refused_until_somebody_says_why(study, w
     changed.journal(now, synthetic=False).close()  # said once is said
     deviations = [entry.event for entry in changed.entries() if isinstance(entry.event, Deviated)]
     assert [(list(one.changed), one.reason) for one in deviations] == [([what], "the board asked for it")]
+
+
+@pytest.mark.parametrize("what", ["ranks.py", "report.html.jinja"])
+def test_all_of_the_analysis_is_in_its_digest(tmp_path, monkeypatch, what):
+    copy = tmp_path / "analysis"
+    shutil.copytree(freezing._ANALYSIS, copy)
+    monkeypatch.setattr(freezing, "_ANALYSIS", copy)
+    before = freezing.analysis()
+    (copy / what).write_bytes((copy / what).read_bytes() + b"\n")
+    assert freezing.analysis() != before
 
 
 def test_another_change_wants_another_reason(study):
