@@ -4,14 +4,19 @@ SimError
 ├── UnknownScene            no scene of that name
 ├── UnknownVariant          the scene has no variant of that name
 ├── WrongPlace              a place has not as many numbers as the scene's targets have
+├── UnknownRobot            no robot of that name ships
+├── RobotOfItsOwn           another robot is to stand in a scene that is about its own
 ├── OutOfReach              a position that the robot cannot take, or a place where no target can be
 ├── CacheUnusable           nothing can be kept: neither in the user's cache folder nor in a temporary one
 ├── DescriptionMissing      the robot's meshes are not installed
 ├── DescriptionInvalid      a mesh or link of the robot cannot be used
+├── FileMissing             a file that a robot names is not there
+├── RobotUnfit              a robot names what its description does not have
 └── DrawingLibraryMissing   neither EGL nor OSMesa is there
 """
 
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 
 
 class SimError(Exception):
@@ -35,6 +40,26 @@ class UnknownVariant(SimError):
         self.name = name
         self.known = tuple(known)
         super().__init__(f"scene {scene!r} has no variant {name!r}: use one of {', '.join(self.known)}")
+
+
+class UnknownRobot(SimError):
+    """No robot of that name ships."""
+
+    def __init__(self, name: str, known: Iterable[str]) -> None:
+        self.name = name
+        self.known = tuple(known)
+        super().__init__(f"unknown robot {name!r}: use one of {', '.join(self.known)}, or the path of a robot file")
+
+
+class RobotOfItsOwn(SimError):
+    """A scene is about its own robot, and no other can stand in it."""
+
+    def __init__(self, scene: str, kind: str, others: Iterable[str]) -> None:
+        self.scene = scene
+        self.kind = kind
+        super().__init__(
+            f"scene {scene} has a robot of its own, the {kind}: leave out --robot-model, or use {', '.join(others)}"
+        )
 
 
 class WrongPlace(SimError):
@@ -81,10 +106,28 @@ class DescriptionMissing(SimError):
 class DescriptionInvalid(SimError):
     """A part of the robot description is not what its format promises."""
 
-    def __init__(self, part: str, reason: str) -> None:
+    def __init__(self, part: str, reason: str, remedy: str = "reinstall the package, or mend the file") -> None:
         self.part = part
         self.reason = reason
-        super().__init__(f"robot description: {part}: {reason}; reinstall the package example-robot-data")
+        super().__init__(f"robot description: {part}: {reason}; {remedy}")
+
+
+class FileMissing(SimError):
+    """A file that a robot names is not there."""
+
+    def __init__(self, robot: str, what: str, path: Path) -> None:
+        self.robot = robot
+        self.path = path
+        super().__init__(f"robot {robot}: {what} {path} is not there: name it as it lies beside the robot's file")
+
+
+class RobotUnfit(SimError):
+    """What a robot names is not in its description, or not as it has to be."""
+
+    def __init__(self, robot: str, fault: str) -> None:
+        self.robot = robot
+        self.fault = fault
+        super().__init__(f"robot {robot}: {fault}")
 
 
 class DrawingLibraryMissing(SimError):

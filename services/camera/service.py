@@ -23,9 +23,9 @@ from services.process.runner import Service
 from services.process.schedule import Schedule
 from sim.exceptions import UnknownScene, UnknownVariant
 from sim.robots.description import prepare
+from sim.robots.robot import HEAD_CAMERA, WRIST_CAMERA
 from sim.tasks import scene
 from sim.world.cameras import Cameras
-from sim.world.staging import HEAD_CAMERA, WRIST_CAMERA
 
 log = logging.getLogger(__name__)
 

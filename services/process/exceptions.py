@@ -24,6 +24,7 @@ ServiceError
 ├── Refusal                  a request that the robot will not carry out (services.robot.refusal)
 ├── StartImpossible          a place where no motion can start (services.robot.starts)
 ├── InverseFailed            the inverse kinematics found no step (services.robot.mechanism)
+├── JointsInOtherOrder       a robot's joints that are not named from base to gripper (services.robot.mechanism)
 ├── Unreachable              a pose that the robot does not reach (services.robot.mechanism)
 ├── Blocked                  something stands where the arm is to be put (services.robot.backends.backend)
 ├── NoSuchEntry              nothing of that number in a skill's history (services.model.history)

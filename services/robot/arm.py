@@ -251,7 +251,7 @@ class Arm:
             self._fault = f"the robot comes within {distance * 1e3:.0f} mm of itself"
             return q, tuple(clamped)
         self._q, self._self_distance = q_next, distance
-        clamped.extend(_shortfall(self._kinematics.forward(q_next), target))
+        clamped.extend(_shortfall(self._kinematics.forward(q_next), target, self._kinematics.turn_slack))
         return q, tuple(clamped)
 
     def _conclude(self, episode: Episode) -> EpisodeOutcome | None:
@@ -280,11 +280,11 @@ class Arm:
         self._verdict: Verdict = self._judge.judge(self.measured, seen.object_pose, seen.touch)
 
 
-def _shortfall(commanded: Pose, reference: Pose) -> list[str]:
+def _shortfall(commanded: Pose, reference: Pose, turn_slack: float) -> list[str]:
     """By how much the joints do not bring the grasping frame to the reference, where that is worth saying."""
     gap = float(np.linalg.norm(commanded.position - reference.position))
     short = [f"reach: {gap * 1e3:.0f} mm short"] if gap > OUT_OF_REACH else []
-    if abs(float(commanded.orientation @ reference.orientation)) < math.cos(0.5 * OUT_OF_TURN):
+    if abs(float(commanded.orientation @ reference.orientation)) < math.cos(0.5 * (OUT_OF_TURN + turn_slack)):
         angle = angle_between(commanded.orientation, reference.orientation)
         short.append(f"reach: {math.degrees(angle):.0f} degrees short")
     return short

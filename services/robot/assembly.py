@@ -25,7 +25,7 @@ def kinematics_of(scene: AnyScene, description: RobotDescription) -> Mechanism:
             # Imported here: the arm's packages take a second, and a particle needs none of them.
             from services.robot.kinematics import Kinematics  # noqa: PLC0415
 
-            return Kinematics(description.urdf, scene.posture)
+            return Kinematics(description.urdf, scene.posture, scene.manipulator)
         case ParticleScene():
             return ParticleKinematics(scene.freedom.axes)
 

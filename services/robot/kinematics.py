@@ -1,6 +1,7 @@
-"""Whole-body kinematics of torso and arm: Pinocchio for the model, Pink for the inverse."""
+"""Kinematics of all joints that are commanded: Pinocchio for the model, Pink for the inverse."""
 
 from collections.abc import Sequence
+from functools import partial
 from itertools import product
 from pathlib import Path
 
@@ -15,15 +16,18 @@ from pink.tasks import FrameTask, PostureTask
 from qpsolvers.exceptions import QPError
 
 from services.robot.correction import Correction
-from services.robot.mechanism import InverseFailed, Unreachable
+from services.robot.mechanism import InverseFailed, JointsInOtherOrder, Unreachable
 from sim.pose import Pose
-from sim.robots.description import CONTROLLED_JOINTS, GRASPING_FRAME
+from sim.robots.catalogue import DEFAULT
+from sim.robots.gripper import GRASPING_FRAME
+from sim.robots.robot import Manipulator
 
 Array = NDArray[np.float64]
 
 _SOLVER = "daqp"
 _POSITION_COST = 1.0  # [cost] / [m]
 _ORIENTATION_COST = 0.1  # [cost] / [rad]: at a joint limit the orientation gives way first
+_SOFT_ORIENTATION_COST = 0.005  # [cost] / [rad]: of an arm that cannot have any: it takes no millimetre of the position
 _POSTURE_COST = 1e-3  # [cost] / [rad]: only what the frame leaves free
 _LM_DAMPING = 1e-6
 _SOLVE_DT = 0.5  # [s]: long enough that the speed limits do not bind in a search
@@ -31,56 +35,51 @@ _SOLVE_ITERATIONS = 60
 _POSITION_TOLERANCE = 1e-4  # [m]
 _ORIENTATION_TOLERANCE = 1e-3  # [rad]
 _RANDOM_STARTS = 12
+_SETTLED = 1e-4  # [rad] by which a step still turns an arm of few joints once it is as near as it comes
 
-# Shapes that can meet at all; the links between them are covered by their neighbours.
-_LIMBS = (
-    "arm_4_link_0",
-    "arm_5_link_0",
-    "arm_6_link_0",
-    "gripper_palm_link_0",
-    "gripper_left_finger_link_0",
-    "gripper_right_finger_link_0",
-)
-_TRUNK = ("base_link_0", "torso_fixed_column_link_0", "torso_lift_link_0", "head_2_link_0")
+_TRUNK_JOINTS = 1  # that carry a part of the trunk, at most
+_LIMB_JOINTS, _FEWER = 4, 3  # that carry a limb, at least; of an arm of less than six joints
+_SIX = 6
 
 
 class Kinematics:
     """Forward and inverse kinematics of the grasping frame, and the distance of the robot to itself.
 
-    Joint vectors have shape (8,), in the order of `CONTROLLED_JOINTS` [m, then rad]; the head is held
-    at zero. One object serves one thread.
+    Joint vectors have shape (m,), in the order of the robot's joints [rad, or m]; the other joints are held where the
+    robot says. One object serves one thread.
 
     Args:
         urdf: The robot's description.
         posture: Configuration that the redundant joint is drawn to; the middle of the ranges by default.
+        robot: That is described.
     """
 
-    def __init__(self, urdf: Path, posture: Array | None = None) -> None:
+    def __init__(self, urdf: Path, posture: Array | None = None, robot: Manipulator = DEFAULT) -> None:
         full, geometry = _load(urdf)
-        held = [full.getJointId(name) for name in full.names[1:] if name not in CONTROLLED_JOINTS]
-        self._model, (self._geometry,) = pin.buildReducedModel(full, [geometry], held, pin.neutral(full))
-        if tuple(self._model.names[1:]) != CONTROLLED_JOINTS:
-            raise ValueError(f"joints of {urdf} are {list(self._model.names[1:])}, expected {CONTROLLED_JOINTS}")
+        held = [full.getJointId(name) for name in full.names[1:] if name not in robot.joint_names]
+        self._model, (self._geometry,) = pin.buildReducedModel(full, [geometry], held, _at_rest(full, robot))
+        if tuple(self._model.names[1:]) != robot.joint_names:
+            raise JointsInOtherOrder(tuple(self._model.names[1:]), robot.joint_names)
         self._data = self._model.createData()
         self._frame = self._model.getFrameId(GRASPING_FRAME)
-        if self._frame == self._model.nframes:  # Pinocchio's silent "not found"
-            raise ValueError(f"{urdf} has no frame {GRASPING_FRAME}")
         self.lower: Array = self._model.lowerPositionLimit.copy()
         self.upper: Array = self._model.upperPositionLimit.copy()
         self.velocity_limit: Array = self._model.velocityLimit.copy()
 
         self._configuration = pink.Configuration(self._model, self._data, (self.lower + self.upper) / 2)
-        self._pose_task = FrameTask(GRASPING_FRAME, _POSITION_COST, _ORIENTATION_COST, _LM_DAMPING)
+        self.turn_slack = robot.turn_slack
+        cost = _SOFT_ORIENTATION_COST if robot.turn_slack else _ORIENTATION_COST
+        self._pose_task = FrameTask(GRASPING_FRAME, _POSITION_COST, cost, _LM_DAMPING)
         self._posture_task = PostureTask(_POSTURE_COST)
         self._posture_task.set_target((self.lower + self.upper) / 2 if posture is None else posture)
         self._limits = (ConfigurationLimit(self._model, config_limit_gain=1.0), VelocityLimit(self._model))
-        self._geometry_data = _pair_up(self._model, self._geometry)
+        self._geometry_data = _pair_up(self._model, self._geometry, robot)
 
     def forward(self, q: Array) -> Pose:
         """Return the pose of the grasping frame in the base frame.
 
         Args:
-            q: Joint positions, shape (8,).
+            q: Joint positions, shape (m,).
         """
         pin.forwardKinematics(self._model, self._data, q)
         return _pose(pin.updateFramePlacement(self._model, self._data, self._frame))
@@ -93,13 +92,13 @@ class Kinematics:
         """Move one tick towards a pose: one iteration of differential inverse kinematics.
 
         Args:
-            q: Joint positions, shape (8,).
+            q: Joint positions, shape (m,).
             position: Of the grasping frame, shape (3,) [m].
             orientation: Of the grasping frame, scalar first, shape (4,).
             dt: Duration of the tick [s]; speeds stay within the joints' limits over it.
 
         Returns:
-            Next joint positions and the velocities that lead there, each of shape (8,).
+            Next joint positions and the velocities that lead there, each of shape (m,).
 
         Raises:
             InverseFailed: The solver found no step.
@@ -123,11 +122,11 @@ class Kinematics:
         Args:
             position: Of the grasping frame, shape (3,) [m].
             orientation: Of the grasping frame, scalar first, shape (4,).
-            seeds: Configurations to start from first, each of shape (8,).
+            seeds: Configurations to start from first, each of shape (m,).
             rng: Source of the random starts.
 
         Returns:
-            Joint positions, shape (8,).
+            Joint positions, shape (m,).
 
         Raises:
             Unreachable: No start led there.
@@ -141,13 +140,18 @@ class Kinematics:
 
     def _descend(self, q: Array, position: Array, orientation: Array) -> Array | None:
         target = _placement(position, orientation)
+        before = np.inf
         for _ in range(_SOLVE_ITERATIONS):
             pin.forwardKinematics(self._model, self._data, q)
             actual = pin.updateFramePlacement(self._model, self._data, self._frame)
             error = pin.log6(actual.actInv(target)).vector
             reached = np.linalg.norm(error[:3]) < _POSITION_TOLERANCE
-            if reached and np.linalg.norm(error[3:]) < _ORIENTATION_TOLERANCE:
+            turn = float(np.linalg.norm(error[3:]))
+            if reached and turn < _ORIENTATION_TOLERANCE:
                 return q
+            if reached and turn < self.turn_slack and abs(before - turn) < _SETTLED:
+                return q
+            before = turn
             try:
                 q, _ = self.solve_step(q, position, orientation, _SOLVE_DT)
             except InverseFailed:
@@ -160,7 +164,7 @@ class Kinematics:
         Links are their convex hulls; the value is zero or negative where two of them meet.
 
         Args:
-            q: Joint positions, shape (8,).
+            q: Joint positions, shape (m,).
         """
         nearest = pin.computeDistances(self._model, self._data, self._geometry, self._geometry_data, q)
         return float(self._geometry_data.distanceResults[nearest].min_distance)
@@ -171,14 +175,29 @@ def _load(urdf: Path) -> tuple[pin.Model, pin.GeometryModel]:
     return model, pin.buildGeomFromUrdf(model, str(urdf), pin.GeometryType.COLLISION)
 
 
-def _pair_up(model: pin.Model, geometry: pin.GeometryModel) -> pin.GeometryData:
-    """Make all shapes convex and pair the limbs with the trunk, but for pairs that meet at the neutral pose."""
+def _at_rest(model: pin.Model, robot: Manipulator) -> Array:
+    """Joint positions of the whole description, those that are held where they are held, shape (n,)."""
+    q: Array = pin.neutral(model)
+    for joint in robot.held:
+        q[model.joints[model.getJointId(joint.name)].idx_q] = joint.position
+    return q
+
+
+def _pair_up(model: pin.Model, geometry: pin.GeometryModel, robot: Manipulator) -> pin.GeometryData:
+    """Make all shapes convex and pair the limbs with the trunk, but for pairs that meet at rest.
+
+    The links between limbs and trunk are covered by their neighbours.
+    """
     for shape in geometry.geometryObjects:
         if isinstance(shape.geometry, coal.BVHModelBase):
             shape.geometry.buildConvexHull(True, "Qt")
             shape.geometry = shape.geometry.convex
-    for limb, trunk in product(_LIMBS, _TRUNK):
-        geometry.addCollisionPair(pin.CollisionPair(_shape(geometry, limb), _shape(geometry, trunk)))
+    carried = partial(_carried, geometry)
+    limb_joints = _LIMB_JOINTS if model.njoints > _SIX else _FEWER
+    limbs = _shapes(geometry, robot.limbs) if robot.limbs else carried(limb_joints, model.njoints)
+    trunk = _shapes(geometry, robot.trunk) if robot.trunk else carried(0, _TRUNK_JOINTS)
+    for pair in product(limbs, trunk):
+        geometry.addCollisionPair(pin.CollisionPair(*pair))
     data = geometry.createData()
     pin.computeDistances(model, model.createData(), geometry, data, pin.neutral(model))
     results = zip(list(geometry.collisionPairs), data.distanceResults, strict=True)
@@ -187,11 +206,16 @@ def _pair_up(model: pin.Model, geometry: pin.GeometryModel) -> pin.GeometryData:
     return geometry.createData()
 
 
-def _shape(geometry: pin.GeometryModel, name: str) -> int:
-    index = int(geometry.getGeometryId(name))
-    if index == geometry.ngeoms:  # Pinocchio's silent "not found"
-        raise ValueError(f"the robot description has no collision shape {name}")
-    return index
+def _carried(geometry: pin.GeometryModel, least: int, most: int) -> list[int]:
+    """The shapes that hang behind so many joints of the arm; joints of a chain are numbered along it."""
+    shapes = enumerate(geometry.geometryObjects)
+    return [index for index, shape in shapes if least <= shape.parentJoint <= most]
+
+
+def _shapes(geometry: pin.GeometryModel, names: Sequence[str]) -> list[int]:
+    """The shapes of some links, or single ones of them, in the order of their names."""
+    known = [shape.name for shape in geometry.geometryObjects]  # "link_0", "link_1"
+    return [index for name in names for index, one in enumerate(known) if name in (one, one.rpartition("_")[0])]
 
 
 def _placement(position: Array, orientation: Array) -> pin.SE3:

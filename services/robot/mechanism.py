@@ -30,6 +30,15 @@ class Unreachable(ServiceError):
         super().__init__(f"the robot cannot reach ({place}) m in that orientation: choose a pose closer to the robot")
 
 
+class JointsInOtherOrder(ServiceError):
+    """A robot's joints are not named from the base to the gripper."""
+
+    def __init__(self, found: tuple[str, ...], named: tuple[str, ...]) -> None:
+        self.found = found
+        self.named = named
+        super().__init__(f"the arm's joints are {', '.join(found)}, not {', '.join(named)}: name them in that order")
+
+
 class Mechanism(Protocol):
     """Forward and inverse kinematics of the grasping frame.
 
@@ -37,11 +46,13 @@ class Mechanism(Protocol):
         lower: least joint positions, shape (m,).
         upper: greatest joint positions, shape (m,).
         velocity_limit: greatest joint speeds, shape (m,).
+        turn_slack: by how much it may leave an orientation that it is asked for, with nothing wrong [rad].
     """
 
     lower: Array
     upper: Array
     velocity_limit: Array
+    turn_slack: float
 
     def forward(self, q: Array) -> Pose:
         """The pose of the grasping frame in the base frame at joint positions q, shape (m,)."""

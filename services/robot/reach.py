@@ -47,7 +47,7 @@ def check_reach(kinematics: Mechanism, q: Array, motion: Trajectory, waypoints: 
         stands = kinematics.forward(q)
         short = float(np.linalg.norm(stands.position - position))
         turned = angle_between(stands.orientation, orientation)
-        if short > SHORT or turned > TURNED:
+        if short > SHORT or turned > TURNED + kinematics.turn_slack:
             how = (
                 f"stays {short * 1e3:.0f} mm away" if short > SHORT else f"turns {np.degrees(turned):.0f} degrees less"
             )

@@ -1,46 +1,36 @@
-"""One URDF of the robot that both Pinocchio and MuJoCo read.
+"""One URDF of a robot that both Pinocchio and MuJoCo read.
 
-The package example-robot-data holds PAL Robotics' TIAGo without a hand (Apache-2.0). Its URDF names
-meshes by package, has COLLADA meshes that MuJoCo cannot decode, and inertias that no rigid body can
-have. The repaired copy, with a gripper put on, is made once into a cache folder.
+Descriptions name meshes by package, have COLLADA meshes that MuJoCo cannot decode, and inertias that no rigid body can
+have. The repaired copy, standing where it is to stand, with the gripper's frames and, where it comes without one, a
+gripper put on, is made once into a cache folder.
 """
 
 import hashlib
+import inspect
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 from functools import partial
 from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
-import numpy as np
-from numpy.typing import NDArray
-
 from sim.cache import kept
-from sim.exceptions import DescriptionMissing
-from sim.robots import gripper, meshes
+from sim.exceptions import DescriptionMissing, FileMissing
+from sim.robots import faults, gripper, inertia, meshes, shapes
+from sim.robots.catalogue import DEFAULT
+from sim.robots.gripper import Mount, fixed_urdf
+from sim.robots.robot import Base, Manipulator
 
-CONTROLLED_JOINTS = (
-    "torso_lift_joint",
-    "arm_1_joint",
-    "arm_2_joint",
-    "arm_3_joint",
-    "arm_4_joint",
-    "arm_5_joint",
-    "arm_6_joint",
-    "arm_7_joint",
-)
-HEAD_JOINTS = ("head_1_joint", "head_2_joint")
-HEAD_CAMERA_FRAME = "xtion_rgb_optical_frame"
+CONTROLLED_JOINTS = DEFAULT.joint_names
+HEAD_JOINTS = DEFAULT.held_names
 GRASPING_FRAME = gripper.GRASPING_FRAME
-WRIST_CAMERA_FRAME = gripper.WRIST_CAMERA_FRAME
 
-_PACKAGE = "example-robot-data"
-_SOURCE = "cmeel.prefix/share/example-robot-data/robots/tiago_description/robots/tiago_no_hand.urdf"
-_MESH_PREFIX = "package://example-robot-data/robots/tiago_description/"
+STAND = "stand"
+"""The link on which a robot stands that does not stand at the scene's origin."""
+
+_SHARE = "cmeel.prefix/share"
 _URDF_NAME = "robot.urdf"
-_VISUAL_TRIANGLES = 20_000
-_SMALLEST_INERTIA = 1e-7  # [kg m^2]
 _MUJOCO_OPTIONS = '<mujoco><compiler strippath="false" fusestatic="false" discardvisual="false" meshdir="."/></mujoco>'
+_COLUMN = 0.16  # [m] width of what carries a robot that stands above the floor
 
 
 @dataclass(frozen=True)
@@ -54,11 +44,13 @@ class RobotDescription:
     urdf: Path
 
 
-def prepare(cache: Path | None = None) -> RobotDescription:
-    """Return the robot's description, making it at first use.
+def prepare(cache: Path | None = None, robot: Manipulator = DEFAULT, base: Base | None = None) -> RobotDescription:
+    """Return a robot's description, making it at first use.
 
     Args:
         cache: Where to keep it; see `sim.cache`.
+        robot: Which.
+        base: Where it stands; where the robot says by default.
 
     Returns:
         The description.
@@ -66,102 +58,119 @@ def prepare(cache: Path | None = None) -> RobotDescription:
     Raises:
         DescriptionMissing: The package with the robot's meshes is not installed.
         DescriptionInvalid: A mesh of it is damaged.
+        FileMissing: There is no such description.
+        RobotUnfit: What the robot's value names is not in the description.
         CacheUnusable: There is no place for it.
     """
-    source = _source()
-    return RobotDescription(kept(f"tiago-{_key(source)}", partial(_build, source), cache) / _URDF_NAME)
+    source = source_of(robot)
+    base = base or robot.base
+    name = f"{robot.kind}-{_key(source, robot, base)}"
+    return RobotDescription(kept(name, partial(_build, source, robot, base), cache) / _URDF_NAME)
 
 
-def _source() -> Path:
+def source_of(robot: Manipulator) -> Path:
+    """Return the file that describes a robot.
+
+    Raises:
+        DescriptionMissing: The package that it lies in is not installed.
+        FileMissing: There is no such file.
+    """
+    source = robot.source
+    if not source.package:
+        path = Path(source.file)
+        if not path.is_file():
+            raise FileMissing(robot.kind, "the description", path)
+        return path
     try:
-        source = Path(str(distribution(_PACKAGE).locate_file(_SOURCE)))
+        path = Path(str(distribution(source.package).locate_file(f"{_SHARE}/{source.package}/{source.file}")))
     except PackageNotFoundError as error:
-        raise DescriptionMissing(_PACKAGE) from error
-    if not source.exists():
-        raise DescriptionMissing(_PACKAGE)
-    return source
+        raise DescriptionMissing(source.package) from error
+    if not path.exists():
+        raise DescriptionMissing(source.package)
+    return path
 
 
-def _key(source: Path) -> str:
+def _key(source: Path, robot: Manipulator, base: Base) -> str:
     # Our own text belongs to the key: whoever edits the build gets a new description without a thought.
-    texts = [source, *(Path(str(module)) for module in (__file__, meshes.__file__, gripper.__file__))]
-    return hashlib.sha256(b"".join(text.read_bytes() for text in texts)).hexdigest()[:16]
+    modules = (inspect.getmodule(_build), meshes, gripper, inertia, shapes)
+    texts = [source.read_bytes(), *(Path(str(module.__file__)).read_bytes() for module in modules if module)]
+    told = repr((robot.source, robot.joints, robot.held_names, robot.gripper, base)).encode()
+    return hashlib.sha256(b"".join((*texts, told))).hexdigest()[:16]
 
 
-def _build(source: Path, scratch: Path, target: Path) -> None:
+def _build(source: Path, robot: Manipulator, base: Base, scratch: Path, target: Path) -> None:
     scratch.mkdir()
-    robot = ET.parse(source).getroot()
-    for tag in ("gazebo", "transmission"):
-        for element in robot.findall(tag):
-            robot.remove(element)
-    _convert_meshes(robot, source.parent.parent, scratch, target)
-    _fix_wheels(robot)
-    _drop_friction(robot)
-    robot.extend(ET.fromstring(f"<gripper>{gripper.gripper_urdf()}</gripper>"))
-    for inertial in robot.iterfind("link/inertial"):
-        _repair_inertia(inertial)
-    robot.insert(0, ET.fromstring(_MUJOCO_OPTIONS))
-    ET.ElementTree(robot).write(scratch / _URDF_NAME, encoding="utf-8", xml_declaration=True)
+    root = read(source)
+    faults.check(root, robot, source)
+    for tag in ("gazebo", "transmission", "ros2_control"):
+        for element in root.findall(tag):
+            root.remove(element)
+    shapes.convert(root, source, scratch, target)
+    _fix_what_is_not_moved(root, robot)
+    _narrow_limits(root, robot)
+    _drop_friction(root)
+    if not base.is_origin:
+        _put_on_stand(root, base)
+    materials = [material.attrib["name"] for material in root.iter("material") if material.find("color") is not None]
+    root.extend(ET.fromstring(f"<gripper>{gripper.gripper_urdf(robot.gripper, materials)}</gripper>"))
+    for inertial in root.iterfind("link/inertial"):
+        inertia.repair(inertial)
+    root.insert(0, ET.fromstring(_MUJOCO_OPTIONS))
+    ET.ElementTree(root).write(scratch / _URDF_NAME, encoding="utf-8", xml_declaration=True)
 
 
-def _convert_meshes(robot: ET.Element, folder: Path, scratch: Path, target: Path) -> None:
-    """Write every mesh as STL beside the URDF, those that are only drawn with fewer triangles."""
-    shapes = [
-        (kind, mesh, folder / mesh.attrib["filename"].removeprefix(_MESH_PREFIX))
-        for kind in ("visual", "collision")
-        for mesh in robot.iterfind(f"link/{kind}/geometry/mesh")
-    ]
-    loaded = {path: _load(path) for _, _, path in shapes}
-    drawn = sum(len(loaded[path]) for path in {path for kind, _, path in shapes if kind == "visual"})
-    for kind, mesh, path in shapes:
-        triangles = loaded[path]
-        if kind == "visual":
-            triangles = meshes.thin(triangles, max(1, _VISUAL_TRIANGLES * len(triangles) // drawn))
-        name = f"{path.stem}_{kind}.stl"
-        meshes.write_stl(scratch / name, triangles)
-        mesh.attrib["filename"] = str(target / name)
+def read(source: Path) -> ET.Element:
+    """Return a description as URDF.
+
+    Args:
+        source: The file.
+
+    Raises:
+        DescriptionInvalid: It is no URDF.
+    """
+    return faults.parsed(source)
 
 
-def _load(path: Path) -> meshes.Triangles:
-    return meshes.read_stl(path) if path.suffix == ".stl" else meshes.read_mesh(path)
+def _fix_what_is_not_moved(root: ET.Element, robot: Manipulator) -> None:
+    moving = {*robot.joint_names, *robot.held_names}
+    for joint in root.iterfind("joint"):
+        if joint.attrib["name"] not in moving:
+            joint.attrib["type"] = "fixed"
+        for mimic in joint.findall("mimic"):
+            joint.remove(mimic)  # a joint that is held has a servo of its own
 
 
-def _fix_wheels(robot: ET.Element) -> None:
-    for joint in robot.iterfind("joint[@type='continuous']"):
-        joint.attrib["type"] = "fixed"
+def _narrow_limits(root: ET.Element, robot: Manipulator) -> None:
+    """Write what a robot says of its joints' limits into the description, which all readers keep to."""
+    joints = {joint.attrib["name"]: joint for joint in root.iterfind("joint")}
+    for said in robot.joints:
+        joint = joints[said.name]
+        if joint.attrib["type"] == "continuous":
+            joint.attrib["type"] = "revolute"  # Pinocchio has two numbers for the other kind
+        limit = joint.find("limit")
+        if limit is None:
+            limit = ET.SubElement(joint, "limit", {"effort": "0"})
+        for key, value in (("lower", said.lower), ("upper", said.upper), ("velocity", said.speed)):
+            if value is not None:
+                limit.attrib[key] = repr(value)
 
 
-def _drop_friction(robot: ET.Element) -> None:
+def _drop_friction(root: ET.Element) -> None:
     # Dry friction would only add stiction to servos that are ideal otherwise.
-    for dynamics in robot.iterfind("joint/dynamics"):
+    for dynamics in root.iterfind("joint/dynamics"):
         dynamics.attrib["friction"] = "0"
 
 
-def _repair_inertia(inertial: ET.Element) -> None:
-    """Make the inertia one that a rigid body can have: positive, and obeying the triangle inequality."""
-    mass = inertial.find("mass")
-    element = inertial.find("inertia")
-    if mass is None or element is None:
-        return
-    mass.attrib["value"] = str(max(float(mass.attrib["value"]), 1e-4))
-    repaired = _physical(_matrix(element.attrib))
-    if repaired is not None:
-        rows, columns = np.triu_indices(3)
-        for row, column in zip(rows, columns, strict=True):
-            element.attrib[f"i{'xyz'[row]}{'xyz'[column]}"] = repr(float(repaired[row, column]))
-
-
-def _matrix(values: dict[str, str]) -> NDArray[np.float64]:
-    xx, xy, xz, yy, yz, zz = (float(values[key]) for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"))
-    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-
-
-def _physical(inertia: NDArray[np.float64]) -> NDArray[np.float64] | None:
-    """Return the nearest sound inertia, or None if it is sound already."""
-    moments, axes = np.linalg.eigh(inertia)
-    sound = np.maximum(moments, _SMALLEST_INERTIA)
-    # The largest moment may not exceed the sum of the others; a little less, so that rounding cannot undo it.
-    sound[2] = min(sound[2], 0.999 * (sound[0] + sound[1]))
-    if np.allclose(sound, moments, rtol=1e-12, atol=0.0):
-        return None
-    return np.asarray((axes * sound) @ axes.T)
+def _put_on_stand(root: ET.Element, base: Base) -> None:
+    """Hang the first link on another one, which lies in the scene's origin, and draw what carries it."""
+    (first,) = faults.first_links(root)
+    x, y, z = base.position
+    column = ""
+    if z > 0.0:
+        shape = f'<origin xyz="{x} {y} {z / 2}"/><geometry><box size="{_COLUMN} {_COLUMN} {z}"/></geometry>'
+        column = f"<visual>{shape}</visual><collision>{shape}</collision>"
+    joint = fixed_urdf(first, Mount(STAND, base.position, (0.0, 0.0, base.yaw)))
+    added = list(ET.fromstring(f'<added><link name="{STAND}">{column}</link>{joint}</added>'))
+    added[1].attrib["name"] = f"{STAND}_joint"
+    for element in reversed(added):
+        root.insert(0, element)

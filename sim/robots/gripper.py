@@ -1,27 +1,49 @@
-"""The two-finger gripper: open, rigid, made of boxes.
+"""The gripper: its frames, how it fills space, and one made of boxes for arms that come without.
 
-The description that it is put on ends at the wrist's force sensor. In the gripper's frame x points
-forward, and the fingers open along y; with the arm's usual roll of 180 degrees -z points up, which
-is where the wrist camera sits.
+In the gripper's frame x points forward, and the fingers open along y; with the usual roll of 180 degrees -z points up,
+which is where the wrist camera sits.
 """
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+Vector = tuple[float, float, float]
+
 GRASPING_FRAME = "grasping_frame"
 WRIST_CAMERA_FRAME = "wrist_camera_frame"
-PARENT_LINK = "wrist_ft_tool_link"
+GRIPPER_FRAME = "gripper_frame"
 
-GRASP_DISTANCE = 0.13  # [m] from the parent link to the grasping frame
-OPENING = 0.104  # [m] between the fingers
+GRASP_DISTANCE = 0.13  # [m] from the frame of the gripper of boxes to the grasping frame
+OPENING = 0.104  # [m] between its fingers
+
+
+@dataclass(frozen=True)
+class Mount:
+    """Where something is fixed.
+
+    Attributes:
+        link: To which link; the scene's own frame where it is empty.
+        position: In the link's frame [m].
+        rpy: Roll, pitch and yaw about the link's axes [rad].
+    """
+
+    link: str
+    position: Vector = (0.0, 0.0, 0.0)
+    rpy: Vector = (0.0, 0.0, 0.0)
+
+    @property
+    def is_link(self) -> bool:
+        """Nothing is between the link's frame and what is fixed to it."""
+        return not any((*self.position, *self.rpy))
 
 
 @dataclass(frozen=True)
 class Block:
-    """One box of the gripper, in the frame of `PARENT_LINK`.
+    """One box of a gripper, in the gripper's frame.
 
     Attributes:
         name: Of the link.
@@ -32,10 +54,31 @@ class Block:
     """
 
     name: str
-    centre: tuple[float, float, float]
-    size: tuple[float, float, float]
-    mass: float
-    colour: str
+    centre: Vector
+    size: Vector
+    mass: float = 0.05
+    colour: str = "Grey"
+
+
+@dataclass(frozen=True)
+class Gripper:
+    """What grasps.
+
+    Attributes:
+        mount: The gripper's frame: x forward, the fingers open along y.
+        blocks: How it fills space, in its frame: what goes ahead and may touch something.
+        grasp_distance: From its frame to the grasping frame, along x [m].
+        opening: Between the open fingers [m].
+        camera: Of the wrist camera, in its frame [m].
+        made: It is made of the blocks; else the description has it, and they only tell how large it is.
+    """
+
+    mount: Mount
+    blocks: tuple[Block, ...]
+    grasp_distance: float
+    opening: float
+    camera: Vector
+    made: bool = False
 
 
 _FINGER = (0.098, 0.012, 0.022)
@@ -52,16 +95,41 @@ _CAMERA_POSITION = (0.045, 0.0, -0.044)
 _CAMERA_PITCH = math.radians(20.0)  # down towards the finger tips
 _CAMERA_RPY = (math.pi / 2 - _CAMERA_PITCH, 0.0, math.pi / 2)  # optical axes: x right, y down, z forward
 
+COLOURS = {"FlatBlack": "0.1 0.1 0.1 1", "Grey": "0.7 0.7 0.7 1.0", "DarkGrey": "0.1 0.1 0.1 1.0"}
+"""Of the blocks, for a description that has no materials of these names."""
 
-def gripper_urdf() -> str:
-    """Return the gripper's links and joints as URDF elements, each hung on `PARENT_LINK` by a fixed joint."""
-    parts = [_block_urdf(block) for block in BLOCKS]
-    parts.append(_frame_urdf(GRASPING_FRAME, (GRASP_DISTANCE, 0.0, 0.0), (0.0, 0.0, 0.0)))
-    parts.append(_frame_urdf(WRIST_CAMERA_FRAME, _CAMERA_POSITION, _CAMERA_RPY))
+
+def two_fingers(mount: Mount) -> Gripper:
+    """The gripper of boxes: two fingers, open, rigid.
+
+    Args:
+        mount: Where it is put on an arm.
+    """
+    return Gripper(mount, BLOCKS, GRASP_DISTANCE, OPENING, _CAMERA_POSITION, made=True)
+
+
+def gripper_urdf(gripper: Gripper, materials: Iterable[str]) -> str:
+    """Return the gripper's links, frames and joints as URDF elements, each hung on by a fixed joint.
+
+    Args:
+        gripper: What to describe.
+        materials: That the description has already.
+    """
+    mount, parts = gripper.mount, []
+    link = mount.link
+    if not mount.is_link:
+        link = GRIPPER_FRAME
+        parts.append(frame_urdf(link, mount))
+    if gripper.made:
+        colours = {block.colour for block in gripper.blocks} - set(materials)
+        parts += [f'<material name="{name}"><color rgba="{COLOURS[name]}"/></material>' for name in sorted(colours)]
+        parts += [_block_urdf(link, block) for block in gripper.blocks]
+    parts.append(frame_urdf(GRASPING_FRAME, Mount(link, (gripper.grasp_distance, 0.0, 0.0))))
+    parts.append(frame_urdf(WRIST_CAMERA_FRAME, Mount(link, gripper.camera, _CAMERA_RPY)))
     return "".join(parts)
 
 
-def _block_urdf(block: Block) -> str:
+def _block_urdf(link: str, block: Block) -> str:
     x, y, z = block.size
     ixx, iyy, izz = (block.mass / 12 * s for s in (y * y + z * z, x * x + z * z, x * x + y * y))
     shape = f'<geometry><box size="{x} {y} {z}"/></geometry>'
@@ -70,21 +138,33 @@ def _block_urdf(block: Block) -> str:
         f'<inertial><mass value="{block.mass}"/>'
         f'<inertia ixx="{ixx}" ixy="0" ixz="0" iyy="{iyy}" iyz="0" izz="{izz}"/></inertial>'
         f'<visual>{shape}<material name="{block.colour}"/></visual><collision>{shape}</collision></link>'
-        + _joint_urdf(block.name, block.centre, (0.0, 0.0, 0.0))
+        + fixed_urdf(block.name, Mount(link, block.centre))
     )
 
 
-def _frame_urdf(name: str, xyz: tuple[float, ...], rpy: tuple[float, ...]) -> str:
+def frame_urdf(name: str, mount: Mount) -> str:
+    """Return a link without a shape, fixed to another, as URDF elements.
+
+    Args:
+        name: Of the link; its joint's has "_joint" after it.
+        mount: Where it is.
+    """
     inertial = (
         '<inertial><mass value="1e-4"/><inertia ixx="1e-8" ixy="0" ixz="0" iyy="1e-8" iyz="0" izz="1e-8"/></inertial>'
     )
-    return f'<link name="{name}">{inertial}</link>' + _joint_urdf(name, xyz, rpy)
+    return f'<link name="{name}">{inertial}</link>' + fixed_urdf(name, mount)
 
 
-def _joint_urdf(child: str, xyz: tuple[float, ...], rpy: tuple[float, ...]) -> str:
+def fixed_urdf(child: str, mount: Mount) -> str:
+    """Return the joint that fixes a link to another, as a URDF element.
+
+    Args:
+        child: The link.
+        mount: Where it is.
+    """
     return (
-        f'<joint name="{child}_joint" type="fixed"><parent link="{PARENT_LINK}"/><child link="{child}"/>'
-        f'<origin xyz="{" ".join(map(str, xyz))}" rpy="{" ".join(map(str, rpy))}"/></joint>'
+        f'<joint name="{child}_joint" type="fixed"><parent link="{mount.link}"/><child link="{child}"/>'
+        f'<origin xyz="{" ".join(map(str, mount.position))}" rpy="{" ".join(map(str, mount.rpy))}"/></joint>'
     )
 
 

@@ -1,5 +1,6 @@
 """Triangle meshes of the robot: reading, thinning and writing them."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -13,7 +14,37 @@ Triangles = NDArray[np.float32]
 _HEADER_BYTES = 80
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _CREASE = np.cos(np.radians(40.0))  # triangles that bend more against each other have an edge between them
+_BALL_BANDS = 12
 _LEAST_GROWTH = 1.05  # of the cell, until few enough triangles are left
+
+
+def read(path: Path) -> Triangles:
+    """Read a mesh, whatever its format.
+
+    Args:
+        path: The file.
+
+    Returns:
+        Corners of the triangles, shape (n, 3, 3) [m].
+
+    Raises:
+        DescriptionInvalid: The file is damaged, or of a format that nobody here knows.
+    """
+    if path.suffix.lower() == ".stl" and not _is_text(path):
+        return read_stl(path)
+    try:
+        return read_mesh(path)
+    except (RuntimeError, ValueError) as error:  # as Coal's loader says that it cannot
+        raise DescriptionInvalid(str(path), "its mesh cannot be read") from error
+
+
+def _is_text(path: Path) -> bool:
+    """An STL file in words: binary ones may begin like one, but are as long as they say."""
+    raw = path.read_bytes()
+    if not raw.startswith(b"solid") or len(raw) < _HEADER_BYTES + 4:
+        return False
+    count = int(np.frombuffer(raw, "<u4", 1, _HEADER_BYTES)[0])
+    return len(raw) != _HEADER_BYTES + 4 + count * _RECORD.itemsize
 
 
 def read_stl(path: Path) -> Triangles:
@@ -53,6 +84,28 @@ def read_mesh(path: Path) -> Triangles:
     corners = [mesh.tri_indices(i) for i in range(mesh.num_tris)]
     triangles: Triangles = vertices[np.array([(t[0], t[1], t[2]) for t in corners])]
     return triangles
+
+
+def scaled(triangles: Triangles, scale: Sequence[float]) -> Triangles:
+    """Return a mesh made larger or smaller.
+
+    Args:
+        triangles: Corners, shape (n, 3, 3) [m].
+        scale: Along x, y and z; a negative one mirrors it, and keeps its outside outside.
+    """
+    result: Triangles = (triangles * np.array(scale, np.float32)).astype(np.float32)
+    return result[:, ::-1] if np.prod(scale) < 0.0 else result
+
+
+def ball() -> Triangles:
+    """Return a ball of radius 1 about the origin, shape (n, 3, 3)."""
+    around = np.linspace(0.0, 2.0 * np.pi, 2 * _BALL_BANDS + 1)
+    down = np.linspace(0.0, np.pi, _BALL_BANDS + 1)[:, None]
+    x, y, z = np.broadcast_arrays(np.sin(down) * np.cos(around), np.sin(down) * np.sin(around), np.cos(down))
+    grid = np.stack([x, y, z], axis=-1)
+    a, b, c, d = grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]
+    sides = np.concatenate([np.stack([a, b, c], axis=2), np.stack([a, c, d], axis=2)])
+    return np.asarray(sides.reshape(-1, 3, 3), np.float32)
 
 
 def write_stl(path: Path, triangles: Triangles) -> None:

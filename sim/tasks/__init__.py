@@ -1,6 +1,9 @@
 """The scenes, by name; each has a file of its own."""
 
-from sim.exceptions import UnknownScene
+from dataclasses import replace
+
+from sim.exceptions import RobotOfItsOwn, UnknownScene
+from sim.robots.robot import Manipulator
 from sim.tasks.dishwasher import DISHWASHER
 from sim.tasks.particle import PARTICLE, ParticleScene
 from sim.tasks.post import POST
@@ -16,13 +19,23 @@ REACHING: dict[str, ReachingScene] = {scene.name: scene for scene in (DISHWASHER
 SCENES: dict[str, AnyScene] = {**REACHING, PARTICLE.name: PARTICLE}
 
 
-def scene(name: str) -> AnyScene:
+def scene(name: str, manipulator: Manipulator | None = None) -> AnyScene:
     """Return the scene of that name.
+
+    Args:
+        name: Of the scene.
+        manipulator: That is to stand in it; by default the one that it was made for.
 
     Raises:
         UnknownScene: There is none.
+        RobotOfItsOwn: No manipulator stands in that scene.
     """
     try:
-        return SCENES[name]
+        found = SCENES[name]
     except KeyError:
         raise UnknownScene(name, SCENES) from None
+    if manipulator is None or getattr(found, "manipulator", None) == manipulator:
+        return found
+    if not isinstance(found, ReachingScene):
+        raise RobotOfItsOwn(name, found.robot.kind, REACHING)
+    return replace(found, manipulator=manipulator)

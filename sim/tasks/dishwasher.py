@@ -11,7 +11,6 @@ import numpy as np
 from sim.pose import Pose
 from sim.region import Region
 from sim.robots.gripper import pitched_down
-from sim.robots.robot import TIAGO
 from sim.tasks.scene import Array, Box, Corridor, Group, ReachingScene
 
 _B1, _B2 = "b1", "b2"
@@ -125,11 +124,8 @@ def _routes(variant: str, object_position: Array) -> tuple[Corridor]:
 
 DISHWASHER = ReachingScene(
     name="dishwasher",
-    robot=TIAGO,
     variants=(_B1, _B2),
     start=_START,
-    posture=np.array([0.3108, 2.0018, -0.4902, 0.2241, 1.4798, 1.8698, 1.2060, 1.9647]),
-    head=np.array([0.06, -0.88]),
     region=Region((0.83, -0.08, _OBJECT_Z), (0.88, 0.22, _OBJECT_Z)),
     training_positions=np.array([[0.86, -0.06, _OBJECT_Z], [0.86, 0.20, _OBJECT_Z]]),
     reached_radii=np.array([0.05, 0.065, 0.05]),

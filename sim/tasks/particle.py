@@ -21,7 +21,8 @@ import numpy as np
 from sim.interpolation import minimum_jerk
 from sim.pose import Pose
 from sim.region import Region
-from sim.robots import robot
+from sim.robots.robot import PARTICLE as PARTICLE_ROBOT
+from sim.robots.robot import Robot
 from sim.tasks.scene import NO_ROTATION, Array, Box, Corridor, Eye, Freedom, Group, Scene, Vector
 
 X_UNIT, Y_UNIT = 0.1, 0.01  # [m] of the thesis' axes
@@ -57,6 +58,16 @@ class ParticleScene(Scene):
     via_x: tuple[float, float]
     tolerance: float
     radius: float
+
+    @property
+    def robot(self) -> Robot:
+        """See `Scene.robot`: the particle, whatever arms there are."""
+        return PARTICLE_ROBOT
+
+    @property
+    def posture(self) -> Array:
+        """See `Scene.posture`."""
+        return np.zeros(3)
 
     @property
     def point(self) -> float:
@@ -157,10 +168,8 @@ shape (3, 2) [m]."""
 
 PARTICLE = ParticleScene(
     name="particle",
-    robot=robot.PARTICLE,
     variants=(_FREE, _OBSTACLE),
     start=Pose(np.zeros(3), np.array(NO_ROTATION)),
-    posture=np.zeros(3),
     region=Region((-10.0 * Y_UNIT,) * 2, (10.0 * Y_UNIT,) * 2),
     margin=10.0 * Y_UNIT,
     training_positions=np.zeros((1, 2)),

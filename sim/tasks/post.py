@@ -14,7 +14,6 @@ import numpy as np
 from sim.pose import Pose
 from sim.region import Region
 from sim.robots.gripper import pitched_down
-from sim.robots.robot import TIAGO
 from sim.tasks.furniture import table
 from sim.tasks.scene import Array, Box, Corridor, Eye, Group, ReachingScene
 
@@ -94,11 +93,8 @@ def _route(variant: str, object_position: Array, bend: float) -> Corridor:
 
 POST = ReachingScene(
     name="post",
-    robot=TIAGO,
     variants=(_CLEAR, _POST),
     start=_START,
-    posture=np.array([0.3472, 0.4551, -0.7562, -0.7061, 1.8930, 1.1598, 1.1843, 0.0924]),
-    head=np.array([0.0, -0.86]),
     region=Region((0.86, -0.26, _OBJECT_Z), (0.91, 0.14, _OBJECT_Z)),
     training_positions=np.array([[0.885, -0.24, _OBJECT_Z], [0.885, 0.12, _OBJECT_Z]]),
     reached_radii=np.array([0.05, 0.065, 0.05]),

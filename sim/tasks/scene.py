@@ -8,6 +8,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import Enum
+from functools import cached_property
 from typing import ClassVar, NamedTuple
 
 import numpy as np
@@ -16,7 +17,8 @@ from numpy.typing import NDArray
 from sim.exceptions import OutOfReach, UnknownVariant, WrongPlace
 from sim.pose import Pose
 from sim.region import Region
-from sim.robots.robot import Robot
+from sim.robots.catalogue import DEFAULT
+from sim.robots.robot import Base, Manipulator, Robot, Stance
 
 Array = NDArray[np.float64]
 Vector = tuple[float, float, float]
@@ -109,10 +111,8 @@ class Scene(ABC):
 
     Attributes:
         name: Of the scene.
-        robot: That moves in it.
         variants: The first is the one that demonstrations were given in, the second the changed one.
         start: Pose of the grasping frame before each motion.
-        posture: Joint positions at the start, in the order of the robot's joints, shape (m,).
         region: Of the places that are drawn.
         margin: How far beyond the region a place is allowed, on each axis [m].
         training_positions: Places of the initial demonstrations, shape (n, d) [m].
@@ -126,10 +126,8 @@ class Scene(ABC):
     has_object: ClassVar[bool]
 
     name: str
-    robot: Robot
     variants: tuple[str, str]
     start: Pose
-    posture: Array
     region: Region
     margin: float = 0.05
     training_positions: Array
@@ -137,6 +135,16 @@ class Scene(ABC):
     routes: Callable[[str, Array], tuple[Corridor, ...]]
     freedom: Freedom = field(default_factory=Freedom)
     eye: Eye = field(default_factory=Eye)
+
+    @property
+    @abstractmethod
+    def robot(self) -> Robot:
+        """Return what moves in it, as it stands there."""
+
+    @property
+    @abstractmethod
+    def posture(self) -> Array:
+        """Return joint positions near the start, in the order of the robot's joints, shape (m,)."""
 
     def boxes(self, variant: str) -> tuple[Box, ...]:
         """Return what stands around the robot.
@@ -250,7 +258,7 @@ class ReachingScene(Scene):
     """An arm reaches for an object; a place is where the object's centre stands, shape (3,) [m].
 
     Attributes:
-        head: Pan and tilt that look at the scene, shape (2,) [rad].
+        manipulator: That reaches.
         reached_radii: Of the ellipsoid around the grasping frame, along its axes, that the object's
             centre must lie in (thesis, Fig. E.2), shape (3,) [m].
         kicked_thresholds: Displacement along each axis of the base frame beyond which the object
@@ -259,9 +267,29 @@ class ReachingScene(Scene):
 
     has_object = True
 
-    head: Array
+    manipulator: Manipulator = DEFAULT
     reached_radii: Array
     kicked_thresholds: Array
+
+    @cached_property
+    def stance(self) -> Stance:
+        """How the manipulator stands in it."""
+        return self.manipulator.stance(self.name)
+
+    @cached_property
+    def robot(self) -> Robot:
+        """See `Scene.robot`."""
+        return self.manipulator.standing(self.stance.base or Base())
+
+    @property
+    def posture(self) -> Array:
+        """See `Scene.posture`."""
+        return np.array(self.stance.posture)
+
+    @property
+    def head(self) -> Array:
+        """Positions of the joints that are held, shape (h,) [rad, m]."""
+        return np.array(self.stance.held)
 
     @property
     def tolerances(self) -> Vector:

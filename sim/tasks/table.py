@@ -11,7 +11,6 @@ import numpy as np
 from sim.pose import Pose
 from sim.region import Region
 from sim.robots.gripper import pitched_down
-from sim.robots.robot import TIAGO
 from sim.tasks.furniture import table
 from sim.tasks.scene import Array, Box, Corridor, ReachingScene
 
@@ -58,11 +57,8 @@ def _routes(variant: str, object_position: Array) -> tuple[Corridor]:
 
 TABLE = ReachingScene(
     name="table",
-    robot=TIAGO,
     variants=(_CLEAR, _BOX),
     start=_START,
-    posture=np.array([0.2830, 0.9342, 0.5981, 0.2594, 1.9075, 0.5393, 0.9049, 2.0147]),
-    head=np.array([0.0, -0.78]),
     region=Region((0.65, 0.02, _OBJECT_Z), (0.85, 0.24, _OBJECT_Z)),
     training_positions=np.array(
         [[0.67, 0.04, _OBJECT_Z], [0.67, 0.22, _OBJECT_Z], [0.83, 0.04, _OBJECT_Z], [0.83, 0.22, _OBJECT_Z]]

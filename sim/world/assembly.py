@@ -8,13 +8,10 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.robots.description import (
-    CONTROLLED_JOINTS,
-    HEAD_CAMERA_FRAME,
-    HEAD_JOINTS,
-    WRIST_CAMERA_FRAME,
-    RobotDescription,
-)
+from sim.robots.description import RobotDescription
+from sim.robots.gripper import Mount
+from sim.robots.robot import Manipulator
+from sim.rotations import rotated
 from sim.tasks import AnyScene
 from sim.tasks.particle import ParticleScene
 from sim.tasks.scene import LID_SIZE, OBJECT_MASS, OBJECT_SIZE, TAG_BITS, TAG_SIZE, ReachingScene
@@ -22,12 +19,9 @@ from sim.world.particle import particle
 from sim.world.staging import (
     AFFINITY,
     DRAWN,
-    FIELD_OF_VIEW,
-    HEAD_CAMERA,
     ROBOT,
     THING,
     UNSEEN,
-    WRIST_CAMERA,
     add_boxes,
     add_stage,
 )
@@ -35,12 +29,6 @@ from sim.world.staging import (
 OBJECT = "object"
 
 TIMESTEP = 0.002  # [s]
-
-# Per joint: stiffness, damping and armature of the servo. In the order torso, arm 1 to 7.
-STIFFNESS = np.array([60_000.0, 1500.0, 1500.0, 1200.0, 1200.0, 400.0, 300.0, 200.0])  # [N/m], then [N m/rad]
-DAMPING = np.array([6_000.0, 80.0, 80.0, 50.0, 50.0, 12.0, 9.0, 6.0])  # [N s/m], then [N m s/rad]
-_ARMATURE = (5.0, 0.2, 0.2, 0.1, 0.1, 0.05, 0.03, 0.03)  # [kg], then [kg m^2]
-_HEAD_SERVO = (100.0, 4.0, 0.05)
 
 _CELL_PIXELS = 16  # half a cell of the marker's texture
 
@@ -65,8 +53,8 @@ def assemble(scene: AnyScene, description: RobotDescription) -> mujoco.MjModel:
 def _arm_and_object(scene: ReachingScene, description: RobotDescription) -> mujoco.MjSpec:
     spec = mujoco.MjSpec.from_file(str(description.urdf))
     _set_physics(spec)
-    _fit_robot(spec)
-    _add_servos(spec)
+    _fit_robot(spec, scene.manipulator)
+    _add_servos(spec, scene.manipulator)
     add_stage(spec)
     add_boxes(spec, scene)
     _add_object(spec)
@@ -81,7 +69,7 @@ def _set_physics(spec: mujoco.MjSpec) -> None:
     option.impratio = 10.0
 
 
-def _fit_robot(spec: mujoco.MjSpec) -> None:
+def _fit_robot(spec: mujoco.MjSpec, robot: Manipulator) -> None:
     """Give the robot its contact class, weightless links, armature and cameras."""
     for body in spec.bodies[1:]:
         body.gravcomp = 1.0
@@ -89,20 +77,27 @@ def _fit_robot(spec: mujoco.MjSpec) -> None:
         collides = bool(geom.contype)
         geom.contype, geom.conaffinity = (ROBOT, AFFINITY[ROBOT]) if collides else (0, 0)
         geom.group = UNSEEN if collides else DRAWN
-    for name, armature in zip(CONTROLLED_JOINTS, _ARMATURE, strict=True):
-        spec.joint(name).armature = armature
-    for name in HEAD_JOINTS:
-        spec.joint(name).armature = _HEAD_SERVO[2]
-    for camera, frame in ((HEAD_CAMERA, HEAD_CAMERA_FRAME), (WRIST_CAMERA, WRIST_CAMERA_FRAME)):
-        # MuJoCo's cameras look along -z with y up: optical axes turned half a turn about x.
-        spec.body(frame).add_camera(name=camera, quat=[0.0, 1.0, 0.0, 0.0], fovy=FIELD_OF_VIEW[camera])
+    for joint in robot.servos:
+        spec.joint(joint.name).armature = joint.armature
+    for camera in robot.cameras:
+        link = camera.mount.link
+        body = spec.body(link) if link else spec.worldbody
+        body.add_camera(name=camera.name, pos=camera.mount.position, quat=_seeing(camera.mount), fovy=camera.fovy)
 
 
-def _add_servos(spec: mujoco.MjSpec) -> None:
-    for name, stiffness, damping in zip(CONTROLLED_JOINTS, STIFFNESS, DAMPING, strict=True):
-        _add_servo(spec, name, stiffness, damping)
-    for name in HEAD_JOINTS:
-        _add_servo(spec, name, *_HEAD_SERVO[:2])
+def _seeing(mount: Mount) -> NDArray[np.float64]:
+    """Return how MuJoCo has a camera, which looks along -z there with y up: optical axes, half a turn about x."""
+    orientation = np.array([1.0, 0.0, 0.0, 0.0])
+    for axis, angle in zip(np.eye(3), mount.rpy, strict=True):
+        orientation = rotated(orientation, angle * axis)
+    turned = np.zeros(4)
+    mujoco.mju_mulQuat(turned, orientation, np.array([0.0, 1.0, 0.0, 0.0]))
+    return turned
+
+
+def _add_servos(spec: mujoco.MjSpec, robot: Manipulator) -> None:
+    for joint in robot.servos:
+        _add_servo(spec, joint.name, joint.stiffness, joint.damping)
 
 
 def _add_servo(spec: mujoco.MjSpec, joint: str, stiffness: float, damping: float) -> None:

@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 
 from sim.pose import Pose
 from sim.robots.description import RobotDescription
+from sim.robots.robot import HEAD_CAMERA, WRIST_CAMERA
 from sim.tasks import AnyScene
 from sim.world.assembly import assemble
 from sim.world.drawing import Canvas, Depth, Image
-from sim.world.staging import HEAD_CAMERA, WRIST_CAMERA, select
+from sim.world.staging import select
 
 Array = NDArray[np.float64]
 

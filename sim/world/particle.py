@@ -5,8 +5,9 @@ import math
 import mujoco
 import numpy as np
 
+from sim.robots.robot import FIELD_OF_VIEW, HEAD_CAMERA, WRIST_CAMERA
 from sim.tasks.particle import ParticleScene
-from sim.world.staging import FIELD_OF_VIEW, HEAD_CAMERA, WRIST_CAMERA, add_box, add_boxes, add_stage
+from sim.world.staging import add_box, add_boxes, add_stage
 
 _RED = (0.80, 0.16, 0.14, 1.0)
 _FLOOR_Z = -0.06  # [m]

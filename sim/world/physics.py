@@ -7,9 +7,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.robots.description import CONTROLLED_JOINTS, HEAD_JOINTS, RobotDescription
+from sim.robots.description import RobotDescription
 from sim.tasks.scene import NO_ROTATION, ReachingScene
-from sim.world.assembly import DAMPING, OBJECT, STIFFNESS, TIMESTEP, assemble
+from sim.world.assembly import OBJECT, TIMESTEP, assemble
 from sim.world.contacts import Contact, clearance, collisions, strongest
 from sim.world.staging import select
 
@@ -18,10 +18,6 @@ Array = NDArray[np.float64]
 CONTROL_PERIOD = 0.010  # [s]
 _STEPS = round(CONTROL_PERIOD / TIMESTEP)
 
-# A reference further away than this is not followed at once: it bounds how hard a blocked arm pushes.
-# In the order of `CONTROLLED_JOINTS` [m, then rad].
-_REACH = np.array([0.0012, 0.01, 0.01, 0.01, 0.01, 0.015, 0.015, 0.015])
-
 
 @dataclass(frozen=True, eq=False)
 class Observation:
@@ -29,8 +25,8 @@ class Observation:
 
     Attributes:
         time: Simulated time since the reset [s].
-        q: Joint positions, in the order of `CONTROLLED_JOINTS`, shape (8,) [m, rad].
-        qd: Joint velocities, shape (8,) [m/s, rad/s].
+        q: Joint positions, in the order of the robot's, shape (m,) [m, rad].
+        qd: Joint velocities, shape (m,) [m/s, rad/s].
         object_position: Centre of the object in the base frame, shape (3,) [m].
         object_orientation: Scalar first, shape (4,).
         contacts: Of the robot with its environment, at any step of physics in the last control period: of each link
@@ -67,13 +63,16 @@ class World:
         _keep_log_out_of_working_directory()
         self._model = assemble(scene, description)
         self._data = mujoco.MjData(self._model)
-        joints = [self._model.joint(name) for name in CONTROLLED_JOINTS]
+        robot = scene.manipulator
+        joints = [self._model.joint(name) for name in robot.joint_names]
         self._q = np.array([joint.qposadr[0] for joint in joints])
         self._qd = np.array([joint.dofadr[0] for joint in joints])
-        self._head = np.array([self._model.joint(name).qposadr[0] for name in HEAD_JOINTS])
+        self._held = np.array([self._model.joint(name).qposadr[0] for name in robot.held_names], dtype=int)
+        self._lag = np.array([joint.lag for joint in robot.joints])
         start = self._model.joint(OBJECT).qposadr[0]
         self._object = slice(start, start + 7)
-        self._lead = (DAMPING + self._model.dof_damping[self._qd]) / STIFFNESS  # [s]
+        stiffness, damping = np.array([(joint.stiffness, joint.damping) for joint in robot.joints]).T
+        self._lead = (damping + self._model.dof_damping[self._qd]) / stiffness  # [s]
         self.reset(scene.training_positions[0])
 
     def reset(self, object_position: Array, variant: str | None = None, q: Array | None = None) -> None:
@@ -82,7 +81,7 @@ class World:
         Args:
             object_position: Centre of the object in the base frame, shape (3,) [m].
             variant: Of the scene; as it was by default.
-            q: Joint positions, shape (8,) [m, rad]; the scene's start by default.
+            q: Joint positions, shape (m,) [m, rad]; the scene's start by default.
 
         Raises:
             UnknownVariant: The scene has no such variant.
@@ -94,10 +93,10 @@ class World:
         mujoco.mj_resetData(self._model, self._data)
         qpos = self._data.qpos
         qpos[self._q] = self.scene.posture if q is None else q
-        qpos[self._head] = self.scene.head
+        qpos[self._held] = self.scene.stance.held
         qpos[self._object] = [*object_position, *NO_ROTATION]
-        self._data.ctrl[: len(CONTROLLED_JOINTS)] = qpos[self._q]
-        self._data.ctrl[len(CONTROLLED_JOINTS) :] = self.scene.head
+        self._data.ctrl[: len(self._q)] = qpos[self._q]
+        self._data.ctrl[len(self._q) :] = self.scene.stance.held
         self._contact_force = np.zeros(3)
         self._look()
 
@@ -108,8 +107,8 @@ class World:
         lag by their damping otherwise.
 
         Args:
-            q_reference: Joint positions, shape (8,) [m, rad].
-            qd_reference: Joint velocities, shape (8,) [m/s, rad/s].
+            q_reference: Joint positions, shape (m,) [m, rad].
+            qd_reference: Joint velocities, shape (m,) [m/s, rad/s].
         """
         found: list[Contact] = []
         for remaining in reversed(range(_STEPS)):
@@ -117,9 +116,9 @@ class World:
             error = q_reference - remaining * TIMESTEP * qd_reference - q
             # A blocked joint is not pushed on by the velocity that it cannot have.
             # Not by np.clip: of so few numbers it takes five times as long.
-            free = np.minimum(np.maximum(2.0 - np.abs(error) / _REACH, 0.0), 1.0)
-            pull = np.minimum(np.maximum(error, -_REACH), _REACH) + free * self._lead * qd_reference
-            self._data.ctrl[: len(CONTROLLED_JOINTS)] = q + pull
+            free = np.minimum(np.maximum(2.0 - np.abs(error) / self._lag, 0.0), 1.0)
+            pull = np.minimum(np.maximum(error, -self._lag), self._lag) + free * self._lead * qd_reference
+            self._data.ctrl[: len(self._q)] = q + pull
             mujoco.mj_step(self._model, self._data)
             found.extend(collisions(self._model, self._data))
         self._contact_force = sum((contact.push for contact in found), start=np.zeros(3)) / _STEPS

@@ -4,9 +4,6 @@ import mujoco
 
 from sim.tasks.scene import Box, Group, Scene
 
-HEAD_CAMERA, WRIST_CAMERA = "head", "wrist"
-FIELD_OF_VIEW = {HEAD_CAMERA: 36.0, WRIST_CAMERA: 60.0}  # [deg] vertical
-
 # Contact classes: a pair collides if either one's type is in the other's affinity.
 ROBOT, ENVIRONMENT, THING, FLOOR = 1, 2, 4, 8
 AFFINITY = {ROBOT: ENVIRONMENT | THING, ENVIRONMENT: ROBOT | THING, THING: ROBOT | ENVIRONMENT | FLOOR, FLOOR: THING}

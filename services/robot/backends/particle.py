@@ -35,6 +35,7 @@ class ParticleKinematics:
         self.lower: Array = np.full(3, -_REACH)
         self.upper: Array = np.full(3, _REACH)
         self.velocity_limit: Array = np.full(3, _SPEED)
+        self.turn_slack = 0.0
         self._axes: Array = np.array(axes)
 
     def forward(self, q: Array) -> Pose:

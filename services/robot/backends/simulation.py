@@ -5,7 +5,6 @@ from numpy.typing import NDArray
 
 from services.robot.backends.backend import Blocked, Observation, Touch
 from sim.pose import Pose
-from sim.robots.description import CONTROLLED_JOINTS
 from sim.world.physics import World
 
 Array = NDArray[np.float64]
@@ -25,8 +24,8 @@ class Simulation:
 
     @property
     def joint_names(self) -> tuple[str, ...]:
-        """Torso and arm."""
-        return CONTROLLED_JOINTS
+        """Of the robot that stands in the world."""
+        return self._world.scene.manipulator.joint_names
 
     @property
     def variant(self) -> str:

@@ -1,0 +1,43 @@
+"""Inertias that a rigid body can have."""
+
+import xml.etree.ElementTree as ET
+
+import numpy as np
+from numpy.typing import NDArray
+
+_SMALLEST = 1e-7  # [kg m^2]
+_LIGHTEST = 1e-4  # [kg]
+
+
+def repair(inertial: ET.Element) -> None:
+    """Make an inertia of a description sound: positive, and obeying the triangle inequality.
+
+    Args:
+        inertial: Element of a link.
+    """
+    mass = inertial.find("mass")
+    element = inertial.find("inertia")
+    if mass is None or element is None:
+        return
+    mass.attrib["value"] = str(max(float(mass.attrib["value"]), _LIGHTEST))
+    repaired = _physical(_matrix(element.attrib))
+    if repaired is not None:
+        rows, columns = np.triu_indices(3)
+        for row, column in zip(rows, columns, strict=True):
+            element.attrib[f"i{'xyz'[row]}{'xyz'[column]}"] = repr(float(repaired[row, column]))
+
+
+def _matrix(values: dict[str, str]) -> NDArray[np.float64]:
+    xx, xy, xz, yy, yz, zz = (float(values[key]) for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"))
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
+
+def _physical(inertia: NDArray[np.float64]) -> NDArray[np.float64] | None:
+    """Return the nearest sound inertia, or None if it is sound already."""
+    moments, axes = np.linalg.eigh(inertia)
+    sound = np.maximum(moments, _SMALLEST)
+    # The largest moment may not exceed the sum of the others; a little less, so that rounding cannot undo it.
+    sound[2] = min(sound[2], 0.999 * (sound[0] + sound[1]))
+    if np.allclose(sound, moments, rtol=1e-12, atol=0.0):
+        return None
+    return np.asarray((axes * sound) @ axes.T)
