@@ -19,12 +19,12 @@ from services.camera.pacing import Pacing
 from services.camera.wishes import Wish, Wishes
 from services.process.clock import Clock
 from services.process.config import CameraSection, Configuration
+from services.process.robots import scene_of
 from services.process.runner import Service
 from services.process.schedule import Schedule
-from sim.exceptions import UnknownScene, UnknownVariant
-from sim.robots.description import prepare
+from sim.exceptions import RobotOfItsOwn, UnknownScene, UnknownVariant
 from sim.robots.robot import HEAD_CAMERA, WRIST_CAMERA
-from sim.tasks import scene
+from sim.tasks import described
 from sim.world.cameras import Cameras
 
 log = logging.getLogger(__name__)
@@ -63,7 +63,7 @@ class CameraService:
         self._coders = {camera: coder(self._section) for camera, _ in _TOPICS}
         self._wishes = Wishes(bus)
         self._wish = Wish()
-        self._description = prepare()
+        self._robot = configuration.robot
         self._cameras = self._open(configuration.robot.scene)
         self._refused = ("", "")
         self._schedule = Schedule()
@@ -128,17 +128,18 @@ class CameraService:
         self._cameras.close()
 
     def _open(self, name: str) -> Cameras:
-        return Cameras(scene(name), self._description, self._section.width, self._section.height)
+        scene = scene_of(self._robot, name)
+        return Cameras(scene, described(scene), self._section.width, self._section.height)
 
     def _arrange(self, arrangement: SceneState) -> bool:
         """Stand where the robot says that it stands; whether that is known here."""
         try:
             if arrangement.name != self._cameras.scene.name:
-                elsewhere = scene(arrangement.name)
+                scene_of(self._robot, arrangement.name)
                 self._cameras.close()
-                self._cameras = self._open(elsewhere.name)
+                self._cameras = self._open(arrangement.name)
             self._cameras.show(arrangement.variant)
-        except (UnknownScene, UnknownVariant) as error:
+        except (UnknownScene, UnknownVariant, RobotOfItsOwn) as error:
             if self._refused != (arrangement.name, arrangement.variant):
                 log.warning("%s; nothing is drawn until the robot announces another", error)
             self._refused = (arrangement.name, arrangement.variant)

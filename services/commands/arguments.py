@@ -35,6 +35,9 @@ def add_scene(parser: ArgumentParser) -> None:
     if isinstance(parser, Parser):
         parser.about_later = _about_scenes
     parser.add_argument("--scene", metavar="S", help=f"the simulated scene (default: {RobotSection().scene})")
+    parser.add_argument(
+        "--robot-model", metavar="NAME|FILE", help="the robot in it; see 'retouch robot list' (default: tiago)"
+    )
     parser.add_argument("--variant", metavar="V", help="its arrangement that is taught (default: the last one)")
     parser.add_argument("--seed", type=whole(0), metavar="N", help="of the target's place and the scripted hand")
 

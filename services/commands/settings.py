@@ -28,6 +28,9 @@ _FLAGS = {
 }
 """Flag to the key that it stands for."""
 
+_ROBOT_FLAGS = {"scene": "scene", "robot_model": "model"}
+"""The same, of the robot's section."""
+
 _STATION_FLAGS = {"headless": "scripted", "once": "once", "untaught": "untaught", "variant": "variant"}
 """The same, of the station's section."""
 
@@ -51,17 +54,22 @@ def configuration(arguments: Namespace) -> Configuration:
         changes["connect"] = reachable(given["listen"])
     if given.get("insecure"):
         changes["insecure"] = True
-    if "scene" in given:
-        changes["robot"] = msgspec.structs.replace(result.robot, scene=given["scene"])
+    robot = {key: given[flag] for flag, key in _ROBOT_FLAGS.items() if flag in given}
+    if robot:
+        changes["robot"] = msgspec.structs.replace(result.robot, **robot)
     if given.get("headless"):
         changes["master"] = msgspec.structs.replace(result.master, device=Scripted())
     station = {key: given[flag] for flag, key in _STATION_FLAGS.items() if flag in given}
     result = msgspec.structs.replace(result, station=msgspec.structs.replace(result.station, **station), **changes)
-    if result.station.variant or "scene" in given:
-        # Imported here: few name a scene or a variant, and only they need the scenes.
-        from sim.tasks import scene  # noqa: PLC0415
+    file = result.robot.model_file
+    if file is not None:  # named as every process finds it
+        placed_robot = msgspec.structs.replace(result.robot, model=str(file.absolute()))
+        result = msgspec.structs.replace(result, robot=placed_robot)
+    if result.station.variant or robot:
+        # Imported here: few name a scene, a robot or a variant, and only they need the scenes.
+        from services.process.robots import scene_of  # noqa: PLC0415
 
-        found = scene(result.robot.scene)
+        found = scene_of(result.robot)
         if result.station.variant:
             found.check(result.station.variant)
     checked_name(result.name)

@@ -3,9 +3,12 @@
 from services.commands.command import Command
 from services.process.processes import PROCESSES
 
+_MODULES = {"robot": "services.commands.robot.command"}
+"""Of the processes that are more than one process."""
+
 COMMANDS: tuple[Command, ...] = (
     Command("up", "services.commands.up.command", "start everything and watch over it", needs="process"),
-    *(Command(p.name, "services.commands.process", p.about) for p in PROCESSES),
+    *(Command(p.name, _MODULES.get(p.name, "services.commands.process"), p.about) for p in PROCESSES),
     Command("router", "services.commands.router", "where the processes of a site meet", needs="process"),
     Command("teach", "services.commands.teach", "give a model its first demonstrations, or a motion", needs="robot"),
     Command("history", "services.commands.history", "what a model has learnt; undo and redo of any", needs="station"),

@@ -22,8 +22,8 @@ from services.model.skill import binding_of
 from services.offline.first_demonstrations import first_demonstrations
 from services.process.config import Configuration
 from services.process.exceptions import CommandFailed
+from services.process.robots import scene_of
 from sim.tasks import REACHING, AnyScene
-from sim.tasks import scene as find_scene
 
 log = logging.getLogger(__name__)
 
@@ -84,7 +84,7 @@ def teach(configuration: Configuration) -> None:
     Raises:
         ServiceError: there is no model to teach, it is for another scene, or no motion could be taught.
     """
-    scene = find_scene(configuration.robot.scene)
+    scene = scene_of(configuration.robot)
     # Taught before the bus is there: nothing waits for it, and Ctrl-C ends it at once.
     demonstrations = first_demonstrations(scene)
     with model_process(configuration, "teach") as model:
@@ -118,7 +118,7 @@ def teach_waypoints(configuration: Configuration, file: Path, object_position: V
         SimError: there is no such scene, or no object of it can be there.
     """
     # All that a person can have got wrong shows before the network is asked for anything.
-    scene = find_scene(configuration.robot.scene)
+    scene = scene_of(configuration.robot)
     if not scene.has_object:
         raise CommandFailed(f"scene {scene.name} has no object that waypoints lead to: use {' or '.join(REACHING)}")
     target, reach = np.array(object_position), scene.robot.reach
@@ -149,7 +149,7 @@ def take_back(configuration: Configuration) -> None:
         ServiceError: there is no model, it is for another scene, or it has nothing to take back.
         SimError: there is no such scene.
     """
-    scene = find_scene(configuration.robot.scene)
+    scene = scene_of(configuration.robot)
     with model_process(configuration, "teach") as model:
         before = _held(model, scene)
         purpose = Purpose.UPDATE if before.updates else Purpose.INITIAL

@@ -40,10 +40,10 @@ from services.model.skill import binding_of, check_demonstration, check_duration
 from services.process.clock import Clock
 from services.process.config import Configuration
 from services.process.exceptions import ServiceError
+from services.process.robots import scene_of
 from services.process.schedule import Schedule
 from sim.exceptions import SimError
 from sim.tasks import AnyScene
-from sim.tasks import scene as find_scene
 
 log = logging.getLogger(__name__)
 
@@ -65,7 +65,7 @@ def build(bus: Bus, clock: Clock, configuration: Configuration, models: Mapping[
         SimError: there is no such scene.
     """
     del clock
-    scene = find_scene(configuration.robot.scene)
+    scene = scene_of(configuration.robot)
     store = open_store(configuration.model, configuration.name, binding_of(scene))
     try:
         return ModelService(bus, store, configuration.model.kind, scene, lambda: datetime.now(UTC), models=models)

@@ -14,6 +14,8 @@ from lfd.store.stored import Binding
 from services.process.config import ModelSection
 from services.process.exceptions import CannotWrite
 from services.process.files import data_folder, make_folder
+from sim.robots.catalogue import DEFAULT_NAME
+from sim.robots.robot import PARTICLE
 from sim.tasks import AnyScene
 
 _EARLIER = "model.sqlite"
@@ -48,7 +50,13 @@ def open_store(section: ModelSection, robot: str, binding: Binding) -> Demonstra
         return _opened(path, binding)
     folder = data_folder() / robot
     _make(folder)
-    return _earlier(folder / _EARLIER, binding) or _opened(folder / f"{binding.scene}.sqlite", binding)
+    return _earlier(folder / _EARLIER, binding) or _opened(folder / f"{_stem(binding)}.sqlite", binding)
+
+
+def _stem(binding: Binding) -> str:
+    """Of a skill's file: what one robot has learnt in a scene lies beside what another one has."""
+    ours = binding.robot in (DEFAULT_NAME, PARTICLE.kind)
+    return binding.scene if ours else f"{binding.scene}-{binding.robot}"
 
 
 def _make(folder: Path) -> None:

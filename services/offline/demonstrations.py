@@ -11,8 +11,7 @@ from services.process.exceptions import CommandFailed
 from services.robot.arm import Arm
 from services.robot.assembly import simulated_arm
 from sim.pose import Pose
-from sim.robots.description import prepare
-from sim.tasks import AnyScene
+from sim.tasks import AnyScene, described
 
 Array = NDArray[np.float64]
 
@@ -34,7 +33,7 @@ def demonstrations(scene: AnyScene, places: Array | None = None, variant: str | 
     """
     variant = variant or scene.variants[0]
     rng = np.random.default_rng(SEED)
-    arm = simulated_arm(scene, variant, prepare())
+    arm = simulated_arm(scene, variant, described(scene))
     return [
         demonstrate(arm, scene, place, rng, variant=variant)
         for place in (scene.training_positions if places is None else places)

@@ -20,7 +20,9 @@ from lfd.store.schema import SCHEMA_VERSION
 from lfd.store.stored import Binding, Purpose
 from services import offline, robot
 from sim.cache import kept
+from sim.robots.description import source_of
 from sim.tasks import AnyScene
+from sim.tasks.scene import ReachingScene
 
 log = logging.getLogger(__name__)
 
@@ -37,7 +39,7 @@ def first_demonstrations(scene: AnyScene, cache: Path | None = None) -> list[Dem
         CacheUnusable: there is no place to keep them.
         StorageError: what is kept cannot be read.
     """
-    path = kept(f"first-{scene.name}-{_key()}.sqlite", _Teaching(scene), cache)
+    path = kept(f"first-{scene.name}-{_key(scene)}.sqlite", _Teaching(scene), cache)
     with DemonstrationStore(path) as store:
         return [stored.demonstration for stored in store.active()]
 
@@ -67,12 +69,16 @@ class _Teaching:
         return demonstrations(self._scene)
 
 
-def _key() -> str:
-    """Of everything that decides what is taught, the world, the arm and the teaching itself, and how it is kept.
+def _key(scene: AnyScene) -> str:
+    """Of everything that decides what is taught, the world, the robot and the teaching itself, and how it is kept.
 
     An older version beside this one could not read what this one has kept.
     """
     digest = hashlib.sha256(SCHEMA_VERSION.to_bytes(2))
+    if isinstance(scene, ReachingScene):
+        digest.update(repr((scene.manipulator, scene.stance)).encode())
+        if not scene.manipulator.source.package:
+            digest.update(source_of(scene.manipulator).read_bytes())
     for package in (sim, robot, offline):
         for path in sorted(Path(package.__path__[0]).rglob("*.py")):
             digest.update(path.read_bytes())

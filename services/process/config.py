@@ -28,11 +28,17 @@ LONGEST_LEASE_S = 3.0
 Silence = Annotated[float, msgspec.Meta(gt=0.0, le=LONGEST_SILENCE_S)]
 
 
+ROBOT_SUFFIX = ".toml"
+"""Of a robot file: what ends so is no robot's name."""
+
+
 class RobotSection(Section, frozen=True):
     """The robot process.
 
     Attributes:
         scene: which simulated scene it stands in: a name in `sim.tasks`.
+        model: which robot stands in it: the name of one that ships, or the path of a robot file; empty for the one that
+            the scene was made for.
         variant: the scene's arrangement to start in; empty for the one that the model was trained in.
         hold_after_s: age of the master's newest sample at which a refinement holds, at most `LONGEST_SILENCE_S` [s].
         presence_after_s: age of the authority's newest renewal at which every motion holds, at most the same [s].
@@ -43,6 +49,7 @@ class RobotSection(Section, frozen=True):
     """
 
     scene: str = "dishwasher"
+    model: str = ""
     variant: str = ""
     hold_after_s: Silence = 0.1
     presence_after_s: Silence = 0.2
@@ -50,6 +57,12 @@ class RobotSection(Section, frozen=True):
     velocity_scale: Annotated[float, msgspec.Meta(gt=0.0, le=1.0)] = 0.5
     self_distance_stop: Annotated[float, msgspec.Meta(ge=0.0)] = 0.005
     master_gain: Annotated[float, msgspec.Meta(gt=0.0, le=10.0)] = 1.0
+
+    @property
+    def model_file(self) -> Path | None:
+        """The robot file that is meant; None where the robot is meant by its name."""
+        is_path = "/" in self.model or self.model.endswith(ROBOT_SUFFIX)
+        return Path(self.model) if is_path else None
 
 
 class CameraSection(Section, frozen=True):

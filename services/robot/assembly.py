@@ -1,10 +1,10 @@
 """What stands in a scene, put together: backend, kinematics, criteria, starts."""
 
 from services.robot.arm import Arm
-from services.robot.backends.backend import Backend
+from services.robot.backends.backend import Backend, Blocked
 from services.robot.backends.particle import ParticleBackend, ParticleKinematics
 from services.robot.mechanism import Mechanism
-from services.robot.starts import Starts
+from services.robot.starts import StartImpossible, Starts
 from services.robot.verdict import Criteria, ReachingCriteria
 from services.robot.via_points import ViaPointCriteria
 from sim.robots.description import RobotDescription
@@ -51,12 +51,15 @@ def simulated_arm(
 
     Raises:
         UnknownVariant: the scene has no such variant.
-        StartImpossible: the arm cannot reach the scene's start.
+        StartImpossible: the arm cannot reach the scene's start, or would touch something there.
     """
     kinematics = kinematics or kinematics_of(scene, description)
     starts = Starts(kinematics, scene.start, scene.posture, self_distance_stop)
     backend, criteria = _stage(scene, variant, description)
-    backend.reset(scene.training_positions[0], variant, starts.joints(scene.start))
+    try:
+        backend.reset(scene.training_positions[0], variant, starts.joints(scene.start))
+    except Blocked as error:
+        raise StartImpossible(scene.start.position, str(error)) from error
     return Arm(
         backend,
         kinematics,

@@ -13,6 +13,7 @@ from services.process.clock import Clock
 from services.process.config import Configuration
 from services.process.endpoint import parse
 from services.process.lines import one_line
+from services.process.robots import scene_of
 from services.robot.assembly import kinematics_of, simulated_arm
 from services.robot.backends.backend import CONTROL_PERIOD
 from services.robot.control import Control
@@ -26,8 +27,7 @@ from services.robot.samples import Samples
 from services.robot.states import States
 from services.robot.synchronisation import Synchronisation
 from services.robot.timed_kinematics import TimedKinematics
-from sim.robots.description import prepare
-from sim.tasks import scene as scene_named
+from sim.tasks import described
 
 log = logging.getLogger(__name__)
 
@@ -51,8 +51,8 @@ def build(bus: Bus, clock: Clock, configuration: Configuration, memory: Memory |
     if memory is None:
         memory, ledger = safety_file(configuration.name), ledger_file(configuration.name)
     section = configuration.robot
-    description = prepare()
-    scene = scene_named(section.scene)
+    scene = scene_of(section)
+    description = described(scene)
     kinematics = TimedKinematics(clock, kinematics_of(scene, description))
     arm = simulated_arm(
         scene,

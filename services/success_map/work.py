@@ -26,8 +26,7 @@ from services.robot.starts import StartImpossible
 from services.robot.verdict import Verdict
 from services.success_map.conditions import UNREACHABLE, Array, Condition, Ending, Setting, Target, Trial
 from sim.pose import Pose
-from sim.robots.description import prepare
-from sim.tasks import AnyScene
+from sim.tasks import AnyScene, described
 from sim.tasks import scene as find_scene
 
 REFINEMENTS_ALLOWED = 10
@@ -170,7 +169,7 @@ class _Part:
 def _carry_out(part: _Part, progress: Progress) -> list[tuple[Trial, ...]]:
     scene, found = find_scene(part.scene), list[tuple[Trial, ...]]()
     with threadpool_limits(1):
-        arm = simulated_arm(scene, part.variant, prepare())
+        arm = simulated_arm(scene, part.variant, described(scene))
         for setting, models in part.turns:
             found.append(_tried(arm, scene, part.variant, setting, models))
             progress(len(found) / len(part.turns))

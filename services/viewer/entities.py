@@ -1,5 +1,7 @@
 """Where things lie in the recording: the paths that loggers, blueprint and readers share."""
 
+from sim.robots.description import NAME
+
 TIMELINE = "time"
 
 WORLD = "/world"
@@ -23,7 +25,7 @@ POINT = "/world/grasp/point"
 """The robot, where it has no shape."""
 ROBOT = "/robot"
 """Outside the world's tree, since the URDF loader takes one name only; its frames lead into the world."""
-COLLISION_SHAPES = "/robot/tiago/collision_geometries"
+COLLISION_SHAPES = f"/robot/{NAME}/collision_geometries"
 """Where the loader puts them, by the name in the URDF; they are not shown."""
 
 CAMERAS = "/cameras"

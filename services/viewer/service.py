@@ -22,6 +22,7 @@ from services.bus.predictions import Predictions
 from services.bus.trace import Trace
 from services.process.clock import Clock
 from services.process.config import Configuration
+from services.process.robots import scene_of
 from services.process.runner import Service
 from services.viewer import motions, scene, series
 from services.viewer.journal import Journal
@@ -37,7 +38,7 @@ from services.viewer.web_files import web_files
 from services.viewer.words import Words
 from sim.exceptions import SimError
 from sim.robots.description import prepare
-from sim.tasks import SCENES
+from sim.tasks import SCENES, AnyScene, described
 from sim.tasks.scene import Eye
 
 log = logging.getLogger(__name__)
@@ -65,14 +66,14 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> Service:
     """
     web = WebServer(configuration.viewer, web_files())
     # A scene that is not known here has an arm like ours, as far as anybody can tell.
-    known = SCENES.get(configuration.robot.scene)
+    known = scene_of(configuration.robot) if configuration.robot.scene in SCENES else None
     try:
         run = Run(configuration.viewer, configuration.name, clock.now_ns(), known.eye if known else Eye())
     except BaseException:
         web.close()
         raise
     point = known.point if known else None
-    return ViewerService(bus, run, web, point)
+    return ViewerService(bus, run, web, point, known)
 
 
 class ViewerService:
@@ -83,9 +84,12 @@ class ViewerService:
         run: where it is drawn.
         web: the page to look at it.
         point: radius of a robot that is a point [m]; None for an arm.
+        known: the scene, where it is known here.
     """
 
-    def __init__(self, bus: Bus, run: Run, web: WebServer, point: float | None = None) -> None:
+    def __init__(
+        self, bus: Bus, run: Run, web: WebServer, point: float | None = None, known: AnyScene | None = None
+    ) -> None:
         self._bus = bus
         self._run = run
         self._web = web
@@ -106,7 +110,7 @@ class ViewerService:
         self._unusable = 0
         run.at(0)
         series.log_legends(run)
-        self._robot = Robot(bus, run, self._words, self._journal, _robot_model(run) if point is None else None)
+        self._robot = Robot(bus, run, self._words, self._journal, _robot_model(run, known) if point is None else None)
         self._teleoperation = Teleoperation(bus, run, self._words, self._journal)
         self._teaching = Teaching(bus, run, self._words, self._journal)
         if point is not None:
@@ -228,10 +232,10 @@ def _rounded(pose: Pose) -> tuple[float, ...]:
     return tuple(round(value, 4) for value in (*pose.position, *pose.orientation))
 
 
-def _robot_model(stream: Run) -> RobotModel | None:
+def _robot_model(stream: Run, known: AnyScene | None) -> RobotModel | None:
     """The robot's shape; a station without the description shows the rest all the same."""
     try:
-        return RobotModel(prepare().urdf, stream)
+        return RobotModel((described(known) if known is not None else prepare()).urdf, stream)
     except (SimError, ImportError) as error:
         log.warning("the robot itself is not shown: %s", error)
         return None

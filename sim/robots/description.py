@@ -24,13 +24,17 @@ CONTROLLED_JOINTS = DEFAULT.joint_names
 HEAD_JOINTS = DEFAULT.held_names
 GRASPING_FRAME = gripper.GRASPING_FRAME
 
-STAND = "stand"
+NAME = "robot"
+"""Of every robot in its description: who draws one finds its parts under it."""
+
+STAND = "robot_stand"
 """The link on which a robot stands that does not stand at the scene's origin."""
 
+_WORLD = "world"
 _SHARE = "cmeel.prefix/share"
 _URDF_NAME = "robot.urdf"
 _MUJOCO_OPTIONS = '<mujoco><compiler strippath="false" fusestatic="false" discardvisual="false" meshdir="."/></mujoco>'
-_COLUMN = 0.16  # [m] width of what carries a robot that stands above the floor
+_COLUMN = 0.10  # [m] width of what carries a robot that stands above the floor
 
 
 @dataclass(frozen=True)
@@ -115,6 +119,7 @@ def _build(source: Path, robot: Manipulator, base: Base, scratch: Path, target: 
     root.extend(ET.fromstring(f"<gripper>{gripper.gripper_urdf(robot.gripper, materials)}</gripper>"))
     for inertial in root.iterfind("link/inertial"):
         inertia.repair(inertial)
+    root.attrib["name"] = NAME
     root.insert(0, ET.fromstring(_MUJOCO_OPTIONS))
     ET.ElementTree(root).write(scratch / _URDF_NAME, encoding="utf-8", xml_declaration=True)
 
@@ -163,6 +168,10 @@ def _drop_friction(root: ET.Element) -> None:
 
 def _put_on_stand(root: ET.Element, base: Base) -> None:
     """Hang the first link on another one, which lies in the scene's origin, and draw what carries it."""
+    for element in root.iter():
+        for key in ("name", "link"):
+            if element.tag in ("link", "parent", "child") and element.attrib.get(key) == _WORLD:
+                element.attrib[key] = f"{_WORLD}_link"  # MuJoCo takes it for its own, wherever it is
     (first,) = faults.first_links(root)
     x, y, z = base.position
     column = ""

@@ -15,7 +15,7 @@ Vector = tuple[float, float, float]
 
 GRASPING_FRAME = "grasping_frame"
 WRIST_CAMERA_FRAME = "wrist_camera_frame"
-GRIPPER_FRAME = "gripper_frame"
+GRIPPER_FRAME = "gripper_mount_frame"
 
 GRASP_DISTANCE = 0.13  # [m] from the frame of the gripper of boxes to the grasping frame
 OPENING = 0.104  # [m] between its fingers

@@ -240,8 +240,8 @@ def wrist_camera() -> Camera:
 
 def mast_camera() -> Camera:
     """A camera in a head's place, for a robot without one: on a mast, looking down at what is before the arm."""
-    tilt = math.radians(40.0)
-    mount = Mount("", (0.20, 0.0, 1.20), (-math.pi / 2 - tilt, 0.0, -math.pi / 2))
+    tilt = math.radians(48.0)
+    mount = Mount("", (0.245, 0.02, 1.28), (-math.pi / 2 - tilt, 0.0, -math.pi / 2))
     return Camera(HEAD_CAMERA, mount, FIELD_OF_VIEW[HEAD_CAMERA])
 
 

@@ -1,14 +1,18 @@
 """The scenes, by name; each has a file of its own."""
 
 from dataclasses import replace
+from pathlib import Path
 
 from sim.exceptions import RobotOfItsOwn, UnknownScene
+from sim.robots.description import RobotDescription, prepare
 from sim.robots.robot import Manipulator
 from sim.tasks.dishwasher import DISHWASHER
 from sim.tasks.particle import PARTICLE, ParticleScene
 from sim.tasks.post import POST
 from sim.tasks.scene import ReachingScene
 from sim.tasks.table import TABLE
+
+NO_DESCRIPTION = RobotDescription(Path("a particle needs none"))
 
 AnyScene = ReachingScene | ParticleScene
 """What scenes differ in is told apart by their kind."""
@@ -39,3 +43,18 @@ def scene(name: str, manipulator: Manipulator | None = None) -> AnyScene:
     if not isinstance(found, ReachingScene):
         raise RobotOfItsOwn(name, found.robot.kind, REACHING)
     return replace(found, manipulator=manipulator)
+
+
+def described(scene: AnyScene, cache: Path | None = None) -> RobotDescription:
+    """Return the description of the robot that stands in a scene, as it stands there, making it at first use.
+
+    Args:
+        scene: Which.
+        cache: Where to keep it; see `sim.cache`.
+
+    Raises:
+        SimError: It cannot be made; see `prepare`.
+    """
+    if not isinstance(scene, ReachingScene):
+        return NO_DESCRIPTION
+    return prepare(cache, scene.manipulator, scene.stance.base)

@@ -1,0 +1,123 @@
+"""What there is to know of a robot before it is started: what is missing, how it stands, where it can grasp."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from services.bus.arrays import vector3
+from services.commands.robot.grasps import grasps
+from services.process.config import RobotSection
+from services.process.exceptions import CannotWrite
+from services.process.exit_codes import Exit
+from services.process.robots import manipulator
+from services.robot.kinematics import Kinematics
+from services.robot.starts import StartImpossible, Starts
+from sim.robots import faults
+from sim.robots.catalogue import DEFAULT, NAMES, robot
+from sim.robots.description import prepare, read, source_of
+from sim.robots.robot import Base, Manipulator
+from sim.tasks import REACHING, described
+from sim.world.pictures import png
+from sim.world.portrait import Dot, portrait
+
+SAFE = 0.02
+"""Between a robot's parts at home [m]: less is told."""
+
+_COLOURS = {True: (0.10, 0.60, 0.25, 1.0), False: (0.90, 0.65, 0.15, 1.0)}
+
+
+def listed() -> int:
+    """Print the robots that ship, a line each."""
+    for name in NAMES:
+        one = robot(name)
+        (x0, _, z0), (x1, _, z1) = one.reach.lower, one.reach.upper
+        soft = ", orientation soft" if one.turn_slack else ""
+        note = " (default)" if one is DEFAULT else ""
+        _say(f"{name}{note}: {len(one.joints)} joints{soft}, reaches from {x0:g} to {x1:g} m, {z0:g} to {z1:g} m high")
+    return Exit.DONE
+
+
+def check(which: str, folder: Path) -> int:
+    """Print what is missing; where nothing is, what was measured, and draw both pictures.
+
+    Args:
+        which: robot, by name or file; the default one where it is empty.
+        folder: for the pictures.
+    """
+    one = _robot(which)
+    missing = list(faults.found(read(source_of(one)), one, source_of(one)))
+    for line in missing:
+        _say(line)
+    if missing:
+        return Exit.BAD_INPUT
+    wrong = _measure(one)
+    _write(folder / f"{one.kind}.png", one)
+    found = grasps(one)
+    _say(f"grasps forward and down at {found.share:.0%} of the places that it reaches at all")
+    pairs = zip(found.places, found.fine.tolist(), strict=True)
+    _write(folder / f"{one.kind}-reach.png", one, [Dot(vector3(place), _COLOURS[fine]) for place, fine in pairs])
+    return Exit.BAD_INPUT if wrong else Exit.DONE
+
+
+def draw(which: str, folder: Path) -> int:
+    """Draw the home posture with its frames; arguments as of `check`."""
+    one = _robot(which)
+    _write(folder / f"{one.kind}.png", one)
+    return Exit.DONE
+
+
+def _robot(which: str) -> Manipulator:
+    return manipulator(RobotSection(model=which)) or DEFAULT
+
+
+def _measure(one: Manipulator) -> bool:
+    """Say how it stands at home, how far it reaches and which scenes it can start in; whether home is wrong."""
+    home = np.array(one.home)
+    arm = Kinematics(prepare(robot=replace(one, base=Base())).urdf, home, one)
+    wrong = False
+    for name, q, low, high in zip(one.joint_names, one.home, arm.lower, arm.upper, strict=True):
+        if not low < q < high:
+            _say(f"home: joint {name} at {q:g} is outside its limits, {low:g} to {high:g}")
+            wrong = True
+    distance = arm.self_distance(home)
+    if distance < SAFE:
+        _say(f"home: the robot is within {1e3 * distance:.0f} mm of itself; give another posture")
+        wrong = True
+    rng = np.random.default_rng(0)
+    places = np.array([arm.forward(rng.uniform(arm.lower, arm.upper)).position for _ in range(5000)])
+    lower, upper = np.floor(10.0 * places.min(axis=0) - 0.5) / 10.0, np.ceil(10.0 * places.max(axis=0) + 0.5) / 10.0
+    _say(f"reach: lower = {lower.round(1).tolist()}, upper = {upper.round(1).tolist()} m from its first link")
+    for name in REACHING:
+        _say(f"scene {name}: {_start(one, name)}")
+    return wrong
+
+
+def _start(one: Manipulator, name: str) -> str:
+    """Whether it reaches a scene's start."""
+    place = replace(REACHING[name], manipulator=one)
+    arm = Kinematics(described(place).urdf, place.posture, one)
+    try:
+        Starts(arm, place.start, place.posture, RobotSection().self_distance_stop).joints(place.start)
+    except StartImpossible as error:
+        return str(error)
+    return "it reaches the start"
+
+
+def _write(path: Path, one: Manipulator, dots: Sequence[Dot] = ()) -> None:
+    picture = portrait(one, dots=dots)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(png(picture))
+    except OSError as error:
+        raise CannotWrite(path, error.strerror or str(error)) from None
+    _say(f"written: {path}")
+
+
+def _say(line: str) -> None:
+    sys.stdout.write(f"{line}\n")
+    sys.stdout.flush()

@@ -1,0 +1,37 @@
+"""Which robot a configuration means, and the scene with that robot in it."""
+
+from __future__ import annotations
+
+from services.process.config import RobotSection
+from services.process.robot_file import load_robot
+from sim.robots.catalogue import robot
+from sim.robots.robot import Manipulator
+from sim.tasks import AnyScene, scene
+
+
+def manipulator(section: RobotSection) -> Manipulator | None:
+    """The robot that a configuration means; None for whichever a scene was made for.
+
+    Raises:
+        UnknownRobot: none that ships has the name.
+        ConfigurationError: the robot file cannot be used.
+    """
+    if section.model_file is not None:
+        return load_robot(section.model_file)
+    return robot(section.model) if section.model else None
+
+
+def scene_of(section: RobotSection, name: str = "") -> AnyScene:
+    """The scene of a configuration, with its robot in it.
+
+    Args:
+        section: of the configuration.
+        name: of another scene; the section's own by default.
+
+    Raises:
+        UnknownScene: there is none of that name.
+        UnknownRobot: see `manipulator`.
+        RobotOfItsOwn: no other robot stands in that scene.
+        ConfigurationError: see `manipulator`.
+    """
+    return scene(name or section.scene, manipulator(section))
