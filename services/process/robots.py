@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from services.process.config import RobotSection
 from services.process.robot_file import load_robot
+from sim.robots import faults
 from sim.robots.catalogue import robot
+from sim.robots.description import read, source_of
 from sim.robots.robot import Manipulator
 from sim.tasks import AnyScene, scene
 
@@ -15,9 +17,13 @@ def manipulator(section: RobotSection) -> Manipulator | None:
     Raises:
         UnknownRobot: none that ships has the name.
         ConfigurationError: the robot file cannot be used.
+        SimError: what it names is not there.
     """
     if section.model_file is not None:
-        return load_robot(section.model_file)
+        found = load_robot(section.model_file)
+        source = source_of(found)
+        faults.check(read(source), found, source)
+        return found
     return robot(section.model) if section.model else None
 
 

@@ -66,14 +66,18 @@ def prepare(cache: Path | None = None, robot: Manipulator = DEFAULT, base: Base 
         RobotUnfit: What the robot's value names is not in the description.
         CacheUnusable: There is no place for it.
     """
-    source = source_of(robot)
+    source = source_of(robot, cache)
     base = base or robot.base
     name = f"{robot.kind}-{_key(source, robot, base)}"
     return RobotDescription(kept(name, partial(_build, source, robot, base), cache) / _URDF_NAME)
 
 
-def source_of(robot: Manipulator) -> Path:
-    """Return the file that describes a robot.
+def source_of(robot: Manipulator, cache: Path | None = None) -> Path:
+    """Return the URDF that describes a robot; a MJCF is made into one.
+
+    Args:
+        robot: Which.
+        cache: Where that is kept; see `sim.cache`.
 
     Raises:
         DescriptionMissing: The package that it lies in is not installed.
@@ -84,7 +88,7 @@ def source_of(robot: Manipulator) -> Path:
         path = Path(source.file)
         if not path.is_file():
             raise FileMissing(robot.kind, "the description", path)
-        return path
+        return _urdf(path, cache)
     try:
         path = Path(str(distribution(source.package).locate_file(f"{_SHARE}/{source.package}/{source.file}")))
     except PackageNotFoundError as error:
@@ -92,6 +96,15 @@ def source_of(robot: Manipulator) -> Path:
     if not path.exists():
         raise DescriptionMissing(source.package)
     return path
+
+
+def _urdf(path: Path, cache: Path | None) -> Path:
+    if path.suffix != ".xml":
+        return path
+    # Imported here: physics takes a second, and few bring a MJCF.
+    from sim.robots.mjcf import converted, is_mjcf  # noqa: PLC0415
+
+    return converted(path, cache) if is_mjcf(path) else path
 
 
 def _key(source: Path, robot: Manipulator, base: Base) -> str:
@@ -117,6 +130,7 @@ def _build(source: Path, robot: Manipulator, base: Base, scratch: Path, target: 
         _put_on_stand(root, base)
     materials = [material.attrib["name"] for material in root.iter("material") if material.find("color") is not None]
     root.extend(ET.fromstring(f"<gripper>{gripper.gripper_urdf(robot.gripper, materials)}</gripper>"))
+    inertia.give_where_needed(root)
     for inertial in root.iterfind("link/inertial"):
         inertia.repair(inertial)
     root.attrib["name"] = NAME

@@ -9,6 +9,26 @@ _SMALLEST = 1e-7  # [kg m^2]
 _LIGHTEST = 1e-4  # [kg]
 
 
+def give_where_needed(root: ET.Element) -> None:
+    """Give every link that a joint moves, and that has no inertia, hardly any: nothing moves that has none.
+
+    Args:
+        root: The description.
+    """
+    links = {link.attrib["name"]: link for link in root.iterfind("link")}
+    for joint in root.iterfind("joint"):
+        child = joint.find("child")
+        if child is None or joint.attrib["type"] == "fixed":
+            continue
+        link = links[child.attrib["link"]]
+        if link.find("inertial") is None:
+            inertial = ET.SubElement(link, "inertial")
+            ET.SubElement(inertial, "mass", {"value": repr(_LIGHTEST)})
+            small = repr(_SMALLEST)
+            moments = {"ixx": small, "ixy": "0", "ixz": "0", "iyy": small, "iyz": "0", "izz": small}
+            ET.SubElement(inertial, "inertia", moments)
+
+
 def repair(inertial: ET.Element) -> None:
     """Make an inertia of a description sound: positive, and obeying the triangle inequality.
 

@@ -14,6 +14,7 @@ from services.commands.robot.grasps import grasps
 from services.process.config import RobotSection
 from services.process.exceptions import CannotWrite
 from services.process.exit_codes import Exit
+from services.process.robot_file import load_robot
 from services.process.robots import manipulator
 from services.robot.kinematics import Kinematics
 from services.robot.starts import StartImpossible, Starts
@@ -49,7 +50,8 @@ def check(which: str, folder: Path) -> int:
         which: robot, by name or file; the default one where it is empty.
         folder: for the pictures.
     """
-    one = _robot(which)
+    file = RobotSection(model=which).model_file
+    one = _robot(which) if file is None else load_robot(file)
     missing = list(faults.found(read(source_of(one)), one, source_of(one)))
     for line in missing:
         _say(line)
