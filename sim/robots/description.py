@@ -20,8 +20,6 @@ from sim.robots.catalogue import DEFAULT
 from sim.robots.gripper import Mount, fixed_urdf
 from sim.robots.robot import Base, Manipulator
 
-CONTROLLED_JOINTS = DEFAULT.joint_names
-HEAD_JOINTS = DEFAULT.held_names
 GRASPING_FRAME = gripper.GRASPING_FRAME
 
 NAME = "robot"

@@ -287,11 +287,6 @@ class ReachingScene(Scene):
         return np.array(self.stance.posture)
 
     @property
-    def head(self) -> Array:
-        """Positions of the joints that are held, shape (h,) [rad, m]."""
-        return np.array(self.stance.held)
-
-    @property
     def tolerances(self) -> Vector:
         """See `Scene.tolerances`."""
         return _vector(self.reached_radii)

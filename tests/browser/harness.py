@@ -28,7 +28,7 @@ from services.station.live_view.drawing import Criteria, Curve, Drawing, Going, 
 from services.station.page.login.judge import Judge
 from services.station.page.page import Page
 from services.station.page.view import PageView, Picture
-from sim.robots.description import CONTROLLED_JOINTS
+from sim.robots.catalogue import DEFAULT
 from sim.tasks import DISHWASHER
 from sim.tasks.scene import Group
 
@@ -100,7 +100,7 @@ def working_view() -> PageView:
             actions=("finish", "teach"),
         ),
         robot=messages.RobotState(
-            joint_names=CONTROLLED_JOINTS,
+            joint_names=DEFAULT.joint_names,
             q=tuple(DISHWASHER.posture.tolist()),
             measured=GRASP,
             reference=GRASP,

@@ -13,11 +13,15 @@ import numpy as np
 from services.bus.arrays import quaternion, vector3
 from sim.exceptions import SimError
 from sim.robots import meshes
-from sim.robots.description import CONTROLLED_JOINTS, HEAD_JOINTS, prepare
-from sim.robots.gripper import BLOCKS, GRASP_DISTANCE
+from sim.robots.catalogue import DEFAULT
+from sim.robots.description import prepare
+from sim.robots.gripper import Gripper
 from sim.robots.links import Block, Cylinder, Link, Mesh, Shape, read_links
-from sim.tasks import REACHING, SCENES
-from sim.tasks.scene import Eye
+from sim.robots.robot import Manipulator
+from sim.tasks import SCENES, AnyScene
+from sim.tasks import described as description_of
+from sim.tasks import scene as scene_named
+from sim.tasks.scene import Eye, ReachingScene
 
 log = logging.getLogger(__name__)
 
@@ -103,7 +107,7 @@ class _Words(msgspec.Struct, frozen=True):
     meshes: tuple[_Mesh, ...]
 
 
-def describe(scene: str) -> Description:
+def describe(scene: str, manipulator: Manipulator | None = None) -> Description:
     """The description of a scene and of the robot in it.
 
     Where the scene is not known here the robot has an arm like ours, as far as anybody can tell; where no robot is
@@ -111,19 +115,27 @@ def describe(scene: str) -> Description:
 
     Args:
         scene: its name.
+        manipulator: that stands in it; by default the one that it was made for.
     """
-    known = SCENES.get(scene)
+    known = scene_named(scene, manipulator) if scene in SCENES else None
     eye, point = (known.eye, known.point) if known is not None else (Eye(), None)
+    arm = manipulator or DEFAULT
     links: tuple[Link, ...] = ()
     if point is None:
         try:
-            links = read_links(prepare().urdf)
+            links = read_links((prepare(robot=arm) if known is None else description_of(known)).urdf)
         except (SimError, ImportError) as error:
             log.warning("the robot itself is not shown: %s", error)
-    return described(links, _posture(scene), eye, point)
+    return described(links, _posture(known), eye, point, arm.gripper)
 
 
-def described(links: tuple[Link, ...], rest: Mapping[str, float], eye: Eye, point: float | None) -> Description:
+def described(
+    links: tuple[Link, ...],
+    rest: Mapping[str, float],
+    eye: Eye,
+    point: float | None,
+    gripper: Gripper = DEFAULT.gripper,
+) -> Description:
     """The description of a robot.
 
     Args:
@@ -131,6 +143,7 @@ def described(links: tuple[Link, ...], rest: Mapping[str, float], eye: Eye, poin
         rest: where joints are as long as nothing is heard of them, by name [rad, m]; at zero where they are not named.
         eye: from where one looks.
         point: radius of a robot that is a point [m].
+        gripper: of one that is none.
     """
     joints = tuple(link.joint for link in links if link.joint)
     forms = [part.form for link in links for part in link.shapes]
@@ -140,7 +153,7 @@ def described(links: tuple[Link, ...], rest: Mapping[str, float], eye: Eye, poin
     words = _Words(
         eye=eye,
         point=point,
-        gripper=() if point is not None else _gripper(),
+        gripper=() if point is not None else _gripper(gripper),
         joints=joints,
         rest=tuple(rest.get(joint, 0.0) for joint in joints),
         links=tuple(_link(link, numbers, joints, paths) for link in links),
@@ -149,19 +162,18 @@ def described(links: tuple[Link, ...], rest: Mapping[str, float], eye: Eye, poin
     return Description(msgspec.json.encode(words), _shapes(solids), joints)
 
 
-def _gripper() -> tuple[_Block, ...]:
+def _gripper(gripper: Gripper) -> tuple[_Block, ...]:
     return tuple(
-        _Block((x - GRASP_DISTANCE, y, z), tuple(0.5 * edge for edge in block.size))
-        for block, (x, y, z) in ((block, block.centre) for block in BLOCKS)
+        _Block((x - gripper.grasp_distance, y, z), tuple(0.5 * edge for edge in block.size))
+        for block, (x, y, z) in ((block, block.centre) for block in gripper.blocks)
     )
 
 
-def _posture(scene: str) -> dict[str, float]:
-    known = REACHING.get(scene)
-    if known is None:
+def _posture(scene: AnyScene | None) -> dict[str, float]:
+    if not isinstance(scene, ReachingScene):
         return {}
-    values = [*known.posture.tolist(), *known.head.tolist()]
-    return dict(zip((*CONTROLLED_JOINTS, *HEAD_JOINTS), values, strict=True))
+    arm, stance = scene.manipulator, scene.stance
+    return dict(zip((*arm.joint_names, *arm.held_names), (*stance.posture, *stance.held), strict=True))
 
 
 def _link(link: Link, numbers: Mapping[str, int], joints: tuple[str, ...], paths: tuple[Path, ...]) -> _Link:

@@ -26,7 +26,7 @@ PASSWORD = "correct horse"
 @pytest.fixture(autouse=True)
 def home(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
-    monkeypatch.setattr("services.station.opening.describe", lambda _: described((), {}, Eye(), None))
+    monkeypatch.setattr("services.station.opening.describe", lambda *_: described((), {}, Eye(), None))
 
 
 @pytest.fixture

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from sim.exceptions import DescriptionInvalid
-from sim.robots.description import CONTROLLED_JOINTS, GRASPING_FRAME, HEAD_JOINTS, RobotDescription
+from sim.robots.catalogue import DEFAULT
+from sim.robots.description import GRASPING_FRAME, RobotDescription
 from sim.robots.links import GREY, Block, Cylinder, Mesh, read_links
 
 pytestmark = pytest.mark.sim
@@ -33,7 +34,7 @@ def test_every_link_comes_after_the_one_that_it_hangs_on(description: RobotDescr
 
 def test_what_moves_are_the_arm_and_the_head(description: RobotDescription) -> None:
     links = read_links(description.urdf)
-    assert {link.joint for link in links} - {""} == {*CONTROLLED_JOINTS, *HEAD_JOINTS}
+    assert {link.joint for link in links} - {""} == {*DEFAULT.joint_names, *DEFAULT.held_names}
     assert [link.joint for link in links if link.slides] == ["torso_lift_joint"]
 
 

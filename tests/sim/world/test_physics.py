@@ -6,7 +6,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from sim.exceptions import UnknownVariant
-from sim.robots.description import CONTROLLED_JOINTS, RobotDescription
+from sim.robots.catalogue import DEFAULT
+from sim.robots.description import RobotDescription
 from sim.tasks import REACHING, scene
 from sim.tasks.scene import ReachingScene
 from sim.world.contacts import Contact, collisions
@@ -14,7 +15,7 @@ from sim.world.physics import CONTROL_PERIOD, World
 
 pytestmark = pytest.mark.sim
 SCENE = pytest.mark.parametrize("place", REACHING.values(), ids=REACHING)
-REST = np.zeros(len(CONTROLLED_JOINTS))
+REST = np.zeros(len(DEFAULT.joint_names))
 
 
 @SCENE

@@ -10,7 +10,8 @@ from services.station.live_view import description
 from services.station.live_view.description import describe, described
 from sim.exceptions import DescriptionMissing
 from sim.robots import meshes
-from sim.robots.description import CONTROLLED_JOINTS, prepare
+from sim.robots.catalogue import robot
+from sim.robots.description import prepare
 from sim.robots.links import Mesh, read_links
 from sim.tasks import DISHWASHER, PARTICLE
 from sim.tasks.scene import Eye
@@ -63,8 +64,8 @@ def test_the_links_are_where_pinocchio_has_them_in_any_posture(told, words):
 
 def test_as_long_as_nothing_is_heard_the_robot_rests_in_the_scenes_posture(told, words):
     rest = dict(zip(told.joints, words["rest"], strict=True))
-    assert [rest[joint] for joint in CONTROLLED_JOINTS] == DISHWASHER.posture.tolist()
-    assert rest["head_2_joint"] == DISHWASHER.head[1]
+    assert [rest[joint] for joint in DISHWASHER.manipulator.joint_names] == DISHWASHER.posture.tolist()
+    assert rest["head_2_joint"] == DISHWASHER.stance.held[1]
 
 
 def test_the_shapes_numbers_give_the_meshes_back(told, words):
@@ -95,6 +96,19 @@ def test_the_gripper_reaches_as_far_ahead_of_the_grasping_frame_as_its_fingers_d
     assert ahead == pytest.approx(0.027)  # 157 mm from the wrist, the frame at 130 mm
 
 
+def test_another_robot_is_told_as_it_stands_in_the_scene():
+    arm = robot("panda")
+    other = describe("table", arm)
+    words = json.loads(other.words)
+    assert set(other.joints) == {*arm.joint_names, *arm.held_names}
+    rest = dict(zip(other.joints, words["rest"], strict=True))
+    assert [rest[joint] for joint in arm.joint_names] == list(arm.home)
+    positions = dict(placed(words, words["rest"]))
+    np.testing.assert_allclose(positions["panda_link0"][0], arm.base.position, atol=1e-9)
+    ahead = max(block["centre"][0] + block["half_sizes"][0] for block in words["gripper"])
+    assert ahead == pytest.approx(0.112 - arm.gripper.grasp_distance)
+
+
 def test_a_robot_that_is_a_point_is_told_as_one():
     words = json.loads(describe("particle").words)
     assert (words["point"], words["links"]) == (PARTICLE.radius, [])
@@ -108,10 +122,10 @@ def test_a_scene_that_is_not_known_here_has_an_arm_like_ours(told):
 
 
 def test_where_no_robot_is_installed_the_rest_is_shown(monkeypatch, caplog):
-    def missing():
+    def missing(scene):
         raise DescriptionMissing("example-robot-data")
 
-    monkeypatch.setattr(description, "prepare", missing)
+    monkeypatch.setattr(description, "description_of", missing)
     assert describe("dishwasher").joints == ()
     assert "the robot itself is not shown" in caplog.text
 
