@@ -14,7 +14,7 @@ from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
 from sim.cache import kept
-from sim.exceptions import DescriptionMissing, FileMissing
+from sim.exceptions import DescriptionInvalid, DescriptionMissing, FileMissing
 from sim.robots import faults, gripper, inertia, meshes, shapes
 from sim.robots.catalogue import DEFAULT
 from sim.robots.gripper import Mount, fixed_urdf
@@ -100,8 +100,11 @@ def _urdf(path: Path, cache: Path | None) -> Path:
     if path.suffix != ".xml":
         return path
     # Imported here: physics takes a second, and few bring a MJCF.
-    from sim.robots.mjcf import converted, is_mjcf  # noqa: PLC0415
-
+    try:
+        from sim.robots.mjcf import converted, is_mjcf  # noqa: PLC0415
+    except ImportError as error:
+        remedy = "pip install 'retouch[robot]', or give a URDF"
+        raise DescriptionInvalid(str(path), "MuJoCo, which reads it, is not installed", remedy) from error
     return converted(path, cache) if is_mjcf(path) else path
 
 

@@ -105,7 +105,7 @@ def children_of(pid):
         return []
 
 
-def run(scene):
+def run(scene, robot_model):
     """One run: what was heard, the report, the memory samples [byte] and when the command began [ns]."""
     ear, memory = Ear(), []
     endpoint = free_endpoint()
@@ -113,6 +113,8 @@ def run(scene):
         report = Path(folder) / "report.json"
         command = retouch_command(("up", "--fresh", "--headless", "--once", "--json", str(report)))
         command += ["--scene", scene, "--listen", endpoint]
+        if robot_model is not None:
+            command += ["--robot-model", robot_model]
         with (Path(folder) / "log.txt").open("w") as log:
             began_ns = ear.clock.now_ns()
             process = subprocess.Popen(command, cwd=folder, stdout=log, stderr=subprocess.STDOUT)
@@ -186,10 +188,11 @@ def _figure(beat, name):
 def main():
     parser = argparse.ArgumentParser(prog="deploy/bench loop", description=__doc__)
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures as JSON")
+    parser.add_argument("--robot-model", metavar="NAME|FILE", help="the robot in it (default: tiago)")
     parser.add_argument("--scene", default="dishwasher", help=f"{', '.join(SCENES)} (default: dishwasher)")
     arguments = parser.parse_args()
     print("bench: one run of the whole loop, about 80 s", file=sys.stderr)
-    report(figures(*run(arguments.scene)), arguments.json)
+    report(figures(*run(arguments.scene, arguments.robot_model)), arguments.json)
 
 
 if __name__ == "__main__":
