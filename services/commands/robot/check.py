@@ -94,6 +94,10 @@ def _measure(one: Manipulator) -> bool:
     places = np.array([arm.forward(rng.uniform(arm.lower, arm.upper)).position for _ in range(5000)])
     lower, upper = np.floor(10.0 * places.min(axis=0) - 0.5) / 10.0, np.ceil(10.0 * places.max(axis=0) + 0.5) / 10.0
     _say(f"reach: lower = {lower.round(1).tolist()}, upper = {upper.round(1).tolist()} m from its first link")
+    box = one.reach
+    if not (np.all(box.lower <= places) and np.all(places <= box.upper)):
+        _say(f"reach: it goes beyond {list(box.lower)} to {list(box.upper)} m: write what was measured")
+        wrong = True
     for name in REACHING:
         _say(f"scene {name}: {_start(one, name)}")
     return wrong

@@ -89,6 +89,12 @@ def test_a_home_that_is_no_posture_is_said(file: Path, tmp_path: Path, capsys) -
     assert "home: joint turn at 4 is outside its limits, -3 to 3" in capsys.readouterr().out
 
 
+def test_a_box_that_is_smaller_than_the_reach_is_said(file: Path, tmp_path: Path, capsys) -> None:
+    file.write_text(f"{FILE}[reach]\nlower = [-0.2, -1.0, -1.0]\nupper = [1.0, 1.0, 1.2]\n")
+    assert main(["robot", "check", str(file), "--out", str(tmp_path)]) == 2
+    assert "reach: it goes beyond [-0.2, -1.0, -1.0] to [1.0, 1.0, 1.2] m" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(
     ("which", "said"),
     [
