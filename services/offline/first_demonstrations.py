@@ -22,7 +22,7 @@ from services import offline, robot
 from sim.cache import kept
 from sim.robots.description import source_of
 from sim.tasks import AnyScene
-from sim.tasks.scene import ReachingScene
+from sim.tasks.reaching import ReachingScene
 
 log = logging.getLogger(__name__)
 

@@ -10,7 +10,7 @@ from lfd.motion.trajectory import Trajectory
 from services.offline.steering import steered
 from services.robot.verdict import ellipsoid_value
 from sim.pose import Pose
-from sim.tasks.scene import ReachingScene
+from sim.tasks.reaching import ReachingScene
 
 Array = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ from services.robot.via_points import ViaPointCriteria
 from sim.robots.description import RobotDescription
 from sim.tasks import AnyScene
 from sim.tasks.particle import ParticleScene
-from sim.tasks.scene import ReachingScene
+from sim.tasks.reaching import ReachingScene
 
 
 def kinematics_of(scene: AnyScene, description: RobotDescription) -> Mechanism:

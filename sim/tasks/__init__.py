@@ -9,7 +9,7 @@ from sim.robots.robot import Manipulator
 from sim.tasks.dishwasher import DISHWASHER
 from sim.tasks.particle import PARTICLE, ParticleScene
 from sim.tasks.post import POST
-from sim.tasks.scene import ReachingScene
+from sim.tasks.reaching import ReachingScene
 from sim.tasks.table import TABLE
 
 NO_DESCRIPTION = RobotDescription(Path("a particle needs none"))

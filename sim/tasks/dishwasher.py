@@ -11,7 +11,8 @@ import numpy as np
 from sim.pose import Pose
 from sim.region import Region
 from sim.robots.gripper import pitched_down
-from sim.tasks.scene import Array, Box, Corridor, Group, ReachingScene
+from sim.tasks.reaching import ReachingScene
+from sim.tasks.scene import Array, Box, Corridor, Group
 
 _B1, _B2 = "b1", "b2"
 _BASKET_FRONT = {_B1: 0.73, _B2: 0.55}  # [m] x of the front panel

@@ -15,7 +15,8 @@ from sim.pose import Pose
 from sim.region import Region
 from sim.robots.gripper import pitched_down
 from sim.tasks.furniture import table
-from sim.tasks.scene import Array, Box, Corridor, Eye, Group, ReachingScene
+from sim.tasks.reaching import ReachingScene
+from sim.tasks.scene import Array, Box, Corridor, Eye, Group
 
 _CLEAR, _POST = "clear", "post"
 _TOP_Z = 0.50  # [m]

@@ -12,7 +12,8 @@ from sim.pose import Pose
 from sim.region import Region
 from sim.robots.gripper import pitched_down
 from sim.tasks.furniture import table
-from sim.tasks.scene import Array, Box, Corridor, ReachingScene
+from sim.tasks.reaching import ReachingScene
+from sim.tasks.scene import Array, Box, Corridor
 
 _CLEAR, _BOX = "clear", "box"
 _TOP_Z = 0.66  # [m]

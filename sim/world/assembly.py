@@ -14,7 +14,8 @@ from sim.robots.robot import Manipulator
 from sim.rotations import rotated
 from sim.tasks import AnyScene
 from sim.tasks.particle import ParticleScene
-from sim.tasks.scene import LID_SIZE, OBJECT_MASS, OBJECT_SIZE, TAG_BITS, TAG_SIZE, ReachingScene
+from sim.tasks.reaching import ReachingScene
+from sim.tasks.scene import LID_SIZE, OBJECT_MASS, OBJECT_SIZE, TAG_BITS, TAG_SIZE
 from sim.world.particle import particle
 from sim.world.staging import (
     AFFINITY,

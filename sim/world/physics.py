@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.robots.description import RobotDescription
-from sim.tasks.scene import NO_ROTATION, ReachingScene
+from sim.tasks.reaching import ReachingScene
+from sim.tasks.scene import NO_ROTATION
 from sim.world.assembly import OBJECT, TIMESTEP, assemble
 from sim.world.contacts import Contact, clearance, collisions, strongest
 from sim.world.staging import select

@@ -28,7 +28,7 @@ from sim.person.attention import REACTION
 from sim.person.intention import Intention, plan
 from sim.robots.description import prepare
 from sim.tasks.dishwasher import DISHWASHER
-from sim.tasks.scene import ReachingScene
+from sim.tasks.reaching import ReachingScene
 from sim.tasks.table import TABLE
 
 Array = NDArray[np.float64]

@@ -21,7 +21,8 @@ from sim.robots.robot import Manipulator
 from sim.tasks import SCENES, AnyScene
 from sim.tasks import described as description_of
 from sim.tasks import scene as scene_named
-from sim.tasks.scene import Eye, ReachingScene
+from sim.tasks.reaching import ReachingScene
+from sim.tasks.scene import Eye
 
 log = logging.getLogger(__name__)
 

@@ -5,7 +5,7 @@ from services.robot.kinematics import Kinematics
 from services.robot.mechanism import Unreachable
 from sim.robots.description import RobotDescription, prepare
 from sim.tasks import REACHING, scene
-from sim.tasks.scene import ReachingScene
+from sim.tasks.reaching import ReachingScene
 
 pytestmark = pytest.mark.sim
 SCENE = pytest.mark.parametrize("place", REACHING.values(), ids=REACHING)

@@ -14,7 +14,7 @@ from sim.robots.description import prepare
 from sim.robots.gripper import Mount
 from sim.robots.robot import HEAD_CAMERA, WRIST_CAMERA, Base, Manipulator
 from sim.tasks import described, scene
-from sim.tasks.scene import ReachingScene
+from sim.tasks.reaching import ReachingScene
 from sim.world.assembly import assemble
 from sim.world.physics import World
 

@@ -10,7 +10,8 @@ from services.robot.starts import Starts
 from sim.pose import Pose
 from sim.robots.description import RobotDescription
 from sim.tasks import REACHING
-from sim.tasks.scene import Corridor, ReachingScene
+from sim.tasks.reaching import ReachingScene
+from sim.tasks.scene import Corridor
 from sim.world.physics import CONTROL_PERIOD, World
 
 pytestmark = pytest.mark.sim

@@ -5,7 +5,8 @@ from sim.exceptions import UnknownScene, UnknownVariant, WrongPlace
 from sim.pose import Pose
 from sim.robots.gripper import pitched_down
 from sim.tasks import REACHING, SCENES, scene
-from sim.tasks.scene import OBJECT_SIZE, ReachingScene, Scene
+from sim.tasks.reaching import ReachingScene
+from sim.tasks.scene import OBJECT_SIZE, Scene
 
 SCENE = pytest.mark.parametrize("place", SCENES.values(), ids=SCENES)
 REACHING_SCENE = pytest.mark.parametrize("place", REACHING.values(), ids=REACHING)

@@ -7,7 +7,8 @@ from scipy.spatial.transform import Rotation
 
 from sim.robots.description import RobotDescription
 from sim.tasks import REACHING, scene
-from sim.tasks.scene import TAG_BITS, TAG_DICTIONARY, TAG_ID, TAG_IN_OBJECT, TAG_SIZE, ReachingScene
+from sim.tasks.reaching import ReachingScene
+from sim.tasks.scene import TAG_BITS, TAG_DICTIONARY, TAG_ID, TAG_IN_OBJECT, TAG_SIZE
 from sim.world.cameras import CAMERAS, Cameras
 from sim.world.physics import World
 

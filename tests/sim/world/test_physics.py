@@ -9,7 +9,7 @@ from sim.exceptions import UnknownVariant
 from sim.robots.catalogue import DEFAULT
 from sim.robots.description import RobotDescription
 from sim.tasks import REACHING, scene
-from sim.tasks.scene import ReachingScene
+from sim.tasks.reaching import ReachingScene
 from sim.world.contacts import Contact, collisions
 from sim.world.physics import CONTROL_PERIOD, World
 
