@@ -33,7 +33,7 @@ def deciding(state: Workflow, view: View, settings: Settings) -> Step:
     if state.owed is not None:
         return Step(to(state, state.owed.phase, view, intent=state.owed.intent, owed=None))
     unseen = state.unseen and not is_seen(state, view)
-    state = set_for_next(replace(state, approach=_usable(state.approach, view, settings), unseen=unseen), view)
+    state = set_for_next(replace(state, approach=_usable(state, settings), unseen=unseen), view)
     offered = _offered(state, view) - settings.settled
     if view.actions & offered & (EDITING | _CHOOSING):
         return Step(_shown(state, view, offered))
@@ -44,14 +44,15 @@ def deciding(state: Workflow, view: View, settings: Settings) -> Step:
     return _take(state, view, settings, chosen)
 
 
-def _usable(approach: Approach, view: View, settings: Settings) -> Approach:
+def _usable(state: Workflow, settings: Settings) -> Approach:
     """As far as it is set; an empty model has no motion to correct: it is shown one."""
+    approach = state.approach
     if settings.method is not Method.UNKNOWN:
         approach = approach.chosen(settings.method.value)
     if settings.basis:
         approach = approach.based(settings.basis)
     corrects = approach.method is Method.REFINE
-    return replace(approach, method=Method.WAYPOINTS) if corrects and view.empty else approach
+    return replace(approach, method=Method.WAYPOINTS) if corrects and state.empty else approach
 
 
 def _offered(state: Workflow, view: View) -> frozenset[Action]:
@@ -63,11 +64,11 @@ def _offered(state: Workflow, view: View) -> frozenset[Action]:
         return state.offered
     approach = state.approach
     offered = {Action.METHOD, Action.END} | SETTING | turns(view) | editing.offered(state, view)
-    if not view.empty:
+    if not state.empty:
         offered |= {Action.EXECUTE, Action.NEXT}
     if approach.method is not Method.REFINE:
         offered.add(Action.LEAD)
-    elif not view.empty:
+    elif not state.empty:
         offered |= {Action.REFINE, Action.BASIS} if approach.previous is not None else {Action.REFINE}
     if approach.leads_through:
         offered.add(Action.EXECUTE)

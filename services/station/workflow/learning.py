@@ -28,7 +28,7 @@ def learning(state: Workflow, view: View, settings: Settings) -> Step:
         state,
         view,
         queries.ADD_DEMONSTRATION,
-        lambda intent: _request(taught, confidence(state, settings), view, settings, intent),
+        lambda intent: _request(taught, state, view, settings, intent),
     )
     match reply:
         case Step():
@@ -75,15 +75,15 @@ def _share(text: str, otherwise: float | None) -> float | None:
     return min(max(share, 0.0), 1.0) if math.isfinite(share) else otherwise
 
 
-def _request(taught: Taught, alpha: float, view: View, settings: Settings, intent: int) -> queries.AddDemonstration:
+def _request(taught: Taught, state: Workflow, view: View, settings: Settings, intent: int) -> queries.AddDemonstration:
     return queries.AddDemonstration(
-        Purpose.INITIAL if view.empty else Purpose.UPDATE,
+        Purpose.INITIAL if state.empty else Purpose.UPDATE,
         learnable(taught.motion, settings.autonomous_s),
         taught.object_position,
         view.scene.name if view.scene is not None else "",
         taught.condition,
         operator=settings.operator,
-        alpha=alpha,
+        alpha=confidence(state, settings),
         part=taught.part,
         method=taught.method,
         request=intent,

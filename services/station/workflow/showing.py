@@ -7,10 +7,9 @@ from services.station.words.table import say
 from services.station.workflow.action import Action
 from services.station.workflow.editing import lacking
 from services.station.workflow.state import Workflow
-from services.station.workflow.view import View
 
 
-def deciding(state: Workflow, view: View) -> str:
+def deciding(state: Workflow) -> str:
     """While the robot stands; empty where the other words say it."""
     count = len(state.approach.waypoints)
     shown = count == 0 and not state.led and state.updates > 0
@@ -18,7 +17,7 @@ def deciding(state: Workflow, view: View) -> str:
         return ""
     if count == 0:
         then = _to_begin(state)
-        return say("showing.empty", then=then) if view.empty else then
+        return say("showing.empty", then=then) if state.empty else then
     return say("showing.lacking" if lacking(state) else "showing.through", count=count, missing=lacking(state))
 
 

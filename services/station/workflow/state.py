@@ -174,6 +174,7 @@ class Workflow:
         placed: where the target was put.
         looked: where the object was seen [m]; the base frame's origin where there is none.
         condition: that the robot stood in then; empty where it is the object's.
+        empty: the model has learnt nothing to predict from, as it said last.
         unseen: the last look found no target, and none was seen since.
         prediction: the newest.
         warned: the operator was told that little is known at this place; Execute executes all the same.
@@ -221,6 +222,7 @@ class Workflow:
     placed: Place | None = None
     looked: Vector3 | None = None
     condition: Condition = ()
+    empty: bool = False
     unseen: bool = False
     prediction: messages.Prediction | None = None
     warned: bool = False

@@ -62,7 +62,7 @@ def judged(state: Workflow, view: View, settings: Settings) -> Workflow:
         state,
         episode=None,
         attempts=(*state.attempts, attempt)[-ATTEMPTS_KEPT:],
-        closure=state.closure.after(attempt, empty=view.empty),
+        closure=state.closure.after(attempt, empty=state.empty),
         last=outcome,
         refinements=state.refinements + (result.mode is Mode.REFINE),
         taught=_kept(state, _taught(state, result, outcome, episode, settings)),

@@ -139,7 +139,7 @@ def _text(state: Workflow, view: View, settings: Settings) -> str:
         case Phase.EXECUTING:
             return _executing(state, view)
         case _ if _decides(state):
-            shows = "" if state.unseen else showing.deciding(state, view)
+            shows = "" if state.unseen else showing.deciding(state)
             return shows or _deciding(state, view, settings)
         case Phase.FINISHED:
             return _finished(state)

@@ -31,8 +31,14 @@ from services.station.workflow.watching import watching
 def advance(state: Workflow, view: View, settings: Settings) -> Step:
     """One step of the workflow; what is not the operator's choice is neither heard nor offered."""
     settled = settings.settled
-    step = _advanced(state, view.without(settled), settings)
+    step = _advanced(_heard(state, view), view.without(settled), settings)
     return replace(step, state=replace(step.state, offered=step.state.offered - settled)) if settled else step
+
+
+def _heard(state: Workflow, view: View) -> Workflow:
+    """A model that is not heard for a moment is as empty as it was."""
+    changed = view.model is not None and view.empty is not state.empty
+    return replace(state, empty=view.empty) if changed else state
 
 
 def _advanced(state: Workflow, view: View, settings: Settings) -> Step:

@@ -142,7 +142,7 @@ def test_a_stop_of_the_page_is_confirmed_and_released_by_its_person(person):
     person.until("stopped")
     person.phases(1.0)
     assert person.safety.latest().message.by == "operator"
-    assert person.actions() == {"release_stop"}
+    assert person.actions() == {"confidence", "release_stop"}
     person.page.pressed = ["release_stop"]
     person.until("deciding")
     assert not MOVING & person.phases(LONG)
@@ -170,7 +170,7 @@ def test_a_station_that_was_taken_over_moves_nothing_after_the_other_has_gone(pe
     person.run(lambda: pending.poll() is not None)
     person.until("watching")
     assert person.phases(LONG) == {Phase.IDLE}
-    assert person.actions() == {"ask", "take_over"}
+    assert person.actions() == {"ask", "confidence", "take_over"}
     person.page.pressed = ["ask"]
     person.until("deciding")
     assert person.phases(10.0) == {Phase.IDLE}

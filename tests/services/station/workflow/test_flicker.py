@@ -33,8 +33,11 @@ def not_seen():
     return site
 
 
+EMPTY = messages.ModelState(kind="adaptive", version=0, demonstrations=0, updates=0, scene="")
+
+
 def untaught():
-    return deciding(model=messages.ModelState(kind="adaptive", version=0, demonstrations=0, updates=0, scene=""))
+    return deciding(model=EMPTY)
 
 
 def under_way(action=Action.EXECUTE, **robot):
@@ -75,6 +78,16 @@ def storing(site):
     site.state = replace(site.state, approach=approach)
     site.step(seconds=MOMENT_S)
     return site
+
+
+def test_an_empty_model_that_is_not_heard_when_the_operator_is_asked_first_is_empty_still():
+    site = Site(BY_HAND)
+    site.sees(model=EMPTY)
+    site.run_to(Phase.ACQUIRING)
+    site.run_to(Phase.DECIDING, model=None)
+    site.step(model=None)
+    assert "Nothing is learnt yet" in teaching_state(site.state, replace(site.view, model=None), site.settings).text
+    assert not {Action.EXECUTE, Action.REFINE} & site.state.offered
 
 
 def test_no_button_goes_away_while_another_motion_is_about_to_be_shown():
