@@ -129,12 +129,16 @@ def test_a_participant_trains_in_the_frame(trial, tmp_path, tab):
             return [entry.event for entry in read(folder / "raw") if isinstance(entry.event, Attempted | Ended)]
 
         def over(count):
-            """The person leads on until so many attempts are told, and they are asked again, or all is over."""
+            """The person leads on until so many attempts are told, and they are asked again, or all is over.
+
+            That it is over is written after the attempt with which it is.
+            """
             done = told()
             if done and isinstance(done[-1], Ended):
                 return done
             person.look()
-            return done if len(done) >= count and decides(page, witness, count) else None
+            goes_on = len(done) >= count and not done[-1].success
+            return done if goes_on and decides(page, witness, count) else None
 
         teacher.decides()
         offered = {"skip", "execute", trial.acts, "stop"}
