@@ -24,7 +24,7 @@ from services.process.runner import Service
 from services.process.schedule import Schedule
 from sim.exceptions import RobotOfItsOwn, UnknownScene, UnknownVariant
 from sim.robots.robot import HEAD_CAMERA, WRIST_CAMERA
-from sim.tasks import described
+from sim.tasks import AnyScene, described
 from sim.world.cameras import Cameras
 
 log = logging.getLogger(__name__)
@@ -64,7 +64,7 @@ class CameraService:
         self._wishes = Wishes(bus)
         self._wish = Wish()
         self._robot = configuration.robot
-        self._cameras = self._open(configuration.robot.scene)
+        self._cameras = self._open(scene_of(self._robot))
         self._refused = ("", "")
         self._schedule = Schedule()
         self._drawn_ns = dict.fromkeys(self._coders, 0)
@@ -127,17 +127,16 @@ class CameraService:
         """Give the drawing library's resources back."""
         self._cameras.close()
 
-    def _open(self, name: str) -> Cameras:
-        scene = scene_of(self._robot, name)
+    def _open(self, scene: AnyScene) -> Cameras:
         return Cameras(scene, described(scene), self._section.width, self._section.height)
 
     def _arrange(self, arrangement: SceneState) -> bool:
         """Stand where the robot says that it stands; whether that is known here."""
         try:
             if arrangement.name != self._cameras.scene.name:
-                scene_of(self._robot, arrangement.name)
+                elsewhere = scene_of(self._robot, arrangement.name)
                 self._cameras.close()
-                self._cameras = self._open(arrangement.name)
+                self._cameras = self._open(elsewhere)
             self._cameras.show(arrangement.variant)
         except (UnknownScene, UnknownVariant, RobotOfItsOwn) as error:
             if self._refused != (arrangement.name, arrangement.variant):

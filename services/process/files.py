@@ -7,7 +7,7 @@ import os
 import tempfile
 from pathlib import Path
 
-from services.process.exceptions import FolderUnusable
+from services.process.exceptions import CannotWrite, FolderUnusable
 
 
 def write_whole(path: Path, content: bytes, mode: int = 0o644) -> None:
@@ -38,6 +38,23 @@ def write_whole(path: Path, content: bytes, mode: int = 0o644) -> None:
     finally:
         part.unlink(missing_ok=True)
     settle_names(path.parent)
+
+
+def write_file(path: Path, content: bytes) -> None:
+    """Write a file that somebody asked for, its folder too where it is missing; see `write_whole`.
+
+    Args:
+        path: of the file.
+        content: all of it.
+
+    Raises:
+        CannotWrite: it cannot be written.
+    """
+    try:
+        make_folder(path.parent)
+        write_whole(path, content)
+    except OSError as error:
+        raise CannotWrite(path, error.strerror or str(error)) from None
 
 
 def settle_names(folder: Path) -> None:

@@ -6,7 +6,7 @@ from services.process.config import RobotSection
 from services.process.robot_file import load_robot
 from sim.robots import faults
 from sim.robots.catalogue import robot
-from sim.robots.description import read, source_of
+from sim.robots.description import source_of
 from sim.robots.robot import Manipulator
 from sim.tasks import AnyScene, scene
 
@@ -22,7 +22,7 @@ def manipulator(section: RobotSection) -> Manipulator | None:
     if section.model_file is not None:
         found = load_robot(section.model_file)
         source = source_of(found)
-        faults.check(read(source), found, source)
+        faults.check(faults.parsed(source), found, source)
         return found
     return robot(section.model) if section.model else None
 

@@ -10,12 +10,12 @@ import http.client
 import importlib.util
 import logging
 import os
-import socket
 import subprocess
 import time
 from importlib.metadata import version
 from pathlib import Path
 
+from services.process.ports import free_port
 from services.viewer.exceptions import WebFilesMissing
 from sim.cache import kept
 
@@ -64,10 +64,10 @@ def sdk_program() -> Path:
 
 
 def _take() -> dict[str, bytes]:
-    port = _free_port()
+    port = free_port()
     command = [str(sdk_program()), "--serve-web", "--bind", "127.0.0.1", "--web-viewer-port", str(port)]
     server = subprocess.Popen(
-        [*command, "--port", str(_free_port())],
+        [*command, "--port", str(free_port())],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
@@ -78,12 +78,6 @@ def _take() -> dict[str, bytes]:
     finally:
         server.kill()
         server.wait()
-
-
-def _free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
 
 
 def _get(port: int, name: str) -> bytes:

@@ -118,7 +118,7 @@ def _key(source: Path, robot: Manipulator, base: Base) -> str:
 
 def _build(source: Path, robot: Manipulator, base: Base, scratch: Path, target: Path) -> None:
     scratch.mkdir()
-    root = read(source)
+    root = faults.parsed(source)
     faults.check(root, robot, source)
     for tag in ("gazebo", "transmission", "ros2_control"):
         for element in root.findall(tag):
@@ -137,18 +137,6 @@ def _build(source: Path, robot: Manipulator, base: Base, scratch: Path, target: 
     root.attrib["name"] = NAME
     root.insert(0, ET.fromstring(_MUJOCO_OPTIONS))
     ET.ElementTree(root).write(scratch / _URDF_NAME, encoding="utf-8", xml_declaration=True)
-
-
-def read(source: Path) -> ET.Element:
-    """Return a description as URDF.
-
-    Args:
-        source: The file.
-
-    Raises:
-        DescriptionInvalid: It is no URDF.
-    """
-    return faults.parsed(source)
 
 
 def _fix_what_is_not_moved(root: ET.Element, robot: Manipulator) -> None:

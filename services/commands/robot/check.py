@@ -12,15 +12,15 @@ import numpy as np
 from services.bus.arrays import vector3
 from services.commands.robot.grasps import grasps
 from services.process.config import RobotSection
-from services.process.exceptions import CannotWrite
 from services.process.exit_codes import Exit
+from services.process.files import write_file
 from services.process.robot_file import load_robot
 from services.process.robots import manipulator
 from services.robot.kinematics import Kinematics
 from services.robot.starts import StartImpossible, Starts
 from sim.robots import faults
 from sim.robots.catalogue import DEFAULT, NAMES, robot
-from sim.robots.description import prepare, read, source_of
+from sim.robots.description import prepare, source_of
 from sim.robots.robot import Base, Manipulator
 from sim.tasks import REACHING, described
 from sim.world.pictures import png
@@ -52,7 +52,8 @@ def check(which: str, folder: Path) -> int:
     """
     file = RobotSection(model=which).model_file
     one = _robot(which) if file is None else load_robot(file)
-    missing = list(faults.found(read(source_of(one)), one, source_of(one)))
+    source = source_of(one)
+    missing = list(faults.found(faults.parsed(source), one, source))
     for line in missing:
         _say(line)
     if missing:
@@ -115,12 +116,7 @@ def _start(one: Manipulator, name: str) -> str:
 
 
 def _write(path: Path, one: Manipulator, dots: Sequence[Dot] = ()) -> None:
-    picture = portrait(one, dots=dots)
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(png(picture))
-    except OSError as error:
-        raise CannotWrite(path, error.strerror or str(error)) from None
+    write_file(path, png(portrait(one, dots=dots)))
     _say(f"written: {path}")
 
 

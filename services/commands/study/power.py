@@ -15,7 +15,7 @@ from services.commands.study import grouped
 from services.commands.terminal import Terminal
 from services.offline.proportion import Proportion
 from services.process.exit_codes import Exit
-from services.study.analysis.files import write
+from services.process.files import write_file
 from services.study.study import open_study
 from services.study.synthetic.population import Population
 from services.study.synthetic.power import Cell, Question, power
@@ -77,7 +77,7 @@ def run(arguments: Namespace) -> int:
         found = power(question, arguments.jobs or os.cpu_count() or 1, progress, arguments.cluster)
     _show(found, question)
     if arguments.csv is not None:
-        write(arguments.csv, _csv(found).encode())
+        write_file(arguments.csv, _csv(found).encode())
     return Exit.DONE
 
 

@@ -9,8 +9,7 @@ from pathlib import Path
 
 import msgspec
 
-from services.process.exceptions import CannotWrite
-from services.process.files import make_folder, write_whole
+from services.process.files import write_file
 from services.study.analysis.analysis import Analysis
 from services.study.analysis.observations import Background, Observations, Outcome, Rating
 
@@ -43,21 +42,8 @@ def write_files(folder: Path, observations: Observations, analysis: Analysis) ->
     contents = {name: _text(*table).encode() for name, table in tables.items()}
     contents[NUMBERS] = msgspec.json.format(msgspec.json.encode(analysis)) + b"\n"
     for name, content in contents.items():
-        write(folder / name, content)
+        write_file(folder / name, content)
     return [folder / name for name in contents]
-
-
-def write(path: Path, content: bytes) -> None:
-    """Write a file of the report, its folder too where it is missing.
-
-    Raises:
-        CannotWrite: it cannot be written.
-    """
-    try:
-        make_folder(path.parent)
-        write_whole(path, content)
-    except OSError as error:
-        raise CannotWrite(path, error.strerror or str(error)) from None
 
 
 def _structs(type_: type[msgspec.Struct], structs: Sequence[msgspec.Struct], observations: Observations) -> Table:

@@ -8,13 +8,14 @@ from pathlib import Path
 
 import jinja2
 
+from services.process.files import write_file
 from services.reproduction.analysis import Figure
 from services.reproduction.report import address
 from services.study.analysis import effect_figures, figures
 from services.study.analysis.analysis import Analysis, Progress, analysed
 from services.study.analysis.comparison import Result
 from services.study.analysis.exclusion import Sample
-from services.study.analysis.files import write, write_files
+from services.study.analysis.files import write_files
 from services.study.analysis.hypotheses import Measure, Plan
 from services.study.analysis.methods import paragraph, software
 from services.study.analysis.numerals import equals, exactly, figure, interval, p_value
@@ -54,7 +55,7 @@ def report(
     analysis = analysed(observations, plan, lambda share: progress(_ANALYSED * share))
     write_files(folder, observations, analysis)
     text = html(observations, analysis, reporting or Reporting(), lambda share: progress(_ANALYSED * (1.0 + share)))
-    write(folder / REPORT, text.encode())
+    write_file(folder / REPORT, text.encode())
     progress(1.0)
     return analysis
 

@@ -3,7 +3,7 @@
 
 export function remembered(name, otherwise = null) {
   try {
-    return localStorage.getItem(place(name)) ?? null;
+    return localStorage.getItem(place(name));
   } catch {
     return otherwise;
   }
