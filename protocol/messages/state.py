@@ -17,6 +17,7 @@ from protocol.messages.values import (
     Message,
     Motion,
     Name,
+    Opening,
     Part,
     Pose,
     Quaternion,
@@ -87,6 +88,8 @@ class RobotState(Message, frozen=True, kw_only=True):
             last moment tells [s]; negative where it stood.
         ahead: by how much the robot's clock is ahead of that of the machine of the master that commands, as round trips
             tell [s]; None where they do not yet.
+        opening: measured, between the gripper's fingers [m]; 0 where there is no gripper.
+        opening_reference: that the gripper was told to go to in this period [m].
     """
 
     joint_names: Annotated[tuple[Name, ...], msgspec.Meta(max_length=64)] = ()
@@ -111,6 +114,8 @@ class RobotState(Message, frozen=True, kw_only=True):
     applied_way: Real = -1.0
     following_lag: Real = -1.0
     ahead: Real | None = None
+    opening: Opening = 0.0
+    opening_reference: Opening = 0.0
 
 
 class WorldState(Message, frozen=True, kw_only=True):

@@ -18,6 +18,9 @@ LONGEST_REASON = 200
 Reason = Annotated[str, msgspec.Meta(max_length=LONGEST_REASON)]
 Count = Annotated[int, msgspec.Meta(ge=0, le=2**53)]
 Fraction = Annotated[float, msgspec.Meta(ge=0.0, le=1.0)]
+Opening = Annotated[float, msgspec.Meta(ge=-1.0, le=1.0)]
+"""Between a gripper's fingers [m]; a measured one may be a little under nothing."""
+
 Duration = Annotated[float, msgspec.Meta(gt=0.0, le=3600.0)]
 Joints = Annotated[tuple[Real, ...], msgspec.Meta(max_length=64)]
 Condition = Annotated[tuple[Real, ...], msgspec.Meta(max_length=64)]

@@ -4,7 +4,6 @@ The service and the offline rollout both drive this class; here execution, kinem
 """
 
 import logging
-import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -17,9 +16,9 @@ from services.robot import safety
 from services.robot.backends.backend import CONTROL_PERIOD, Backend, Blocked
 from services.robot.correction import UNCORRECTED, Correction
 from services.robot.episode import Episode, EpisodeOutcome
-from services.robot.execution import Execution, angle_between
+from services.robot.execution import Execution
 from services.robot.mechanism import InverseFailed, Mechanism
-from services.robot.reach import check_reach
+from services.robot.reach import check_reach, shortfall
 from services.robot.starts import StartImpossible, Starts
 from services.robot.teleoperation import Teleoperation
 from services.robot.tick import Tick
@@ -31,8 +30,6 @@ Array = NDArray[np.float64]
 log = logging.getLogger(__name__)
 
 LONGEST_FAULT = 200  # [characters]
-OUT_OF_REACH = 0.005  # [m] between reference and command from which it is reported
-OUT_OF_TURN = 0.05  # [rad] the same of their orientations, which give way first at the joints' limits
 
 
 class Arm:
@@ -45,6 +42,7 @@ class Arm:
         starts: where episodes can start; at first they do at its home.
         velocity_scale: share of the joints' speed limits that may be used.
         self_distance_stop: distance between the robot's parts at which it stops [m].
+        wide_open: opening of the gripper [m]; 0 where there is none.
     """
 
     def __init__(
@@ -56,6 +54,7 @@ class Arm:
         *,
         velocity_scale: float = 0.5,
         self_distance_stop: float = 0.005,
+        wide_open: float = 0.0,
     ) -> None:
         self._backend = backend
         self._kinematics = kinematics
@@ -69,6 +68,7 @@ class Arm:
         self._episode: Episode | None = None
         self._fault = ""
         self._said = ""
+        self._opening = wide_open
         self._self_distance = 0.0
         self._stand()
 
@@ -176,7 +176,7 @@ class Arm:
         fault = ""
         try:
             previous_q, clamped = self._decide(episode, wanted, leeway, holding=holding)
-            self._backend.command(self._q, (self._q - previous_q) / CONTROL_PERIOD)
+            self._backend.command(self._q, (self._q - previous_q) / CONTROL_PERIOD, self._opening)
             given()
             self._backend.elapse()
             self._observe()
@@ -193,6 +193,7 @@ class Arm:
             observation=self.observation,
             measured=self.measured,
             reference=self._reference,
+            opening_reference=self._opening,
             phase=_phase(episode, holding=holding),
             progress=episode.execution.progress if episode is not None else 0.0,
             correction=episode.execution.correction if episode is not None else UNCORRECTED,
@@ -251,7 +252,7 @@ class Arm:
             self._fault = f"the robot comes within {distance * 1e3:.0f} mm of itself"
             return q, tuple(clamped)
         self._q, self._self_distance = q_next, distance
-        clamped.extend(_shortfall(self._kinematics.forward(q_next), target, self._kinematics.turn_slack))
+        clamped.extend(shortfall(self._kinematics.forward(q_next), target, self._kinematics.turn_slack))
         return q, tuple(clamped)
 
     def _conclude(self, episode: Episode) -> EpisodeOutcome | None:
@@ -278,16 +279,6 @@ class Arm:
         self.measured = self._kinematics.forward(self.observation.q)
         seen = self.observation
         self._verdict: Verdict = self._judge.judge(self.measured, seen.object_pose, seen.touch)
-
-
-def _shortfall(commanded: Pose, reference: Pose, turn_slack: float) -> list[str]:
-    """By how much the joints do not bring the grasping frame to the reference, where that is worth saying."""
-    gap = float(np.linalg.norm(commanded.position - reference.position))
-    short = [f"reach: {gap * 1e3:.0f} mm short"] if gap > OUT_OF_REACH else []
-    if abs(float(commanded.orientation @ reference.orientation)) < math.cos(0.5 * (OUT_OF_TURN + turn_slack)):
-        angle = angle_between(commanded.orientation, reference.orientation)
-        short.append(f"reach: {math.degrees(angle):.0f} degrees short")
-    return short
 
 
 def _phase(episode: Episode | None, *, holding: bool) -> Phase:

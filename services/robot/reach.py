@@ -1,11 +1,12 @@
 """Whether the arm can follow what an operator showed, found out before it moves: inverse kinematics along the way.
 
 The search starts from where the arm stands and goes along the motion as the arm would; where an arm could come there
-by another way, it would have to be led by that way.
+by another way, it would have to be led by that way. And how far from a reference a command stays, while it moves.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -23,6 +24,8 @@ Array = NDArray[np.float64]
 SHORT = 0.04  # [m] by which the arm may stay away from the motion: it does by 24 mm on ways that succeed
 TURNED = 0.5  # [rad] the same of its orientation, which gives way first: by 0.25 there
 LOOKS = 40  # places of the motion that are tried, the waypoints beside
+OUT_OF_REACH = 0.005  # [m] between reference and command from which it is reported
+OUT_OF_TURN = 0.05  # [rad] the same of their orientations, which give way first at the joints' limits
 _STEP_S = 0.5  # long enough that the joints' speeds do not bind: pace is another limit's
 _STEPS = 4
 _NEAR = 2e-3  # [m] within which a place counts as found
@@ -52,6 +55,16 @@ def check_reach(kinematics: Mechanism, q: Array, motion: Trajectory, waypoints: 
                 f"stays {short * 1e3:.0f} mm away" if short > SHORT else f"turns {np.degrees(turned):.0f} degrees less"
             )
             raise Refusal(f"{_where(phase, waypoints)}: the arm {how} there; {_remedy(phase, waypoints)}", lasting=True)
+
+
+def shortfall(commanded: Pose, reference: Pose, turn_slack: float) -> list[str]:
+    """By how much the joints do not bring the grasping frame to the reference, where that is worth saying."""
+    gap = float(np.linalg.norm(commanded.position - reference.position))
+    short = [f"reach: {gap * 1e3:.0f} mm short"] if gap > OUT_OF_REACH else []
+    if abs(float(commanded.orientation @ reference.orientation)) < math.cos(0.5 * (OUT_OF_TURN + turn_slack)):
+        angle = angle_between(commanded.orientation, reference.orientation)
+        short.append(f"reach: {math.degrees(angle):.0f} degrees short")
+    return short
 
 
 def _followed(kinematics: Mechanism, q: Array, position: Array, orientation: Array) -> Array:

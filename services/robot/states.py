@@ -108,6 +108,8 @@ class States:
             applied_way=delays.applied.way,
             following_lag=delays.following_s,
             ahead=delays.ahead_s,
+            opening=tick.observation.opening,
+            opening_reference=tick.opening_reference,
         )
 
     def _authority_state(self, now_ns: int) -> messages.AuthorityState:

@@ -18,6 +18,7 @@ class Tick:
         observation: at its end.
         measured: pose of the grasping frame, from the measured joints.
         reference: pose that the joints were to reach.
+        opening_reference: that the gripper was to go to [m].
         phase: what the arm did.
         progress: of the episode, from 0 to 1.
         correction: as it was applied.
@@ -32,6 +33,7 @@ class Tick:
     observation: Observation
     measured: Pose
     reference: Pose
+    opening_reference: float
     phase: Phase
     progress: float
     correction: Correction

@@ -34,6 +34,8 @@ class Observation:
             and box that met the one with the largest force.
         contact_force: Of the environment on the robot, in the base frame, the mean over the last control period,
             shape (3,) [N].
+        opening: Between the gripper's fingers [m].
+        grasped: Both fingers touched the object at some step of physics in the last control period.
     """
 
     time: float
@@ -43,6 +45,8 @@ class Observation:
     object_orientation: Array
     contacts: tuple[Contact, ...]
     contact_force: Array
+    opening: float
+    grasped: bool
 
 
 class World:
@@ -101,7 +105,7 @@ class World:
         self._contact_force = np.zeros(3)
         self._look()
 
-    def step(self, q_reference: Array, qd_reference: Array) -> None:
+    def step(self, q_reference: Array, qd_reference: Array, opening: float) -> None:
         """Advance one control period of 10 ms.
 
         The reference position holds at the period's end; the velocity leads the servos, which would
@@ -110,7 +114,9 @@ class World:
         Args:
             q_reference: Joint positions, shape (m,) [m, rad].
             qd_reference: Joint velocities, shape (m,) [m/s, rad/s].
+            opening: That the gripper goes to [m]; its fingers are fixed, wide open.
         """
+        del opening
         found: list[Contact] = []
         for remaining in reversed(range(_STEPS)):
             q = self._data.qpos[self._q]
@@ -137,6 +143,8 @@ class World:
             object_orientation=pose[3:].copy(),
             contacts=self._contacts,
             contact_force=self._contact_force,
+            opening=self.scene.manipulator.gripper.opening,
+            grasped=False,
         )
 
     @property

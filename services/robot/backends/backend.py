@@ -44,6 +44,8 @@ class Observation:
         condition: the external state that motions depend on here, shape (c,); empty where it is the object's.
         contact_force: of the environment on the robot, the mean over the period, in the base frame, shape (3,) [N];
             zero where it is not measured.
+        opening: between the gripper's fingers [m]; 0 where there is no gripper.
+        grasped: both of its fingers touched the object in the period.
     """
 
     time: float
@@ -54,6 +56,8 @@ class Observation:
     world: Array
     condition: Array = field(default_factory=lambda: np.zeros(0))
     contact_force: Array = field(default_factory=lambda: np.zeros(3))
+    opening: float = 0.0
+    grasped: bool = False
 
 
 class Blocked(ServiceError):
@@ -79,7 +83,7 @@ class Backend(Protocol):
         ...
 
     def reset(self, place: Array, variant: str, q: Array) -> None:
-        """Prepare an episode: the arm at rest at q, the target and its surroundings in place.
+        """Prepare an episode: the arm at rest at q, gripper wide open, the target and its surroundings in place.
 
         Args:
             place: of the target, as the scene counts it: an object's centre, or the y of via-points, shape (d,) [m].
@@ -91,12 +95,13 @@ class Backend(Protocol):
         """
         ...
 
-    def command(self, q: Array, qd: Array) -> None:
-        """Hand over the joints' command for one control period; returns at once.
+    def command(self, q: Array, qd: Array, opening: float) -> None:
+        """Hand over the command for one control period; returns at once.
 
         Args:
             q: positions at its end, shape (m,).
             qd: velocities towards them, shape (m,).
+            opening: that the gripper goes to, from 0, closed, to wide open [m].
         """
         ...
 

@@ -106,8 +106,9 @@ class ParticleBackend:
         self._q, self._qd, self._time = q.copy(), np.zeros(3), 0.0
         self._command = self._q, self._qd
 
-    def command(self, q: Array, qd: Array) -> None:
-        """Where to be, and how fast, at the period's end."""
+    def command(self, q: Array, qd: Array, opening: float) -> None:
+        """Where to be, and how fast, at the period's end; it has no gripper."""
+        del opening
         self._command = q.copy(), qd.copy()
 
     def elapse(self) -> None:

@@ -20,7 +20,7 @@ class Simulation:
     def __init__(self, world: World) -> None:
         self._world = world
         q = world.observe().q
-        self._command = q, np.zeros_like(q)
+        self._command = q, np.zeros_like(q), world.scene.manipulator.gripper.opening
 
     @property
     def joint_names(self) -> tuple[str, ...]:
@@ -43,9 +43,9 @@ class Simulation:
             world.set_state(state)
             raise Blocked(*touch.between)
 
-    def command(self, q: Array, qd: Array) -> None:
+    def command(self, q: Array, qd: Array, opening: float) -> None:
         """The references of the servos."""
-        self._command = q.copy(), qd.copy()
+        self._command = q.copy(), qd.copy(), opening
 
     def elapse(self) -> None:
         """Ten milliseconds of physics."""
@@ -67,4 +67,6 @@ class Simulation:
             touch=touch,
             world=self._world.state,
             contact_force=seen.contact_force,
+            opening=seen.opening,
+            grasped=seen.grasped,
         )

@@ -89,7 +89,7 @@ def test_it_stands_still_at_home(arm: Manipulator, cache: Path) -> None:
     home = np.array(arm.home)
     world.reset(place.training_positions[0], q=home)
     for _ in range(100):
-        world.step(home, np.zeros(len(home)))
+        world.step(home, np.zeros(len(home)), arm.gripper.opening)
     seen = world.observe()
     np.testing.assert_allclose(seen.q, home, atol=1e-3)
     np.testing.assert_allclose(seen.qd, 0.0, atol=1e-3)
@@ -103,7 +103,7 @@ def test_a_servo_follows_a_slow_reference_without_lag(arm: Manipulator, cache: P
     world.reset(place.training_positions[0], q=q)
     for _ in range(100):
         q = q + 0.01 * speed
-        world.step(q, speed)
+        world.step(q, speed, arm.gripper.opening)
     np.testing.assert_allclose(world.observe().q, q, atol=2e-3)
 
 

@@ -42,7 +42,7 @@ class Rollout:
         q = world.observe().q
         for tick, (position, orientation) in enumerate(zip(*_along(corridor), strict=True)):
             q, qd = kinematics.solve_step(q, position, orientation, CONTROL_PERIOD)
-            world.step(q, qd)
+            world.step(q, qd, scene.manipulator.gripper.opening)
             self.collided |= bool(world.observe().contacts)
             if self.collided and to_collision:
                 break

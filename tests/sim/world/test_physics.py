@@ -16,16 +16,17 @@ from sim.world.physics import CONTROL_PERIOD, World
 pytestmark = pytest.mark.sim
 SCENE = pytest.mark.parametrize("place", REACHING.values(), ids=REACHING)
 REST = np.zeros(len(DEFAULT.joint_names))
+OPEN = DEFAULT.gripper.opening
 
 
 @SCENE
 def test_nothing_moves_in_twenty_seconds_of_rest(place: ReachingScene, description: RobotDescription) -> None:
     world = World(place, place.variants[0], description)
     for _ in range(100):  # the object settles by a tenth of a millimetre
-        world.step(place.posture, REST)
+        world.step(place.posture, REST, OPEN)
     settled = world.observe()
     for _ in range(2000):
-        world.step(place.posture, REST)
+        world.step(place.posture, REST, OPEN)
     seen = world.observe()
     np.testing.assert_allclose(seen.object_position, settled.object_position, atol=1e-5)
     assert Rotation.from_quat(seen.object_orientation, scalar_first=True).magnitude() < 1e-3
@@ -44,7 +45,7 @@ def test_the_start_is_clear_in_both_variants(place: ReachingScene, description: 
 def test_a_step_takes_one_control_period(description: RobotDescription) -> None:
     place = scene("table")
     world = World(place, "clear", description)
-    world.step(place.posture, REST)
+    world.step(place.posture, REST, OPEN)
     assert world.observe().time == pytest.approx(CONTROL_PERIOD)
 
 
@@ -53,7 +54,7 @@ def test_a_moving_reference_is_followed_without_lag(description: RobotDescriptio
     world = World(place, "clear", description)
     speed = np.array([0.01, -0.1, -0.1, 0.1, 0.1, 0.1, 0.1, -0.1])
     for tick in range(1, 101):
-        world.step(place.posture + tick * CONTROL_PERIOD * speed, speed)
+        world.step(place.posture + tick * CONTROL_PERIOD * speed, speed, OPEN)
     np.testing.assert_allclose(world.observe().q, place.posture + speed, atol=1e-3)
 
 
@@ -64,7 +65,7 @@ def test_a_far_reference_does_not_make_a_blocked_arm_push_hard(description: Robo
     into_the_table = place.posture + np.array([-0.2, 0.0, -0.5, 0.0, 0.0, 0.0, 0.0, 0.0])
     forces = [0.0]
     for _ in range(400):
-        world.step(into_the_table, REST)
+        world.step(into_the_table, REST, OPEN)
         forces += [contact.force for contact in world.observe().contacts]
     assert 1.0 < max(forces) < 200.0
 
@@ -74,11 +75,11 @@ def test_a_table_pushes_the_arm_that_sinks_into_it_up_and_what_is_free_is_not_pu
 ) -> None:
     place = scene("table")
     world = World(place, "clear", description)
-    world.step(place.posture, REST)
+    world.step(place.posture, REST, OPEN)
     assert not world.observe().contact_force.any()
     sinking = np.array([-0.05, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
     for tick in range(1, 400):
-        world.step(place.posture + tick * CONTROL_PERIOD * sinking, sinking)
+        world.step(place.posture + tick * CONTROL_PERIOD * sinking, sinking, OPEN)
         seen = world.observe()
         if seen.contact_force[2] > 1.0:
             break
@@ -95,7 +96,7 @@ def test_contacts_name_link_and_box(description: RobotDescription) -> None:
     sinking = np.array([-0.05, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
     contacts: tuple[Contact, ...] = ()
     for tick in range(1, 400):
-        world.step(place.posture + tick * CONTROL_PERIOD * sinking, sinking)
+        world.step(place.posture + tick * CONTROL_PERIOD * sinking, sinking, OPEN)
         if contacts := world.observe().contacts:
             break
     assert contacts[0].environment_geom == "table_top"
@@ -123,7 +124,7 @@ def test_whatever_was_touched_within_a_period_counts_with_its_largest_force(
         speed = sinking if tick < 260 else -4.0 * sinking
         q = q + CONTROL_PERIOD * speed
         seen.clear()
-        world.step(q, speed)
+        world.step(q, speed, OPEN)
         told = {(one.robot_geom, one.environment_geom): one.force for one in world.observe().contacts}
         for one in seen:
             assert told[one.robot_geom, one.environment_geom] >= one.force
@@ -156,5 +157,5 @@ def test_no_log_file_is_written_where_the_process_runs(
     broken = world.state
     broken[:] = np.nan  # MuJoCo warns of it
     world.set_state(broken)
-    world.step(place.posture, REST)
+    world.step(place.posture, REST, OPEN)
     assert list(tmp_path.iterdir()) == []

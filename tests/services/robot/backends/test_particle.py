@@ -28,7 +28,7 @@ def test_steps_go_straight_to_the_position_and_no_faster_than_they_may(here, the
 
 def test_the_backend_is_where_it_was_told_to_be_one_period_later():
     backend = ParticleBackend(PARTICLE, FREE)
-    backend.command(np.array([0.1, 0.05, 0.0]), np.array([0.04, 0.02, 0.0]))
+    backend.command(np.array([0.1, 0.05, 0.0]), np.array([0.04, 0.02, 0.0]), 0.0)
     backend.elapse()
     seen = backend.observe()
     assert seen.time == pytest.approx(CONTROL_PERIOD)
@@ -39,7 +39,7 @@ def test_the_backend_is_where_it_was_told_to_be_one_period_later():
 
 def test_a_reset_puts_particle_and_via_points_in_place():
     backend = ParticleBackend(PARTICLE, FREE)
-    backend.command(np.array([0.1, 0.05, 0.0]), np.zeros(3))
+    backend.command(np.array([0.1, 0.05, 0.0]), np.zeros(3), 0.0)
     backend.elapse()
     backend.reset(np.array([0.1, -0.07]), OBSTACLE, np.zeros(3))
     seen = backend.observe()
@@ -63,7 +63,7 @@ def test_a_reset_puts_particle_and_via_points_in_place():
 def test_the_particle_touches_the_obstacle_with_its_surface(variant, position, touching):
     backend = ParticleBackend(PARTICLE, variant)
     for way in ((0.0, 0.1, 0.0), (position[0] - 0.001, 0.1, 0.0), position):  # around the obstacle, onto its surface
-        backend.command(np.array(way), np.zeros(3))
+        backend.command(np.array(way), np.zeros(3), 0.0)
         backend.elapse()
     touch = backend.observe().touch
     assert (touch is not None) == touching
@@ -73,11 +73,11 @@ def test_the_particle_touches_the_obstacle_with_its_surface(variant, position, t
 
 def test_what_the_particle_passes_through_within_a_period_is_touched():
     backend = ParticleBackend(PARTICLE, OBSTACLE)
-    backend.command(np.array([0.12, 0.0, 0.0]), np.zeros(3))
+    backend.command(np.array([0.12, 0.0, 0.0]), np.zeros(3), 0.0)
     backend.elapse()
     touch = backend.observe().touch
     assert touch is not None
     assert touch.between == ("particle", "block")
-    backend.command(np.array([0.13, 0.0, 0.0]), np.zeros(3))
+    backend.command(np.array([0.13, 0.0, 0.0]), np.zeros(3), 0.0)
     backend.elapse()
     assert backend.observe().touch is None
