@@ -12,6 +12,7 @@ LfdError
 ├── TimesNotIncreasing      the times of samples do not increase strictly
 ├── OutOfRange              a number lies outside its range
 ├── EmptyPart               a part of a motion holds nothing of it
+├── OpeningMismatch         the gripper takes part in one motion and not in another that belongs to it
 ├── PartialDemonstration    a model is to begin with a part of a motion
 ├── UnreachableViaPoint     a via-point cannot be met without swinging the motion
 ├── NothingToTakeBack       a model without a correction has none to forget
@@ -132,6 +133,15 @@ class EmptyPart(LfdError):
         self.first = first
         self.last = last
         super().__init__(f"the part from phase {first:g} to {last:g} is empty: let it end after it begins")
+
+
+class OpeningMismatch(LfdError):
+    """The gripper takes part in one motion and not in another one that belongs to it."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "one motion says how far the gripper is open and another does not: give all an opening, or none"
+        )
 
 
 class PartialDemonstration(LfdError):

@@ -11,6 +11,7 @@ from lfd.bounds import NOT_NEGATIVE, check_number, check_type
 from lfd.distances import squared_distances
 from lfd.motion.demonstration import Demonstration, relative_to_origin, to_base
 from lfd.motion.dtw import dtw
+from lfd.motion.opening import compared
 from lfd.motion.resampling import at_phases
 from lfd.motion.trajectory import Trajectory
 
@@ -30,7 +31,7 @@ def warp(trajectory: Trajectory, onto: Trajectory) -> Trajectory:
 
     It keeps its shape, its end points and its duration; it gets the number of points of `onto`.
     """
-    path = dtw(onto.positions, trajectory.positions).path
+    path = dtw(*compared(onto, trajectory)).path
     matches = np.bincount(path[:, 0])
     phases = np.bincount(path[:, 0], weights=path[:, 1]) / matches / (trajectory.n_points - 1)
     phases[[0, -1]] = 0.0, 1.0
@@ -38,11 +39,11 @@ def warp(trajectory: Trajectory, onto: Trajectory) -> Trajectory:
 
 
 def distance_matrix(trajectories: Sequence[Trajectory]) -> Array:
-    """DTW distances of the positions of all trajectories to each other, shape (M, M) [m]."""
+    """DTW distances of all trajectories to each other, by what `compared` says, shape (M, M) [m]."""
     distances = np.zeros((len(trajectories), len(trajectories)))
     for i, a in enumerate(trajectories):
         for j in range(i):
-            distances[i, j] = distances[j, i] = dtw(a.positions, trajectories[j].positions).distance
+            distances[i, j] = distances[j, i] = dtw(*compared(a, trajectories[j])).distance
     return distances
 
 
@@ -114,6 +115,7 @@ def align(
 
     Raises:
         OutOfRange: The tolerance is negative, or the selection none.
+        OpeningMismatch: The gripper takes part in some of one condition only.
     """
     check_number("tolerance", tolerance, NOT_NEGATIVE)
     check_type("selection", selection, Selection)

@@ -5,6 +5,7 @@ import numpy as np
 from lfd.arrays import Array
 from lfd.bounds import FRACTION, SHARE, check_number, check_points
 from lfd.motion.dtw import dtw
+from lfd.motion.opening import compared, joined_openings, openings
 from lfd.motion.part import WHOLE, Part, check_part
 from lfd.motion.resampling import at_phases, from_samples, resample
 from lfd.motion.rotations import conjugate, multiply, slerp
@@ -22,8 +23,8 @@ def refine(
     A refinement is the execution that an operator corrected while it ran (teleoperated or kinesthetic correction).
 
     Both are brought to the number of points of the longer and matched by dynamic time warping, since points at equal
-    times do not correspond (thesis, fig. 11). Matched points are blended in position, orientation, time and, for the
-    whole, duration; so alpha = 0 is the prediction and alpha = 1 the refinement, each in its own tempo.
+    times do not correspond (thesis, fig. 11). Matched points are blended in position, orientation, opening, time and,
+    for the whole, duration; so alpha = 0 is the prediction and alpha = 1 the refinement, each in its own tempo.
 
     Args:
         prediction: tau_d.
@@ -34,19 +35,22 @@ def refine(
     Raises:
         OutOfRange: alpha is not in [0, 1].
         TooFewPoints: n is less than 2.
+        OpeningMismatch: The gripper takes part in one of the two only.
     """
     check_number("alpha", alpha, FRACTION)
     check_points("refined motion", n)
     longer = max(prediction.n_points, refinement.n_points)
     old, human = resample(prediction, longer), resample(refinement, longer)
-    i, j = dtw(old.positions, human.positions).path.T
+    i, j = dtw(*compared(old, human)).path.T
     phases = (1.0 - alpha) * old.phases[i] + alpha * human.phases[j]
     times = ((1.0 - alpha) * prediction.duration + alpha * refinement.duration) * phases
     positions = (1.0 - alpha) * old.positions[i] + alpha * human.positions[j]
     orientations = slerp(old.orientations[i], human.orientations[j], np.full(len(i), alpha))
     # At alpha 0 and 1, or a rounding error from them, the path's repeated indices give one point several times.
     times, first = np.unique(times, return_index=True)
-    return from_samples(times, positions[first], orientations[first], n)
+    both = openings(old, human)
+    opening = None if both is None else ((1.0 - alpha) * both[0][i] + alpha * both[1][j])[first]
+    return from_samples(times, positions[first], orientations[first], n, opening)
 
 
 def joined(prediction: Trajectory, correction: Trajectory, part: Part, blend: float = BLEND) -> Trajectory:
@@ -55,7 +59,8 @@ def joined(prediction: Trajectory, correction: Trajectory, part: Part, blend: fl
     Nothing that the correction says outside its part counts. Beyond each end of the part the difference of the two
     decays to nothing: of positions as the cubic Hermite polynomial from its value and slope there to zero, so that the
     path has a continuous tangent; of orientations by SLERP. The tempo goes over in the same time. A part that ends
-    nearer than the blend to an end of the motion leaves the room that there is, and that end as predicted.
+    nearer than the blend to an end of the motion leaves the room that there is, and that end as predicted. Openings are
+    not led over: see `joined_openings`.
 
     Args:
         prediction: Of the whole motion.
@@ -70,6 +75,7 @@ def joined(prediction: Trajectory, correction: Trajectory, part: Part, blend: fl
     Raises:
         OutOfRange: A phase is not from 0 to 1, or the blend not above 0 and at most 1.
         EmptyPart: The part does not end after it begins.
+        OpeningMismatch: The gripper takes part in one of the two only.
     """
     check_part(part)
     check_number("blend", blend, SHARE)
@@ -78,7 +84,10 @@ def joined(prediction: Trajectory, correction: Trajectory, part: Part, blend: fl
     n = max(prediction.n_points, correction.n_points)
     phases, duration = _tempo(prediction.duration, correction.duration, part, blend, n)
     old, new = at_phases(prediction, phases), at_phases(correction, phases)
-    inside = ((phases >= part[0]) & (phases <= part[1]))[:, None]
+    within = (phases >= part[0]) & (phases <= part[1])
+    both = openings(old, new)
+    opening = None if both is None else joined_openings(*both, within)
+    inside = within[:, None]
     positions = np.where(inside, new.positions, old.positions)
     orientations = np.where(inside, new.orientations, old.orientations)
     step = min(1.0 / (n - 1), part[1] - part[0])
@@ -93,7 +102,7 @@ def joined(prediction: Trajectory, correction: Trajectory, part: Part, blend: fl
         positions[near] += _kept(u)[:, None] * gap + bend
         turn = multiply(conjugate(there.orientations[0]), said.orientations[0])
         orientations[near] = slerp(old.orientations[near], multiply(old.orientations[near], turn), _kept(u))
-    return Trajectory(positions, orientations, duration)
+    return Trajectory(positions, orientations, duration, opening)
 
 
 def _joints(part: Part, blend: float) -> tuple[tuple[float, float, float], ...]:

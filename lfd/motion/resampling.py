@@ -19,7 +19,7 @@ _NO_WAY = 1e-9  # [m] between two points of a motion that stands
 
 
 class Interpolation(Enum):
-    """How positions are interpolated; orientations always are by SLERP."""
+    """How positions are interpolated; orientations always are by SLERP, openings linearly: a spline would swing."""
 
     LINEAR = "linear"  # the thesis' choice
     CUBIC = "cubic"  # a not-a-knot cubic spline: smooth velocity
@@ -47,6 +47,7 @@ def along_the_way(trajectory: Trajectory, n: int, still: float = 0.005) -> Traje
 
     With points at equal times, the place where a demonstration lingered takes most of them, and elsewhere the few that
     are left lie far apart: the motion jumps there (thesis, Fig. 29). Where the tempo does not matter none of that is.
+    What the gripper's fingers move counts as way, so that a motion that stands to grasp still stands to grasp.
 
     Args:
         trajectory: Any number of points.
@@ -60,17 +61,23 @@ def along_the_way(trajectory: Trajectory, n: int, still: float = 0.005) -> Traje
     check_points("resampled trajectory", n)
     kept = _moving(trajectory, still)
     p, q = trajectory.positions.take(kept, axis=0), trajectory.orientations.take(kept, axis=0)
-    way = np.concatenate([[0.0], np.cumsum(np.maximum(ways(p[:-1], q[:-1], p[1:], q[1:]), _NO_WAY))])
-    return Trajectory(*_poses_at(way, p, q, np.linspace(0.0, way[-1], n)), trajectory.duration)
+    opening = None if trajectory.opening is None else trajectory.opening.take(kept)
+    steps = ways(p[:-1], q[:-1], p[1:], q[1:])
+    if opening is not None:
+        steps += np.abs(np.diff(opening))
+    way = np.concatenate([[0.0], np.cumsum(np.maximum(steps, _NO_WAY))])
+    wanted = np.linspace(0.0, way[-1], n)
+    return Trajectory(*_poses_at(way, p, q, wanted), trajectory.duration, _opening_at(way, opening, wanted))
 
 
 def _moving(trajectory: Trajectory, still: float) -> NDArray[np.intp]:
     """Numbers of the points that lead on: each further than `still` from the one before; the first and the last."""
-    p, q = trajectory.positions, trajectory.orientations
+    p, q, opening = trajectory.positions, trajectory.orientations, trajectory.opening
     kept = [0]
     for i in range(1, len(p) - 1):
         last = kept[-1]
-        if ways(p[last], q[last], p[i], q[i]) > still:
+        grasped = 0.0 if opening is None else abs(opening[i] - opening[last])
+        if ways(p[last], q[last], p[i], q[i]) + grasped > still:
             kept.append(i)
     return np.array([*kept, len(p) - 1])
 
@@ -86,9 +93,10 @@ def ways(p: Array, q: Array, p_next: Array, q_next: Array) -> Array:
 def at_phases(trajectory: Trajectory, phases: Array, interpolation: Interpolation = Interpolation.LINEAR) -> Trajectory:
     """The poses of a trajectory at given phases in [0, 1], shape (n,), with the trajectory's own duration.
 
-    Positions by the interpolation, orientations by SLERP, both in the trajectory's frame.
+    Positions by the interpolation, orientations by SLERP, both in the trajectory's frame; openings linearly.
     """
-    return Trajectory(*poses_at(trajectory, phases, interpolation), trajectory.duration)
+    opening = _opening_at(trajectory.phases, trajectory.opening, phases)
+    return Trajectory(*poses_at(trajectory, phases, interpolation), trajectory.duration, opening)
 
 
 def poses_at(
@@ -99,7 +107,13 @@ def poses_at(
 
 
 def from_samples(
-    times: ArrayLike, positions: ArrayLike, orientations: ArrayLike, n: int, *, index: int | None = None
+    times: ArrayLike,
+    positions: ArrayLike,
+    orientations: ArrayLike,
+    n: int,
+    opening: ArrayLike | None = None,
+    *,
+    index: int | None = None,
 ) -> Trajectory:
     """A trajectory of n points at equal times from raw samples at irregular times (linear, SLERP).
 
@@ -108,6 +122,7 @@ def from_samples(
         positions: Shape (m, 3) [m].
         orientations: Unit quaternions (w, x, y, z), shape (m, 4).
         n: Number of points of the result, at least 2.
+        opening: Of the gripper, shape (m,) [m]; None where it takes no part.
         index: Of the motion among several, for the names of arrays in an error.
 
     Raises:
@@ -117,6 +132,7 @@ def from_samples(
         WrongShape: The arrays do not belong together.
         NotFinite: A number is NaN or infinite.
         NotUnitQuaternion: An orientation is not a unit quaternion.
+        OutOfRange: An opening is negative.
     """
     of = "" if index is None else f"[{index}]"
     t = checked(f"times{of}", times, (None,))
@@ -126,6 +142,7 @@ def from_samples(
         raise WrongShape(f"positions{of}", f"({len(t)}, 3)", p.shape)
     if len(q) != len(t):
         raise WrongShape(f"orientations{of}", f"({len(t)}, 4)", q.shape)
+    openings = None if opening is None else checked(f"opening{of}", opening, (len(t),))
     check_points(f"positions{of}", len(t))
     check_points("resampled trajectory", n)
     backwards = np.flatnonzero(np.diff(t) <= 0.0)
@@ -133,7 +150,13 @@ def from_samples(
         i = int(backwards[0])
         raise TimesNotIncreasing(i + 1, float(t[i]), float(t[i + 1]), f"times{of}")
     wanted = np.linspace(t[0], t[-1], n)
-    return Trajectory(*_poses_at(t, p, sign_continuous(q), wanted), duration=float(t[-1] - t[0]))
+    poses = _poses_at(t, p, sign_continuous(q), wanted)
+    return Trajectory(*poses, duration=float(t[-1] - t[0]), opening=_opening_at(t, openings, wanted))
+
+
+def _opening_at(times: Array, opening: Array | None, wanted: Array) -> Array | None:
+    """Of openings (n,) at increasing times: those at wanted times, or at the nearer end; None of none."""
+    return None if opening is None else np.asarray(np.interp(wanted, times, opening), dtype=np.float64)
 
 
 def _poses_at(

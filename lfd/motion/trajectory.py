@@ -1,4 +1,4 @@
-"""A trajectory: poses at a uniform timing."""
+"""A trajectory: poses at a uniform timing, and how far the gripper is open at each."""
 
 import math
 from dataclasses import dataclass
@@ -7,7 +7,8 @@ from functools import lru_cache
 import numpy as np
 
 from lfd.arrays import Array, checked, checked_quaternions, frozen
-from lfd.exceptions import InvalidDuration, NotFinite, TooFewPoints, WrongShape
+from lfd.bounds import NOT_NEGATIVE
+from lfd.exceptions import InvalidDuration, NotFinite, OutOfRange, TooFewPoints, WrongShape
 from lfd.motion.rotations import sign_continuous
 
 PREDICTION_POINTS = 75  # the thesis' number of way-points in a prediction
@@ -23,18 +24,22 @@ class Trajectory:
         positions: Shape (n, 3) [m].
         orientations: Unit quaternions (w, x, y, z), shape (n, 4).
         duration: Time from the first to the last point [s].
+        opening: Distance between the gripper's fingers, from 0 where it is closed, shape (n,) [m]; None where the
+            gripper takes no part in the motion.
 
     Raises:
-        WrongShape: An array has the wrong shape, or the two differ in length.
+        WrongShape: An array has the wrong shape, or two differ in length.
         TooFewPoints: There are fewer than two points.
         NotFinite: A number is NaN or infinite.
         NotUnitQuaternion: An orientation is not a unit quaternion.
         InvalidDuration: The duration is not positive.
+        OutOfRange: An opening is negative.
     """
 
     positions: Array
     orientations: Array
     duration: float
+    opening: Array | None = None
 
     def __post_init__(self) -> None:
         positions = checked("positions", self.positions, (None, 3))
@@ -47,6 +52,11 @@ class Trajectory:
             raise NotFinite("duration", ())
         if self.duration <= 0.0:
             raise InvalidDuration(self.duration)
+        if self.opening is not None:
+            opening = checked("opening", self.opening, (len(positions),))
+            if opening.min() < 0.0:
+                raise OutOfRange(f"opening[{int(opening.argmin())}]", float(opening.min()), str(NOT_NEGATIVE))
+            object.__setattr__(self, "opening", opening)
         object.__setattr__(self, "positions", positions)
         object.__setattr__(self, "orientations", frozen(sign_continuous(orientations)))
         object.__setattr__(self, "duration", float(self.duration))

@@ -68,11 +68,13 @@ class Motion(msgspec.Struct, frozen=True):
         positions: shape (n, 3) [m].
         orientations: shape (n, 4), unit quaternions.
         duration: from the first sample to the last [s].
+        opening: distance between the gripper's fingers, shape (n,) [m]; None where the gripper takes no part.
     """
 
     positions: Array
     orientations: Array
     duration: Duration
+    opening: Array | None = None
 
     def __post_init__(self) -> None:
         n = self.positions.shape[0] if self.positions.shape else 0
@@ -80,7 +82,11 @@ class Motion(msgspec.Struct, frozen=True):
             raise ValueError(
                 f"positions {self.positions.shape} and orientations {self.orientations.shape} are not (n, 3) and (n, 4)"
             )
-        if self.positions.dtype != "<f8" or self.orientations.dtype != "<f8":
+        if self.opening is not None and self.opening.shape != (n,):
+            raise ValueError(f"opening {self.opening.shape} is not ({n},), as there are positions")
+        if any(
+            array is not None and array.dtype != "<f8" for array in (self.positions, self.orientations, self.opening)
+        ):
             raise ValueError("a motion's arrays are '<f8'")
 
 

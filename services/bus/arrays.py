@@ -55,14 +55,21 @@ def drawable(array: Array) -> Floats | None:
     return values if np.all(np.abs(values) <= FARTHEST) else None
 
 
-def motion_to_wire(positions: ArrayLike, orientations: ArrayLike, duration: float) -> Motion:
-    """Positions (n, 3) [m], orientations (n, 4) and duration [s] as a message."""
-    return Motion(positions=to_wire(positions), orientations=to_wire(orientations), duration=duration)
+def motion_to_wire(
+    positions: ArrayLike, orientations: ArrayLike, duration: float, opening: ArrayLike | None = None
+) -> Motion:
+    """Positions (n, 3) [m], orientations (n, 4), duration [s] and opening (n,) [m], if any, as a message."""
+    grasp = None if opening is None else to_wire(opening)
+    return Motion(positions=to_wire(positions), orientations=to_wire(orientations), duration=duration, opening=grasp)
 
 
-def motion_from_wire(motion: Motion) -> tuple[Floats, Floats, float]:
-    """Positions (n, 3) [m], orientations (n, 4) and duration [s] of a message; raises as `from_wire`."""
-    return from_wire(motion.positions), from_wire(motion.orientations), motion.duration
+def motion_from_wire(motion: Motion) -> tuple[Floats, Floats, float, Floats | None]:
+    """Positions (n, 3) [m], orientations (n, 4), duration [s] and opening (n,) [m], if any, of a message.
+
+    In the order in which a `Trajectory` takes them; raises as `from_wire`.
+    """
+    opening = None if motion.opening is None else from_wire(motion.opening)
+    return from_wire(motion.positions), from_wire(motion.orientations), motion.duration, opening
 
 
 def points_to_wire(positions: Floats, colours: Colours) -> bytes:

@@ -95,7 +95,7 @@ def teach(configuration: Configuration) -> None:
         # What an earlier run that was killed has given already is not given again.
         for demonstration in demonstrations[state.demonstrations :]:
             taught = demonstration.trajectory
-            motion = motion_to_wire(taught.positions, taught.orientations, taught.duration)
+            motion = motion_to_wire(taught.positions, taught.orientations, taught.duration, taught.opening)
             condition = tuple(demonstration.condition.tolist())
             origin = vector3(demonstration.origin)
             given = AddDemonstration(Purpose.INITIAL, motion, origin, scene.name, condition, request=new_number())
@@ -125,7 +125,7 @@ def teach_waypoints(configuration: Configuration, file: Path, object_position: V
     scene.check_place(target, scene.margin)
     waypoints = read_waypoints(file, Surroundings(np.array(reach.lower), np.array(reach.upper), target))
     taught = through_waypoints(waypoints.positions, waypoints.orientations, duration)
-    motion = motion_to_wire(taught.positions, taught.orientations, taught.duration)
+    motion = motion_to_wire(taught.positions, taught.orientations, taught.duration, taught.opening)
     with model_process(configuration, "teach") as model:
         before = _held(model, scene)
         purpose = Purpose.UPDATE if before.demonstrations or before.updates else Purpose.INITIAL

@@ -137,4 +137,4 @@ def _moved(one: Trajectory, other: Trajectory) -> float:
 
 def _motion(model: MovementModel, situation: Situation) -> Motion:
     predicted = model.predict(situation).trajectory
-    return motion_to_wire(predicted.positions, predicted.orientations, predicted.duration)
+    return motion_to_wire(predicted.positions, predicted.orientations, predicted.duration, predicted.opening)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -82,8 +83,7 @@ def _through(scene: AnyScene, request: Plan) -> Planned:
 def _shown(request: Plan) -> Trajectory:
     if request.motion is None or request.waypoints or request.origin is Origin.MODEL:
         raise NothingPlanned(f"a plan of origin {request.origin.value} takes a motion, and no waypoints")
-    positions, orientations, _ = motion_from_wire(request.motion)
-    motion = Trajectory(positions, orientations, request.duration)
+    motion = replace(Trajectory(*motion_from_wire(request.motion)), duration=request.duration)
     return resample(motion, _DENSEST) if motion.n_points > _DENSEST else motion
 
 

@@ -177,7 +177,7 @@ class ModelService:
         return self._announced(
             messages.Prediction(
                 id=new_number(),
-                motion=motion_to_wire(motion.positions, motion.orientations, motion.duration),
+                motion=motion_to_wire(motion.positions, motion.orientations, motion.duration, motion.opening),
                 deviations=to_wire(np.sqrt(np.maximum(variances, 0.0))),
                 model_version=self._history.version,
                 object_position=request.object_position,
@@ -194,7 +194,7 @@ class ModelService:
         return self._announced(
             messages.Prediction(
                 id=new_number(),
-                motion=motion_to_wire(motion.positions, motion.orientations, motion.duration),
+                motion=motion_to_wire(motion.positions, motion.orientations, motion.duration, motion.opening),
                 deviations=to_wire(np.zeros_like(motion.positions)),
                 model_version=self._history.version,
                 object_position=request.object_position,

@@ -45,7 +45,7 @@ def give(stage: Stage, scene: str, demonstrations: Sequence[Demonstration]) -> N
     bus = stage.bus()
     for demonstration in demonstrations:
         shown = demonstration.trajectory
-        motion = motion_to_wire(shown.positions, shown.orientations, shown.duration)
+        motion = motion_to_wire(shown.positions, shown.orientations, shown.duration, shown.opening)
         condition = tuple(demonstration.condition.tolist())
         request = AddDemonstration(Purpose.INITIAL, motion, vector3(demonstration.origin), scene, condition)
         _learn(stage, bus.ask(queries.ADD_DEMONSTRATION, request))

@@ -27,7 +27,13 @@ START_REACH = 0.3  # [m] of a start from the scene's own, along each axis
 
 
 def admit_prediction(
-    positions: Array, orientations: Array, duration: float, measured: Pose, waypoints: Sequence[float] = ()
+    positions: Array,
+    orientations: Array,
+    duration: float,
+    measured: Pose,
+    waypoints: Sequence[float] = (),
+    *,
+    opening: Array | None = None,
 ) -> Trajectory:
     """The prediction, where it can be executed from the measured pose.
 
@@ -37,12 +43,13 @@ def admit_prediction(
         duration: [s].
         measured: pose of the grasping frame now.
         waypoints: phases at which an operator's waypoints are passed, by which a place on the motion is named.
+        opening: of the gripper, shape (n,) [m]; None where it takes no part.
 
     Raises:
         Refusal: it is no trajectory, too long, too short, too fast, or starts too far away.
     """
     try:
-        prediction = Trajectory(positions, orientations, duration)
+        prediction = Trajectory(positions, orientations, duration, opening)
     except LfdError as error:
         raise Refusal(f"the prediction cannot be executed: {error}") from error
     if prediction.n_points > MOST_POINTS:

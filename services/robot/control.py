@@ -99,10 +99,11 @@ class Control:
         if predicted is None:
             raise Refusal(f"no prediction {request.prediction} was heard from the model: predict again")
         try:
-            positions, orientations, _ = motion_from_wire(predicted.motion)
+            positions, orientations, _, opening = motion_from_wire(predicted.motion)
         except ServiceError as error:
             raise Refusal(f"the prediction cannot be executed: {error}") from error
-        prediction = admit_prediction(positions, orientations, request.duration, self.arm.measured, predicted.waypoints)
+        given = (positions, orientations, request.duration, self.arm.measured, predicted.waypoints)
+        prediction = admit_prediction(*given, opening=opening)
         if predicted.waypoints:
             self.arm.check_reach(prediction, predicted.waypoints)
         after = look_ahead(prediction) if request.adapt is Adapt.NEXT else 0.0

@@ -33,7 +33,7 @@ def pose_of(message: messages.Pose) -> Pose:
 
 def motion(value: Trajectory) -> messages.Motion:
     """A trajectory."""
-    return motion_to_wire(value.positions, value.orientations, value.duration)
+    return motion_to_wire(value.positions, value.orientations, value.duration, value.opening)
 
 
 def verdict(value: Verdict) -> messages.Verdict:

@@ -74,7 +74,7 @@ class Person:
             predicted = self._predictions.motion(received.message.prediction)
             if predicted is None:
                 return None
-            positions, orientations, _ = motion_from_wire(predicted)
+            positions, orientations, *_ = motion_from_wire(predicted)
             self._correction = plan(positions, orientations, ways[1], ways)
         return self._correction.displacement(min(1.0, progress + LEAD))
 

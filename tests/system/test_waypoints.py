@@ -36,7 +36,7 @@ def test_a_motion_through_waypoints_is_learnt_first_and_then_as_an_update(tmp_pa
             state = witness.asked(queries.DESCRIBE, queries.Describe()).state
             assert (state.demonstrations, state.updates) == (demonstrations, updates)
             predicted = witness.asked(queries.PREDICT, queries.Predict(OBJECT, START)).prediction
-            positions, orientations, duration = motion_from_wire(predicted.motion)
+            positions, orientations, duration, _ = motion_from_wire(predicted.motion)
             np.testing.assert_allclose(positions[37], (0.7, 0.05, height), atol=0.01)
             np.testing.assert_allclose(positions[-1], OBJECT, atol=0.005)
             np.testing.assert_allclose(np.abs(orientations[-1]), (0.8, 0.0, 0.6, 0.0), atol=0.02)

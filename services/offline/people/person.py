@@ -264,7 +264,7 @@ class Person:
         predicted_motion = self._predictions.motion(execution.message.prediction)
         if predicted_motion is None:
             return None
-        positions, orientations, _ = motion_from_wire(predicted_motion)
+        positions, orientations, *_ = motion_from_wire(predicted_motion)
         timid = self._how is Teaching.REFINEMENT and self.teaching is not None and not self.teaching.attempts
         share = TIMID if timid else 1.0
         intention = outlook.correction(positions, orientations, self._who.scatter, self._rng, share)

@@ -33,4 +33,4 @@ def demonstrated(led: Motion, settings: Settings) -> Motion | None:
     if np.sum(np.linalg.norm(np.diff(motion.positions, axis=0), axis=1)) < LEAST_WAY:
         return None
     learnt = (resample if settings.keeps_tempo else along_the_way)(motion, settings.points)
-    return motion_to_wire(learnt.positions, learnt.orientations, learnt.duration)
+    return motion_to_wire(learnt.positions, learnt.orientations, learnt.duration, learnt.opening)

@@ -191,4 +191,4 @@ def _of_all_phases(result: EpisodeResult) -> Motion | None:
     except (LfdError, ServiceError):
         return None  # of numbers that no robot sends
     whole = at_phases(shown, np.minimum(shown.phases / result.progress, 1.0))
-    return motion_to_wire(whole.positions, whole.orientations, shown.duration)
+    return motion_to_wire(whole.positions, whole.orientations, shown.duration, whole.opening)

@@ -29,7 +29,7 @@ def motion(n=600):
 
 def test_a_plan_leads_from_the_start_through_the_waypoints_at_the_phases_that_it_says(rig):
     planned = plan(rig, waypoints=WAYPOINTS, start=START).prediction
-    path, orientations, duration = motion_from_wire(planned.motion)
+    path, orientations, duration, _ = motion_from_wire(planned.motion)
     assert duration == 10.0
     np.testing.assert_allclose(path[[0, -1]], [START.position, OBJECT], atol=1e-9)
     assert len(planned.waypoints) == 3

@@ -109,7 +109,7 @@ class Site:
 
     def errors(self, motion):
         """What an operator would still correct in a motion: distances [m] and angles [rad], at each way-point."""
-        positions, orientations, _ = motion_from_wire(motion)
+        positions, orientations, *_ = motion_from_wire(motion)
         ways = [self.scene.corridor(variant, self.place) for variant in self.scene.variants]
         missing = plan(positions, orientations, self.scene.corridor(self.variant, self.place), ways)
         return np.linalg.norm(missing.displacements, axis=1), np.linalg.norm(missing.rotations, axis=1)

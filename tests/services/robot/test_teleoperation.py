@@ -51,7 +51,7 @@ def test_the_robot_goes_where_the_hand_goes_and_tells_the_way(site):
     assert result.reason == "finished by ann"
     assert result.operator_input
     for motion in (result.refined, result.commanded, result.measured):
-        positions, _, duration = motion_from_wire(motion)
+        positions, _, duration, _ = motion_from_wire(motion)
         np.testing.assert_allclose(positions[[0, -1]], [REST, (0.0, 0.15, 0.0)], atol=1e-9)
         assert duration == pytest.approx(1.06, abs=0.03)
 

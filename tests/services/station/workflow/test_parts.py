@@ -80,7 +80,7 @@ def test_the_motion_that_is_learnt_has_the_predictions_phases_and_an_autonomous_
     site.step(Action.TEACH)
     site.run_to(Phase.DECIDING)
     (asked,) = site.requests(queries.ADD_DEMONSTRATION)
-    positions, _, duration = motion_from_wire(asked.motion)
+    positions, _, duration, _ = motion_from_wire(asked.motion)
     phases = np.linspace(0.0, 1.0, N)
     np.testing.assert_allclose(positions[:, 0], np.minimum(phases, progress), atol=1e-12)
     assert duration == BY_HAND.autonomous_s
