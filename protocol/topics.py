@@ -218,7 +218,7 @@ PICTURE_QUEUE = Topic(
     readers=("camera",),
 )
 OBJECT_POSE = Topic(
-    "state/object_pose", messages.ObjectPose, 15.0, QoS.STATE, "perception", 1_536, "the object as the camera sees it"
+    "state/object_pose", messages.ObjectPose, 15.0, QoS.STATE, "perception", 1_536, "object as seen", readers=("robot",)
 )
 PREDICTION = Topic(
     "model/prediction",

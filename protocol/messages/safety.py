@@ -25,6 +25,9 @@ class SafetyState(Message, frozen=True, kw_only=True):
         earlier: the newest press and release were before the robot's process began.
         standing: every joint was measured to stand still.
         self_distance: least distance between parts of the robot [m].
+        backend: what moves is "ready", "holding", in "protective stop" or "hardware stop", in the "wrong mode", or "not
+            connected"; empty where it does not say.
+        backend_age: of what that was measured from [s].
     """
 
     emergency_stop: bool
@@ -35,3 +38,5 @@ class SafetyState(Message, frozen=True, kw_only=True):
     earlier: bool = False
     standing: bool = False
     self_distance: Real = 0.0
+    backend: Name = ""
+    backend_age: Real = 0.0

@@ -12,6 +12,7 @@ ServiceError
 │   ├── PortInUse            another program listens where a page should be served
 │   ├── RoomMissing          a role whose packages are not installed
 │   ├── DeviceMissing        an input device that is configured, and not there
+│   ├── RobotNotAnswering    no robot answers where one is configured (services.robot.backends.backend)
 │   ├── FolderUnusable       a folder of the user's that cannot be made or written
 │   ├── CannotWrite          a file that cannot be written: a full disk, no rights
 │   ├── LimitReached         no more memory, open files or processes, of the machine's or of this user's
@@ -26,6 +27,8 @@ ServiceError
 ├── InverseFailed            the inverse kinematics found no step (services.robot.mechanism)
 ├── JointsInOtherOrder       a robot's joints that are not named from base to gripper (services.robot.mechanism)
 ├── Unreachable              a pose that the robot does not reach (services.robot.mechanism)
+├── NotReady                 an arm that follows no commands now (services.robot.backends.backend)
+├── Jump                     a first command that does not begin where the arm is (services.robot.backends.backend)
 ├── Blocked                  something stands where the arm is to be put (services.robot.backends.backend)
 ├── NoSuchEntry              nothing of that number in a skill's history (services.model.history)
 ├── NothingPlanned           way-points or a refinement that make no motion (services.model.planning)

@@ -3,7 +3,6 @@
 The service and the offline rollout both drive this class; here execution, kinematics, limits, backend and verdict meet.
 """
 
-import logging
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -11,25 +10,23 @@ from numpy.typing import NDArray
 
 from lfd.motion.part import WHOLE, Part
 from lfd.motion.trajectory import Trajectory
-from protocol.messages import Cut, Phase
+from protocol.messages import Cut
 from services.robot import safety
-from services.robot.backends.backend import CONTROL_PERIOD, Backend, Blocked
+from services.robot.backends.backend import CONTROL_PERIOD, Backend, Blocked, NotReady
 from services.robot.correction import UNCORRECTED, Correction
+from services.robot.drive import Drive
 from services.robot.episode import Episode, EpisodeOutcome
 from services.robot.execution import Execution
 from services.robot.mechanism import InverseFailed, Mechanism
 from services.robot.reach import check_reach, shortfall
+from services.robot.refusal import Refusal
 from services.robot.starts import StartImpossible, Starts
 from services.robot.teleoperation import Teleoperation
-from services.robot.tick import Tick
+from services.robot.tick import Tick, phase_of
 from services.robot.verdict import Criteria, Verdict
 from sim.pose import Pose
 
 Array = NDArray[np.float64]
-
-log = logging.getLogger(__name__)
-
-LONGEST_FAULT = 200  # [characters]
 
 
 class Arm:
@@ -57,17 +54,19 @@ class Arm:
         wide_open: float = 0.0,
     ) -> None:
         self._backend = backend
+        self.drive = Drive(backend)
         self._kinematics = kinematics
         self._criteria = criteria
         self._starts = starts
         self.start = starts.home
-        speed = velocity_scale * kinematics.velocity_limit
-        self._limits = safety.JointLimits(backend.joint_names, kinematics.lower, kinematics.upper, speed)
+        native = backend.limits
+        lower, upper = np.maximum(kinematics.lower, native.lower), np.minimum(kinematics.upper, native.upper)
+        speed = velocity_scale * np.minimum(kinematics.velocity_limit, native.speed)
+        self._limits = safety.JointLimits(backend.joint_names, lower, upper, speed)
         self._velocity_scale = velocity_scale
         self._self_distance_stop = self_distance_stop
         self._episode: Episode | None = None
         self._fault = ""
-        self._said = ""
         self._opening = wide_open
         self._self_distance = 0.0
         self._stand()
@@ -155,6 +154,23 @@ class Arm:
         self._q = self.observation.q
         return episode.outcome(self._verdict, self.measured, reason) if episode is not None else None
 
+    def halt(self, reason: str) -> EpisodeOutcome | None:
+        """Stop, and command nothing until `recover`; see `stop`."""
+        self.drive.stop(reason)
+        return self.stop(reason)
+
+    def recover(self) -> None:
+        """Command again after a halt, from where the arm is.
+
+        Raises:
+            Refusal: see `Backend.recover`.
+        """
+        try:
+            self.drive.recover()
+        except NotReady as error:
+            raise Refusal(f"{error}: see to it at the robot") from error
+        self._stand()
+
     def tick(
         self,
         wanted: Correction,
@@ -176,12 +192,10 @@ class Arm:
         fault = ""
         try:
             previous_q, clamped = self._decide(episode, wanted, leeway, holding=holding)
-            self._backend.command(self._q, (self._q - previous_q) / CONTROL_PERIOD, self._opening)
-            given()
-            self._backend.elapse()
+            self.drive.period(self._q, (self._q - previous_q) / CONTROL_PERIOD, self._opening, given)
             self._observe()
         except Exception as error:  # noqa: BLE001 (whatever hardware and solvers raise: the arm stands and says so)
-            fault = self._broken(error)
+            fault = self.drive.fault(error)
         outcome = None
         if episode is not None:
             episode.judged(self._verdict)
@@ -194,7 +208,7 @@ class Arm:
             measured=self.measured,
             reference=self._reference,
             opening_reference=self._opening,
-            phase=_phase(episode, holding=holding),
+            phase=phase_of(episode, holding=holding),
             progress=episode.execution.progress if episode is not None else 0.0,
             correction=episode.execution.correction if episode is not None else UNCORRECTED,
             hold_reason=hold_reason if holding else "",
@@ -218,15 +232,6 @@ class Arm:
             self._q = self.observation.q
         episode.hold()
         return self._q, ()
-
-    def _broken(self, error: Exception) -> str:
-        """What is wrong with the arm, in one line, said once as long as it is the same."""
-        fault = f"the arm failed ({type(error).__name__}: {' '.join(str(error).split())[:LONGEST_FAULT]})"
-        if fault != self._said:
-            log.error("%s", fault)
-            log.debug("as raised", exc_info=error)
-        self._said = fault
-        return fault
 
     def _follow(self, episode: Episode, wanted: Correction, leeway: float) -> tuple[Array, tuple[str, ...]]:
         """Command the next reference; the joints that it started from, and what was clamped."""
@@ -266,7 +271,7 @@ class Arm:
 
     def _stand(self) -> None:
         """Start afresh from what is measured."""
-        self.observation = self._backend.observe()
+        self.observation = self.drive.observe()
         self._q = self.observation.q
         self._fault = ""
         self._self_distance = self._kinematics.self_distance(self._q)
@@ -275,15 +280,7 @@ class Arm:
         self._reference = self.measured
 
     def _observe(self) -> None:
-        self.observation = self._backend.observe()
+        self.observation = self.drive.observe()
         self.measured = self._kinematics.forward(self.observation.q)
         seen = self.observation
         self._verdict: Verdict = self._judge.judge(self.measured, seen.object_pose, seen.touch)
-
-
-def _phase(episode: Episode | None, *, holding: bool) -> Phase:
-    if episode is None:
-        return Phase.IDLE
-    if holding:
-        return Phase.HOLD
-    return Phase.RAMP if episode.execution.ramping else Phase.EXECUTE

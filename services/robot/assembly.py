@@ -56,6 +56,7 @@ def simulated_arm(
     kinematics = kinematics or kinematics_of(scene, description)
     starts = Starts(kinematics, scene.start, scene.posture, self_distance_stop)
     backend, criteria = _stage(scene, variant, description)
+    backend.connect()
     try:
         backend.reset(scene.training_positions[0], variant, starts.joints(scene.start))
     except Blocked as error:

@@ -25,7 +25,6 @@ from services.robot.correction import UNCORRECTED, Correction
 from services.robot.episode import EpisodeOutcome
 from services.robot.execution import Execution, look_ahead
 from services.robot.hold import Hold
-from services.robot.latch import Latch
 from services.robot.memory import Memory
 from services.robot.order import Finished, Order
 from services.robot.refusal import Refusal
@@ -67,8 +66,9 @@ class Control:
         self.memory = memory
         self._utc = utc
         recalled = memory.recall(self._now())
-        self.latch: Latch = recalled.latch
-        self._recalled = self.latch
+        self.latch = self._recalled = recalled.latch
+        if self.latch.latched:
+            arm.halt(str(self.latch))
         # The time of day is above every epoch of a robot whose file was lost.
         self.lease = Lease(lease_s, epoch=max(recalled.epoch_bound, round(1e3 * utc().timestamp())))
         self.order: Order | None = None
@@ -148,8 +148,7 @@ class Control:
         """Put arm, target and scene back."""
         self._check(request.epoch)
         variant = self.arm.variant if request.variant is None else request.variant
-        asked = admit_target(self.scene, request)
-        place = self._place if asked is None else asked
+        place = self._place if (asked := admit_target(self.scene, request)) is None else asked
         start = None if request.start is None else wire.pose_of(request.start)
         admit_reset(self.scene, variant, place, start)
         try:
@@ -162,7 +161,7 @@ class Control:
         """Latch the emergency stop; the arm stands still at once. A press that is repeated changes nothing."""
         if not self.latch.latched:
             self.latch = self.latch.pressed(by, reason, self._now())
-            self._end(self.arm.stop(str(self.latch)))
+            self._end(self.arm.halt(str(self.latch)))
 
     def release_stop(self, request: ReleaseStop) -> None:
         """Release the latched stop; whoever held the authority has lost it."""
@@ -170,6 +169,7 @@ class Control:
             raise Refusal("the emergency stop is not latched: nothing to release")
         if not request.by:
             raise Refusal("the release needs a name: say who releases the stop")
+        self.arm.recover()
         self.latch = self.latch.released(request.by, self._now())
         self.lease.end(request.by)
 

@@ -27,6 +27,7 @@ from services.robot.samples import Samples
 from services.robot.states import States
 from services.robot.synchronisation import Synchronisation
 from services.robot.timed_kinematics import TimedKinematics
+from services.robot.wire import pose_of
 from sim.tasks import described
 
 log = logging.getLogger(__name__)
@@ -108,6 +109,7 @@ class RobotService:
         self._samples = Samples(bus)
         self._renewal = bus.subscribe(topics.AUTHORITY_RENEWAL)
         self._request = bus.subscribe(topics.AUTHORITY_REQUEST)
+        self._seen = bus.subscribe(topics.OBJECT_POSE)
         self._emergency_stop = bus.subscribe(topics.EMERGENCY_STOP)
         self._ledger = ledger
         self._evidence = Evidence(ledger, control)
@@ -163,6 +165,7 @@ class RobotService:
 
     def close(self) -> None:
         """Finish writing what has to outlive the process."""
+        self._control.arm.drive.close()
         self._control.memory.close()
         self._ledger.close()
 
@@ -176,6 +179,8 @@ class RobotService:
                 self._foreign.heard(said.process)
         for request in self._request.take():
             self._control.lease.ask(request.message, request.received_ns)
+        for seen in self._seen.take():
+            self._control.arm.drive.seen_object = pose_of(seen.message.pose)
 
     def _covers(self, holder: str, epoch: int, process: str) -> bool:
         """See `Lease.covers`; what it does not cover is counted."""

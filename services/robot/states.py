@@ -5,6 +5,7 @@ from services.bus.arrays import to_wire, vector3
 from services.bus.bus import Bus
 from services.process.schedule import Schedule
 from services.robot import wire
+from services.robot.backends.backend import Observation
 from services.robot.control import Control
 from services.robot.delays import Delays
 from services.robot.execution import Execution
@@ -42,7 +43,7 @@ class States:
         control, due = self._control, self._schedule.due
         self._bus.publish(topics.ROBOT_STATE, self._robot_state(tick, delays))
         if due(topics.WORLD_STATE, now_ns):
-            self._bus.publish(topics.WORLD_STATE, _world_state(tick))
+            self._publish_world(tick.observation)
         if due(topics.VERDICT, now_ns):
             self._bus.publish(topics.VERDICT, wire.verdict(tick.verdict))
         if due(topics.AUTHORITY_STATE, now_ns) or self._epoch != control.lease.epoch:
@@ -61,6 +62,13 @@ class States:
         if due(topics.EXECUTION, now_ns):
             self._publish_execution()
         self._publish_result(now_ns)
+
+    def _publish_world(self, seen: Observation) -> None:
+        """What a simulator knows; hardware knows nothing of the world around it."""
+        if seen.world.size and seen.object_pose is not None:
+            true_pose = wire.pose(seen.object_pose)
+            state = messages.WorldState(time=seen.time, qpos=to_wire(seen.world), object_pose=true_pose)
+            self._bus.publish(topics.WORLD_STATE, state)
 
     def _publish_execution(self) -> None:
         order, episode = self._control.order, self._control.arm.episode
@@ -132,7 +140,7 @@ class States:
 
     def _safety_state(self, tick: Tick, *, stop_latched: bool) -> messages.SafetyState:
         """As it is kept: a stop shows as latched when it would outlive this process, or a line says why not."""
-        latch, memory = self._control.latch, self._control.memory
+        latch, memory, backend = self._control.latch, self._control.memory, self._control.arm.drive.status()
         return messages.SafetyState(
             emergency_stop=stop_latched,
             by=latch.by,
@@ -142,9 +150,6 @@ class States:
             earlier=self._control.latched_earlier,
             standing=standing(tick.observation.qd),
             self_distance=tick.self_distance,
+            backend=backend.state.value,
+            backend_age=backend.age,
         )
-
-
-def _world_state(tick: Tick) -> messages.WorldState:
-    seen = tick.observation
-    return messages.WorldState(time=seen.time, qpos=to_wire(seen.world), object_pose=wire.pose(seen.object_pose))

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from protocol.messages import Phase
 from services.robot.backends.backend import Observation
 from services.robot.correction import Correction
-from services.robot.episode import EpisodeOutcome
+from services.robot.episode import Episode, EpisodeOutcome
 from services.robot.verdict import Verdict
 from sim.pose import Pose
 
@@ -43,3 +43,12 @@ class Tick:
     verdict: Verdict
     outcome: EpisodeOutcome | None
     fault: str
+
+
+def phase_of(episode: Episode | None, *, holding: bool) -> Phase:
+    """What the arm does in an episode, or without one."""
+    if episode is None:
+        return Phase.IDLE
+    if holding:
+        return Phase.HOLD
+    return Phase.RAMP if episode.execution.ramping else Phase.EXECUTE

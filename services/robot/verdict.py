@@ -13,6 +13,9 @@ from sim.pose import Pose
 
 Array = NDArray[np.float64]
 
+UNSEEN = 1e6
+"""The ellipsoid's value of an object that nobody has seen: as far off as can be said."""
+
 
 @dataclass(frozen=True, eq=False)
 class Verdict:
@@ -25,7 +28,8 @@ class Verdict:
         ellipsoid_value: how far off the target is: left side of the ellipsoid's equation (Fig. E.2); at most 1 inside.
         displacement: of the object since the episode began, shape (3,) [m].
         tilt: of the object's upright axis from the vertical [rad].
-        missed: distance from the grasping frame to the object's centre, or the greatest one at a via-point [m].
+        missed: distance from the grasping frame to the object's centre, or the greatest one at a via-point; negative
+            where nobody has seen the object [m].
     """
 
     reached: bool
@@ -45,12 +49,12 @@ class Verdict:
 class Judge(Protocol):
     """Judges an episode period by period; a collision stays until the next one begins."""
 
-    def judge(self, grasping: Pose, object_pose: Pose, touch: Touch | None) -> Verdict:
+    def judge(self, grasping: Pose, object_pose: Pose | None, touch: Touch | None) -> Verdict:
         """The verdict now.
 
         Args:
             grasping: pose of the grasping frame.
-            object_pose: of the object's centre, its z axis upright.
+            object_pose: of the object's centre, its z axis upright; None where nobody has seen it yet.
             touch: of robot and environment in this period.
         """
         ...
@@ -80,7 +84,7 @@ class ReachingCriteria:
 
     def begin(self, seen: Observation) -> "ReachingJudge":
         """See `Criteria.begin`."""
-        return ReachingJudge(self, seen.object_pose.position)
+        return ReachingJudge(self, None if seen.object_pose is None else seen.object_pose.position)
 
 
 class ReachingJudge:
@@ -88,20 +92,30 @@ class ReachingJudge:
 
     Args:
         criteria: by what.
-        object_position: where the object stands before, shape (3,) [m].
+        object_position: where the object stands before, shape (3,) [m]; None for where it is seen first.
     """
 
-    def __init__(self, criteria: ReachingCriteria, object_position: Array) -> None:
+    def __init__(self, criteria: ReachingCriteria, object_position: Array | None) -> None:
         self._criteria = criteria
         self._initial = object_position
         self._collision: Touch | None = None
 
-    def judge(self, grasping: Pose, object_pose: Pose, touch: Touch | None) -> Verdict:
+    def judge(self, grasping: Pose, object_pose: Pose | None, touch: Touch | None) -> Verdict:
         """See `Judge.judge`."""
         self._collision = self._collision or touch
+        if object_pose is None:
+            return Verdict(
+                reached=False,
+                kicked_over=False,
+                collision=self._collision,
+                ellipsoid_value=UNSEEN,
+                displacement=np.zeros(3),
+                missed=-1.0,
+            )
+        initial = self._initial = object_pose.position if self._initial is None else self._initial
         criteria = self._criteria
         value = ellipsoid_value(grasping, object_pose.position, criteria.radii)
-        displacement, tilt = object_pose.position - self._initial, tilt_of(object_pose.orientation)
+        displacement, tilt = object_pose.position - initial, tilt_of(object_pose.orientation)
         return Verdict(
             reached=value <= 1.0,
             kicked_over=bool(np.any(np.abs(displacement) > criteria.thresholds)) or tilt > criteria.tipping_angle,

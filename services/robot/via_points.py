@@ -48,7 +48,7 @@ class ViaPointJudge:
         self._before: Array | None = None
         self._collision: Touch | None = None
 
-    def judge(self, grasping: Pose, object_pose: Pose, touch: Touch | None) -> Verdict:
+    def judge(self, grasping: Pose, object_pose: Pose | None, touch: Touch | None) -> Verdict:
         """See `Judge.judge`; a via-point that lies ahead counts as missed by as much as it would be now."""
         del object_pose
         self._collision = self._collision or touch

@@ -148,6 +148,13 @@ class World:
         )
 
     @property
+    def joint_range(self) -> tuple[Array, Array]:
+        """Least and greatest position of each joint, each of shape (m,) [m, rad]."""
+        ranges = [self._model.joint(name).range for name in self.scene.manipulator.joint_names]
+        lower, upper = np.array(ranges).T
+        return lower, upper
+
+    @property
     def state(self) -> Array:
         """All positions of the model, shape (nq,): enough to draw the world elsewhere."""
         state: Array = self._data.qpos.copy()

@@ -5,7 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from services.robot.backends.backend import CONTROL_PERIOD, Blocked, Observation, Touch
+from services.robot.backends.backend import CONTROL_PERIOD, Blocked, NativeLimits, Observation, Status, Touch
+from services.robot.backends.gate import Gate
 from services.robot.correction import Correction
 from services.robot.mechanism import Unreachable
 from sim.pose import Pose
@@ -81,6 +82,8 @@ class ParticleBackend:
 
     def __init__(self, scene: ParticleScene, variant: str) -> None:
         self._scene = scene
+        self._gate = Gate(JOINTS, lambda: self._q)
+        self._periods = 0
         self.reset(scene.training_positions[0], variant, scene.posture)
 
     @property
@@ -89,9 +92,41 @@ class ParticleBackend:
         return JOINTS
 
     @property
+    def limits(self) -> NativeLimits:
+        """The slides' ends; nothing else holds what has no mass."""
+        unlimited = np.full(3, np.inf)
+        return NativeLimits(np.full(3, -_REACH), np.full(3, _REACH), unlimited, unlimited, unlimited)
+
+    @property
     def variant(self) -> str:
         """Of the scene."""
         return self._variant
+
+    def connect(self) -> None:
+        """It is there already."""
+        self._gate.connect()
+
+    def close(self) -> None:
+        """Nothing moves without periods that elapse."""
+        self._gate.close()
+
+    def status(self) -> Status:
+        """As it was told: nothing of it can fail."""
+        return self._gate.status(self._now)
+
+    def hold(self) -> None:
+        """It is where it is: without mass it stands at once."""
+        self._gate.hold()
+        self._stand()
+
+    def stop(self, reason: str) -> None:
+        """As `hold`, until `recover`."""
+        self._gate.stop(reason)
+        self._stand()
+
+    def recover(self) -> None:
+        """What stopped it was said, and no more than that."""
+        self._gate.recover()
 
     def reset(self, place: Array, variant: str, q: Array) -> None:
         """Put the particle at q and the via-points at their y, shape (2,) [m]."""
@@ -104,19 +139,23 @@ class ParticleBackend:
         self._variant = variant
         self._condition = place.copy()
         self._q, self._qd, self._time = q.copy(), np.zeros(3), 0.0
-        self._command = self._q, self._qd
+        self.hold()
 
     def command(self, q: Array, qd: Array, opening: float) -> None:
         """Where to be, and how fast, at the period's end; it has no gripper."""
         del opening
+        self._gate.admit(q, self._now)
         self._command = q.copy(), qd.copy()
 
     def elapse(self) -> None:
         """One control period, of which the particle spends an equal part on each part of its way."""
+        if self._gate.silent(self._now):
+            self._stand()
         before = self._q
         self._q, self._qd = self._command
         self._touch = self._touched(self._solid, before + _SHARES * (self._q - before))
         self._time += CONTROL_PERIOD
+        self._periods += 1
 
     def observe(self) -> Observation:
         """Exactly where everything is; the second via-point stands in an object's place."""
@@ -130,6 +169,14 @@ class ParticleBackend:
             world=np.concatenate([self._q, self._condition]),
             condition=self._condition.copy(),
         )
+
+    @property
+    def _now(self) -> float:
+        """Of the periods that have elapsed, resets or not [s]."""
+        return self._periods * CONTROL_PERIOD
+
+    def _stand(self) -> None:
+        self._command = self._q, np.zeros(3)
 
     def _touched(self, solid: Sequence[Box], way: Array) -> Touch | None:
         """The first box that the particle reaches into on its way, shape (n, 3); it weighs nothing: without a force."""

@@ -76,3 +76,15 @@ def test_the_first_collision_stays_with_its_place():
     verdict = judge.judge(UPRIGHT, UPRIGHT, None)
     assert verdict.collision is first
     assert not verdict.success
+
+
+def test_what_nobody_has_seen_is_not_reached_and_is_judged_from_where_it_is_seen_first():
+    judge = ReachingJudge(CRITERIA, None)
+    unseen = judge.judge(UPRIGHT, None, None)
+    assert (unseen.reached, unseen.success, unseen.kicked_over) == (False, False, False)
+    assert unseen.missed < 0.0, "nobody knows by how much"
+    place = np.array([0.02, 0.0, 0.0])
+    seen = judge.judge(UPRIGHT, standing(place), None)
+    assert seen.success
+    np.testing.assert_array_equal(seen.displacement, 0.0)
+    assert judge.judge(UPRIGHT, standing(place + np.array([0.2, 0.0, 0.0])), None).kicked_over

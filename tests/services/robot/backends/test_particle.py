@@ -14,6 +14,14 @@ IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
 POINTS = st.tuples(*[st.floats(-0.4, 0.4)] * 3).map(np.array)
 
 
+def started(variant):
+    """A particle that was told to be where it is: what comes next may be anywhere."""
+    backend = ParticleBackend(PARTICLE, variant)
+    backend.connect()
+    backend.command(backend.observe().q, np.zeros(3), 0.0)
+    return backend
+
+
 @given(POINTS, POINTS)
 def test_steps_go_straight_to_the_position_and_no_faster_than_they_may(here, there):
     kinematics = ParticleKinematics(PARTICLE.freedom.axes)
@@ -27,7 +35,7 @@ def test_steps_go_straight_to_the_position_and_no_faster_than_they_may(here, the
 
 
 def test_the_backend_is_where_it_was_told_to_be_one_period_later():
-    backend = ParticleBackend(PARTICLE, FREE)
+    backend = started(FREE)
     backend.command(np.array([0.1, 0.05, 0.0]), np.array([0.04, 0.02, 0.0]), 0.0)
     backend.elapse()
     seen = backend.observe()
@@ -38,7 +46,7 @@ def test_the_backend_is_where_it_was_told_to_be_one_period_later():
 
 
 def test_a_reset_puts_particle_and_via_points_in_place():
-    backend = ParticleBackend(PARTICLE, FREE)
+    backend = started(FREE)
     backend.command(np.array([0.1, 0.05, 0.0]), np.zeros(3), 0.0)
     backend.elapse()
     backend.reset(np.array([0.1, -0.07]), OBSTACLE, np.zeros(3))
@@ -61,7 +69,7 @@ def test_a_reset_puts_particle_and_via_points_in_place():
     ],
 )
 def test_the_particle_touches_the_obstacle_with_its_surface(variant, position, touching):
-    backend = ParticleBackend(PARTICLE, variant)
+    backend = started(variant)
     for way in ((0.0, 0.1, 0.0), (position[0] - 0.001, 0.1, 0.0), position):  # around the obstacle, onto its surface
         backend.command(np.array(way), np.zeros(3), 0.0)
         backend.elapse()
@@ -72,7 +80,7 @@ def test_the_particle_touches_the_obstacle_with_its_surface(variant, position, t
 
 
 def test_what_the_particle_passes_through_within_a_period_is_touched():
-    backend = ParticleBackend(PARTICLE, OBSTACLE)
+    backend = started(OBSTACLE)
     backend.command(np.array([0.12, 0.0, 0.0]), np.zeros(3), 0.0)
     backend.elapse()
     touch = backend.observe().touch

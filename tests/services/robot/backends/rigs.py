@@ -1,0 +1,43 @@
+"""Each backend on what it drives, for the tests of what all of them promise."""
+
+from services.robot.assembly import kinematics_of
+from services.robot.backends.particle import ParticleBackend
+from services.robot.backends.simulation import Simulation
+from sim.robots.description import prepare
+from sim.tasks import PARTICLE, TABLE
+from sim.world.physics import World
+
+
+class Rig:
+    """A backend, and how its time passes: here by its periods alone."""
+
+    def __init__(self, backend):
+        self.backend = backend
+
+    def period(self):
+        self.backend.elapse()
+
+    def rest(self, seconds):
+        """Let time pass without a command."""
+        for _ in range(round(seconds / 0.01)):
+            self.period()
+
+    def close(self):
+        self.backend.close()
+
+
+def simulation():
+    world = World(TABLE, TABLE.variants[0], prepare())
+    world.reset(TABLE.training_positions[0], q=kinematics_start())
+    return Rig(Simulation(world))
+
+
+def kinematics_start():
+    kinematics = kinematics_of(TABLE, prepare())
+    from services.robot.starts import Starts
+
+    return Starts(kinematics, TABLE.start, TABLE.posture, 0.005).joints(TABLE.start)
+
+
+def particle():
+    return Rig(ParticleBackend(PARTICLE, PARTICLE.variants[0]))
