@@ -14,6 +14,7 @@ from lfd.exceptions import OutOfRange
 from lfd.models.encoding import OUTPUTS, POSITION, Encoding
 from lfd.models.via_point import ViaPoint, gain_of, position_rows
 from lfd.motion.demonstration import Situation
+from lfd.motion.opening import openings
 from lfd.motion.rotations import rotate, slerp
 from lfd.motion.trajectory import Trajectory, equal_phases
 
@@ -133,7 +134,8 @@ def position_covariances(encoding: Encoding, covariance: Array, n: int) -> Array
     check_points("motion", n)
     N = encoding.basis.count
     Phi = encoding.rows(equal_phases(n))
-    Sigma = covariance[:-1, :-1].reshape(N, OUTPUTS, N, OUTPUTS)[:, :POSITION, :, :POSITION]
+    of_weights = covariance[: N * OUTPUTS, : N * OUTPUTS]
+    Sigma = of_weights.reshape(N, OUTPUTS, N, OUTPUTS)[:, :POSITION, :, :POSITION]
     half = np.tensordot(Phi, Sigma, axes=1)  # (n, 3, N, 3)
     return np.asarray(np.einsum("tibj,tb->tij", half, Phi), dtype=np.float64)
 
@@ -142,7 +144,7 @@ def blend(first: MotionDistribution, second: MotionDistribution, shares: Array) 
     """Two motions as one that goes over from the first to the second (Paraschos et al. 2018, eq. 21 to 23).
 
     At each time the product of both Gaussians, each to the power of its activation: the surer one counts more.
-    Orientations and the duration go over by the activation alone.
+    Orientations and the duration go over by the activation alone, openings at once where it passes a half.
 
     Args:
         first: Where the share is 0.
@@ -156,6 +158,7 @@ def blend(first: MotionDistribution, second: MotionDistribution, shares: Array) 
         OutOfRange: A share is not in [0, 1].
         TooFewPoints: There are fewer than two shares.
         WrongShape: The shares are no vector.
+        OpeningMismatch: The gripper takes part in one of the two only.
     """
     activation = checked("shares", shares, (None,))
     n = len(activation)
@@ -164,6 +167,7 @@ def blend(first: MotionDistribution, second: MotionDistribution, shares: Array) 
         wrong = activation.min() if activation.min() < 0.0 else activation.max()
         raise OutOfRange("share", float(wrong), "from 0 to 1")
     a, b = first.trajectory(n), second.trajectory(n)
+    grasps = openings(a, b)
     weights = [(1.0 - activation)[:, None, None], activation[:, None, None]]
     information = np.zeros((n, POSITION, POSITION))
     state = np.zeros((n, POSITION))
@@ -178,6 +182,7 @@ def blend(first: MotionDistribution, second: MotionDistribution, shares: Array) 
         positions=np.einsum("tij,tj->ti", covariances, state),
         orientations=slerp(a.orientations, b.orientations, activation),
         duration=float(np.exp(np.mean(np.log(a.duration) + activation * np.log(b.duration / a.duration)))),
+        opening=None if grasps is None else np.where(activation < _HALF, *grasps),
     )
     return trajectory, covariances
 
@@ -196,4 +201,5 @@ def _angular_velocity(r: Array, rate: Array) -> Array:
     return np.asarray(rate + first * once + second * np.cross(r, once), dtype=np.float64)
 
 
+_HALF = 0.5
 _ROUNDING = 1e-12

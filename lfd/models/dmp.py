@@ -41,7 +41,7 @@ from lfd.bounds import Bounds, at_least, check_options, check_points
 from lfd.exceptions import OutOfRange
 from lfd.motion.resampling import Interpolation, resample
 from lfd.motion.rotations import conjugate, exp_map, log_map, multiply
-from lfd.motion.trajectory import PREDICTION_POINTS, Trajectory
+from lfd.motion.trajectory import PREDICTION_POINTS, Trajectory, equal_phases
 
 GOAL_WEIGHT = 1e6
 LEAST_EXTENT = 1e-3  # [m] between start and goal on an axis, to scale by it
@@ -94,11 +94,14 @@ class DMP:
         weights: w of the positions and rotation vectors, shape (N, 6).
         displacement: y0 - g of the demonstration: positions [m], then rotation vector [rad], shape (6,).
         options: Parameters.
+        opening: Of the demonstration's gripper at its points, which a reproduction repeats at the same phases: it is
+            led by no spring; shape (n,) [m]. None where the gripper takes no part.
     """
 
     weights: Array
     displacement: Array
     options: DmpOptions
+    opening: Array | None = None
 
     @classmethod
     def fit(cls, trajectory: Trajectory, options: DmpOptions | None = None) -> Self:
@@ -125,7 +128,7 @@ class DMP:
         importance[-1] = math.sqrt(GOAL_WEIGHT)
         X = _response(options, np.eye(options.count), points.n_points)
         w, *_ = np.linalg.lstsq(importance * X, importance * f, rcond=None)
-        return cls(frozen(w), frozen(y[0]), options)
+        return cls(frozen(w), frozen(y[0]), options, trajectory.opening)
 
     def reproduce(
         self,
@@ -159,7 +162,9 @@ class DMP:
         displacement = np.concatenate([y0 - g, turn])
         y = np.outer(_decay(self.options, np.linspace(0.0, 1.0, n)), displacement)
         y += _response(self.options, self.weights * self._scale(displacement), n)
-        return Trajectory(g + y[:, :3], multiply(exp_map(y[:, 3:]), q_g), duration)
+        shown, phases = self.opening, equal_phases(n)
+        opening = None if shown is None else np.interp(phases, equal_phases(len(shown)), shown)
+        return Trajectory(g + y[:, :3], multiply(exp_map(y[:, 3:]), q_g), duration, opening)
 
     def _scale(self, displacement: Array) -> Array:
         """The factor on the forcing of each axis, shape (6,); rotations are never scaled."""

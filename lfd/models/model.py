@@ -78,6 +78,7 @@ class MovementModel(Protocol):
             TooFewDemonstrations: There is none.
             PartialDemonstration: One speaks of a part of its motion only.
             WrongShape: Two conditions differ in dimension.
+            OpeningMismatch: The gripper takes part in some of them only.
         """
         ...
 
@@ -88,6 +89,7 @@ class MovementModel(Protocol):
 
         Raises:
             WrongShape: Its condition has another dimension than those before.
+            OpeningMismatch: The gripper takes part in it, and not in those before, or the other way round.
         """
         ...
 

@@ -11,7 +11,7 @@ from lfd.bounds import NOT_NEGATIVE, POSITIVE, SHARE, at_least, check_options
 from lfd.models.anchor import Anchor
 from lfd.models.basis import GaussianBasis
 from lfd.models.distribution import MotionDistribution
-from lfd.models.encoding import OUTPUTS, Encoding, reference_rotation
+from lfd.models.encoding import Encoding, reference_rotation, shown_in
 from lfd.models.gaussian import JointGaussian, condition, welford
 from lfd.models.model import Prediction, completed, in_part
 from lfd.motion.alignment import Selection, align
@@ -93,11 +93,13 @@ class ConditionedProMP:
             TooFewDemonstrations: There is none.
             PartialDemonstration: One speaks of a part of its motion only.
             WrongShape: Two conditions differ in dimension.
+            OpeningMismatch: The gripper takes part in some of them only.
         """
         check_demonstrations(demonstrations)
         options = options or PrompOptions()
         anchor = Anchor.straight() if options.anchored else None
-        encoding = Encoding(options.basis, options.samples, reference_rotation(demonstrations), anchor)
+        rotation, shown = reference_rotation(demonstrations), shown_in(demonstrations)
+        encoding = Encoding(options.basis, options.samples, rotation, anchor, shown)
         aligned = align(demonstrations, selection=options.selection)
         samples = np.array([_sample(encoding, d) for d in aligned])
         return cls(encoding, JointGaussian.fit(samples), options)
@@ -113,10 +115,12 @@ class ConditionedProMP:
 
         Raises:
             WrongShape: Its condition has another dimension than those before.
+            OpeningMismatch: The gripper takes part in it, and not in those before, or the other way round.
         """
         self._check(demonstration.condition)
         sample = _sample(self.encoding, in_part(self, completed(self, demonstration)))
-        return replace(self, joint=welford(self.joint, sample, self.options.kept))
+        joint = welford(self.joint, sample, self.options.kept)
+        return replace(self, encoding=self.encoding.including(shown_in([demonstration])), joint=joint)
 
     def predict(self, situation: Situation, n: int = PREDICTION_POINTS) -> Prediction:
         """Equations (12) and (13), see `MovementModel.predict`.
@@ -146,7 +150,7 @@ class ConditionedProMP:
         )
 
     def _check(self, s: Array) -> None:
-        check_dimension(s, len(self.joint.mean) - (OUTPUTS * self.options.basis.count + 1))
+        check_dimension(s, len(self.joint.mean) - self.encoding.dimension)
 
 
 def _sample(encoding: Encoding, demonstration: Demonstration) -> Array:

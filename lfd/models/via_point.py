@@ -59,8 +59,8 @@ class ViaPoint:
 def position_rows(encoding: Encoding, phase: float) -> Array:
     """The linear map from a vector (D,) of an encoding to the position at a phase from 0 to 1, shape (3, D)."""
     row = encoding.rows(np.array([phase]))[0]
-    rows = np.zeros((POSITION, OUTPUTS * encoding.basis.count + 1))
-    rows[:, :-1] = np.kron(row, np.eye(POSITION, OUTPUTS))
+    rows = np.zeros((POSITION, encoding.dimension))
+    encoding.weights(rows)[:] = np.kron(row, np.eye(POSITION, OUTPUTS)).reshape(POSITION, -1, OUTPUTS)
     return rows
 
 
@@ -126,7 +126,7 @@ def _detour(encoding: Encoding, phase: float, kept: Array) -> Array:
         height = float(encoding.rows(np.array([phase]))[0] @ bump)
         if height > _ROUNDING:
             bumps[:, :POSITION] = (bump / height)[:, None, None] * np.eye(POSITION)
-    return np.vstack([bumps.reshape(-1, POSITION), np.zeros((1, POSITION))])
+    return np.pad(bumps.reshape(-1, POSITION), ((0, encoding.dimension - N * OUTPUTS), (0, 0)))
 
 
 _ROUNDING = 1e-12

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from lfd.arrays import Array, checked, checked_quaternions
 from lfd.exceptions import PartialDemonstration, TooFewDemonstrations, WrongShape
+from lfd.motion.opening import openings
 from lfd.motion.part import WHOLE, Part, check_part
 from lfd.motion.provenance import UNKNOWN, Provenance
 from lfd.motion.trajectory import Trajectory
@@ -148,6 +149,7 @@ def check_demonstrations(demonstrations: Sequence[Demonstration]) -> None:
         TooFewDemonstrations: There is none.
         PartialDemonstration: One speaks of a part of its motion only.
         WrongShape: Two conditions differ in dimension.
+        OpeningMismatch: The gripper takes part in some of them only.
     """
     if not demonstrations:
         raise TooFewDemonstrations
@@ -155,6 +157,7 @@ def check_demonstrations(demonstrations: Sequence[Demonstration]) -> None:
         if demonstration.part != WHOLE:
             raise PartialDemonstration(*demonstration.part)
         check_dimension(demonstration.condition, len(demonstrations[0].condition))
+        openings(demonstrations[0].trajectory, demonstration.trajectory)
 
 
 def check_dimension(condition: Array, dimension: int) -> None:

@@ -29,7 +29,9 @@ from lfd.models.gaussian import JointGaussian
 from lfd.models.promp import ConditionedProMP, PrompOptions
 from lfd.motion.alignment import Selection
 
-FORMAT = "retouch-model/4"
+FORMAT = "retouch-model/5"
+READ = (FORMAT, "retouch-model/4")
+"""4 knew no gripper."""
 
 _HEADER = "header"
 
@@ -48,6 +50,8 @@ def save(model: AdaptiveProMP | ConditionedProMP, path: Path) -> None:
     """
     header: dict[str, Any] = {"format": FORMAT, "options": asdict(model.options)}
     arrays: dict[str, Array] = {"rotation": model.encoding.rotation}
+    if model.encoding.shown is not None:
+        arrays["shown"] = np.array(model.encoding.shown)
     match model:
         case AdaptiveProMP():
             header |= {"kind": "adaptive", "extent": model.corrections.extent}
@@ -93,7 +97,7 @@ def load(path: Path) -> AdaptiveProMP | ConditionedProMP:
         with path.open("rb") as stream, np.load(stream, allow_pickle=False) as file:
             arrays = {name: frozen(file[name]) for name in file.files if name != _HEADER}
             header = json.loads(file[_HEADER].tobytes())
-        if header["format"] != FORMAT:
+        if header["format"] not in READ:
             raise StorageError(path, f"its format is {header['format']!r}, not {FORMAT!r}", "update Retouch")
         return _adaptive(header, arrays) if header["kind"] == "adaptive" else _promp(header, arrays)
     except OSError as error:
@@ -144,7 +148,7 @@ def _corrections(name: str, arrays: dict[str, Array]) -> list[Correction]:
 def _adaptive(header: dict[str, Any], arrays: dict[str, Array]) -> AdaptiveProMP:
     options = _options(AdaptiveOptions, header["options"])
     anchor = Anchor(arrays["home"], arrays["strays"])
-    encoding = Encoding(options.basis, options.samples, arrays["rotation"], anchor)
+    encoding = Encoding(options.basis, options.samples, arrays["rotation"], anchor, _shown(arrays))
     axes = arrays["axes"].astype(np.intp)
     scale = ConditionScale(arrays["centre"], arrays["unit"], axes, np.ones(len(axes)))
     model = AdaptiveProMP.of_vectors(
@@ -159,8 +163,15 @@ def _promp(header: dict[str, Any], arrays: dict[str, Array]) -> ConditionedProMP
     values = header["options"]
     options = _options(PrompOptions, values | {"selection": Selection(values["selection"])})
     anchor = Anchor.straight() if options.anchored else None
-    encoding = Encoding(options.basis, options.samples, arrays["rotation"], anchor)
+    encoding = Encoding(options.basis, options.samples, arrays["rotation"], anchor, _shown(arrays))
     return ConditionedProMP(encoding, JointGaussian(arrays["mean"], arrays["scatter"], header["count"]), options)
+
+
+def _shown(arrays: dict[str, Array]) -> tuple[float, float] | None:
+    if "shown" not in arrays:
+        return None
+    least, greatest = arrays["shown"].tolist()
+    return least, greatest
 
 
 def _options(kind: type[_Options], values: dict[str, Any]) -> _Options:

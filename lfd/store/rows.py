@@ -40,6 +40,8 @@ def arrays_of(version: int, demonstration: Demonstration) -> Iterator[tuple[obje
         "origin": demonstration.origin,
         "condition": demonstration.condition,
     }
+    if demonstration.trajectory.opening is not None:
+        arrays["opening"] = demonstration.trajectory.opening
     for name, array in arrays.items():
         yield version, name, DTYPE, ",".join(map(str, array.shape)), array.astype(DTYPE).tobytes()
 
@@ -58,7 +60,7 @@ def stored_in(row: Sequence[Any], arrays: Sequence[tuple[Any, ...]], turn: Turn)
     added, purpose, scene, robot, duration, author, at_s, confidence, method, first, last, mean, most = row
     found = {name: _array(*parts) for name, *parts in arrays}
     given = Demonstration(
-        Trajectory(found["positions"], found["orientations"], duration),
+        Trajectory(found["positions"], found["orientations"], duration, found.get("opening")),
         found["origin"],
         found["condition"],
         Provenance(author, at_s, confidence, Method(method)),

@@ -56,6 +56,7 @@ BEYOND = {
         "rotation_std": [0.0, -1.0],
         "duration_std": [0.0, -1.0],
         "count": [0.0, -1.0],
+        "moment_std": [0.0, -1.0],
     },
     DriftOptions: {"conditions": [2, 3.5], "doubt": [0.0, -1.0], "least": [0.0, -1.0]},
     WorldOptions: {"noise": [0.0, -1.0], "evidence": [0.0, -1.0], "jump": [0.0, -1.0], "stays": [0.0, -1.0]},

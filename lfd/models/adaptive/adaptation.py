@@ -8,6 +8,7 @@ Averaging, as in equations (19) and (20), leaves most of the error after one cor
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Self
 
 import numpy as np
@@ -26,8 +27,9 @@ from lfd.models.adaptive.spread import Spread, SpreadPrior, spread_of
 from lfd.models.anchor import Anchor
 from lfd.models.basis import GaussianBasis
 from lfd.models.distribution import MotionDistribution
-from lfd.models.encoding import POSITION, Encoding, reference_rotation
+from lfd.models.encoding import POSITION, Encoding, reference_rotation, shown_in
 from lfd.models.model import Prediction, completed, in_part
+from lfd.models.strokes import bounds_of
 from lfd.motion.demonstration import Demonstration, Situation, check_demonstrations, check_dimension
 from lfd.motion.trajectory import PREDICTION_POINTS, equal_phases
 
@@ -101,11 +103,13 @@ class AdaptiveProMP:
             TooFewDemonstrations: There is none.
             PartialDemonstration: One speaks of a part of its motion only.
             WrongShape: Two conditions differ in dimension.
+            OpeningMismatch: The gripper takes part in some of them only.
         """
         check_demonstrations(demonstrations)
         options = options or AdaptiveOptions()
         extent = _extent(demonstrations)
-        plain = Encoding(options.basis, options.samples, reference_rotation(demonstrations), anchor=None)
+        rotation, shown = reference_rotation(demonstrations), shown_in(demonstrations)
+        plain = Encoding(options.basis, options.samples, rotation, anchor=None, shown=shown)
         starts = np.array([plain.start(d.situation) for d in demonstrations])
         encoding = replace(plain, anchor=Anchor.of(starts, extent))
         scale = ConditionScale.of(demonstrations, extent)
@@ -148,6 +152,7 @@ class AdaptiveProMP:
 
         Raises:
             WrongShape: Its condition has another dimension than those before.
+            OpeningMismatch: The gripper takes part in it, and not in those before, or the other way round.
         """
         self._check(demonstration.condition)
         believed = in_part(self, completed(self, demonstration))
@@ -180,7 +185,7 @@ class AdaptiveProMP:
         self._check(situation.condition)
         expected = self._regression.at(situation.condition)
         effect = self._effect(expected, situation)
-        trajectory = self.encoding.decode(expected.mean + effect.change, situation, n)
+        trajectory = self._decoder.decode(expected.mean + effect.change, situation, n)
         taught, changed = self._variances(expected, effect)
         covariances = taught * self.spread.positions(n)
         duration_variance = taught * self.spread.covariance[-1, -1]
@@ -206,7 +211,15 @@ class AdaptiveProMP:
         for scatter, differences in self._differences(effect, changed):
             covariance = covariance + scatter / len(differences) * (differences.T @ differences)
         mean = frozen(expected.mean + effect.change)
-        return MotionDistribution(self.encoding, situation, mean, frozen(covariance))
+        return MotionDistribution(self._decoder, situation, mean, frozen(covariance))
+
+    @cached_property
+    def _decoder(self) -> Encoding:
+        """The encoding, with the openings that the corrections showed."""
+        held = self.corrections.held
+        if self.encoding.shown is None or not held:
+            return self.encoding
+        return self.encoding.including(bounds_of(self.encoding.strokes(np.array([one.x for one in held]))))
 
     @property
     def _regression(self) -> Regression:

@@ -151,7 +151,7 @@ class Corrections:
             z = outside = self._scale.standard(expected.s)
         distances = np.sqrt(squared_distances(z[None], self._z))
         needed = None if led is None else self._detours.needed(led, shown=len(self._solved) > 1)
-        nearness = Nearness.of(distances, levy(outside[None], self._outside), self.options.covariance)
+        nearness = Nearness.of(distances, levy(outside[None], self._outside), self.options.covariance, len(self._units))
         place = Place(z, outside, nearness, needed)
         if len(self._solved) == 1:
             return self._of_way(0, place)
@@ -183,7 +183,7 @@ class Corrections:
         applied = self._solved[way].at(place.nearness, place.beyond)
         kinds, changes, details = self.regression.kinds, self.changes, self._details
         if place.needed is not None:
-            changes, details = place.needed.of(changes), place.needed.of(details)
+            changes, details = (place.needed.of(x, kinds.weights) for x in (changes, details))
         if self._drift is None:
             change = kinds.each_from_its_own(applied.weights @ changes - applied.carried @ details)
         else:
@@ -218,7 +218,7 @@ class Corrections:
     def _solved(self) -> tuple[Solved, ...]:
         """For each way."""
         worlds, covariance = self._worlds, self.options.covariance
-        nearness = Nearness.of(self._distances, levy(self._outside, self._outside), covariance)
+        nearness = Nearness.of(self._distances, levy(self._outside, self._outside), covariance, len(self._units))
         repeated = worlds.noise[:, None] * (worlds.shared > 1.0)
         return tuple(
             Solved.of(
@@ -260,12 +260,12 @@ class Corrections:
 
     @cached_property
     def _units(self) -> Array:
-        """Of positions [m], of orientations [rad] and of the logarithm of the duration, shape (3,)."""
-        return np.array([self.extent, 1.0, 1.0])
+        """Of positions [m], of orientations [rad], of the logarithm of the duration, and of openings, shape (K,)."""
+        return np.array([self.extent, *[1.0] * (self.regression.kinds.count - 1)])
 
     @cached_property
     def _products(self) -> Array:
-        """Inner products of the changes in each kind, shape (3, J, J)."""
+        """Inner products of the changes in each kind, shape (K, J, J)."""
         return self.regression.kinds.products(self.changes)
 
     @cached_property

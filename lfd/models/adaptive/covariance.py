@@ -10,7 +10,7 @@ from lfd.arrays import Array
 from lfd.bounds import NOT_NEGATIVE, POSITIVE, check_number, check_options
 from lfd.distances import squared_distances
 from lfd.exceptions import OutOfRange
-from lfd.models.adaptive.kinds import KINDS
+from lfd.models.adaptive.kinds import DURATION, KINDS
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class CovarianceOptions:
             differs from another that is meant alike, is hardly carried to other places.
         near: Length over which that fades.
         reach: Length over which a surprising correction fades, in each kind: what the world changed in one place it
-            changed wherever the same motion leads through it.
+            changed wherever the same motion leads through it. What the gripper does is carried as far as the tempo.
         beside: Length over which the surprise at a place follows that of the corrections beside it.
 
     Raises:
@@ -49,8 +49,8 @@ class CovarianceOptions:
 
     @cached_property
     def rates(self) -> Array:
-        """By which a surprising correction fades in each kind, shape (3,)."""
-        return _ROOT_3 / np.array(self.reach)
+        """By which a surprising correction fades in each kind, that of openings last, shape (4,)."""
+        return _ROOT_3 / np.array([*self.reach, self.reach[DURATION]])
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,15 +71,16 @@ class Nearness:
     detail: Array
 
     @classmethod
-    def of(cls, distances: Array, levy: Array, options: CovarianceOptions) -> Self:
+    def of(cls, distances: Array, levy: Array, options: CovarianceOptions, kinds: int = KINDS) -> Self:
         """That of places.
 
         Args:
             distances: From them to the corrections, shape (m, J).
             levy: See `levy`, shape (m, J).
             options: Of the covariance.
+            kinds: How many there are.
         """
-        r = options.rates[:, None, None] * distances
+        r = options.rates[:kinds, None, None] * distances
         wide = (1.0 + r) * np.exp(-r)
         detail = np.exp(distances * (-1.0 / options.near))
         fixed = _SLOPE_AT * options.open_slope**2 * levy * wide + options.near_std**2 * detail

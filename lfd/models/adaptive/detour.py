@@ -17,7 +17,7 @@ larger than what is left of it at the end, and than one motion differs from anot
 motions that lie aside in its own direction. What stands in the way of those that lie across it may be long.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Self
@@ -25,7 +25,7 @@ from typing import Self
 import numpy as np
 
 from lfd.arrays import Array
-from lfd.models.encoding import OUTPUTS, POSITION
+from lfd.models.encoding import POSITION
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,11 +40,11 @@ class Needed:
     shares: Array
     mirrored: tuple[tuple[int, Array], ...] = ()
 
-    def of(self, changes: Array) -> Array:
-        """That of the changes of vectors, shape (J, D)."""
+    def of(self, changes: Array, weights: Callable[[Array], Array]) -> Array:
+        """That of the changes of vectors, shape (J, D); `weights` views those of poses in them, shape (J, N, 6)."""
         kept = self.shares[:, None] * changes
         for j, normal in self.mirrored:
-            positions = kept[j, :-1].reshape(-1, OUTPUTS)[:, :POSITION]  # a view
+            positions = weights(kept)[j, :, :POSITION]
             positions -= 2.0 * np.outer(positions @ normal, normal)
         return kept
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from lfd.arrays import Array
 from lfd.bounds import NOT_NEGATIVE, POSITIVE, check_options
 from lfd.distances import squared_distances
-from lfd.models.adaptive.kinds import KINDS, Kinds
+from lfd.models.adaptive.kinds import Kinds
 from lfd.models.adaptive.left_out import LeftOut, leave_out
 from lfd.models.adaptive.moments import Moments
 from lfd.models.adaptive.scale import ConditionScale
@@ -145,14 +145,14 @@ class Regression:
 
     @cached_property
     def shares(self) -> Array:
-        """How much each trend of `LeftOut` counts in each kind, shape (K + 1, 3) or (2 K + 1, 3).
+        """How much each trend of `LeftOut` counts in each kind, shape (K + 1, kinds) or (2 K + 1, kinds).
 
         One condition teaches no trend. Two, or others that cannot tell, are joined by a straight line, which is
         followed no further than they lie apart.
         """
         found = self._left_out
         K = len(self.options.trend.shrinkages)
-        shares = np.zeros((K + 1 if self._depends is None else 2 * K + 1, KINDS))
+        shares = np.zeros((K + 1 if self._depends is None else 2 * K + 1, self.kinds.count))
         if found is None:
             shares[K - 1] = 1.0
         elif not found.telling.any():
@@ -209,9 +209,9 @@ class Regression:
         return self._mean + trends + nearness @ self._gain, away - followed
 
     def _squares(self, X: Array) -> Array:
-        """Sums of squares of vectors (K, m, D) in each kind, shape (K, 3)."""
+        """Sums of squares of vectors (K, m, D) in each kind, shape (K, kinds)."""
         flat = self.kinds.sizes(X.reshape(-1, X.shape[-1]))
-        return np.asarray(flat.reshape(KINDS, *X.shape[:2]).sum(axis=2).T, dtype=np.float64)
+        return np.asarray(flat.reshape(self.kinds.count, *X.shape[:2]).sum(axis=2).T, dtype=np.float64)
 
     @cached_property
     def _centre(self) -> Array:

@@ -7,9 +7,9 @@ import numpy as np
 
 from lfd.arrays import Array
 from lfd.bounds import POSITIVE, check_options
-from lfd.models.basis import GaussianBasis
 from lfd.models.distribution import position_covariances
 from lfd.models.encoding import OUTPUTS, POSITION, Encoding
+from lfd.models.strokes import LEVELS
 
 _SMOOTHNESS = 0.2  # phase over which the departures of a motion are alike, as far as is assumed
 
@@ -22,6 +22,7 @@ class SpreadPrior:
         position_std: As a fraction of the motions' extent [-].
         rotation_std: [rad].
         duration_std: Of the logarithm of the duration [-].
+        moment_std: Of the moments at which the gripper opens or closes, all of them together [phase].
         count: How many left-out conditions the assumption is worth.
 
     Raises:
@@ -32,9 +33,17 @@ class SpreadPrior:
     rotation_std: float = 0.2
     duration_std: float = 0.3
     count: float = 2.0
+    moment_std: float = 0.05
 
     def __post_init__(self) -> None:
-        check_options(self, position_std=POSITIVE, rotation_std=POSITIVE, duration_std=POSITIVE, count=POSITIVE)
+        check_options(
+            self,
+            position_std=POSITIVE,
+            rotation_std=POSITIVE,
+            duration_std=POSITIVE,
+            count=POSITIVE,
+            moment_std=POSITIVE,
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,16 +87,19 @@ def spread_of(encoding: Encoding, errors: Array, variances: Array, extent: float
     """
     known = np.isfinite(variances)
     standardised = errors[known] / np.sqrt(variances[known])[:, None]
-    scatter = prior.count * _assumed(encoding.basis, extent, prior) + standardised.T @ standardised
+    scatter = prior.count * _assumed(encoding, extent, prior) + standardised.T @ standardised
     return Spread(encoding, scatter / (prior.count + np.count_nonzero(known)))
 
 
-def _assumed(basis: GaussianBasis, extent: float, prior: SpreadPrior) -> Array:
+def _assumed(encoding: Encoding, extent: float, prior: SpreadPrior) -> Array:
     """Smooth departures of one size at all phases; an anchored start pins them to zero there."""
-    centres = np.linspace(0.0, 1.0, basis.count)
+    centres = np.linspace(0.0, 1.0, encoding.basis.count)
     alike = np.exp(-0.5 * ((centres[:, None] - centres) / _SMOOTHNESS) ** 2)
     stds = np.repeat([prior.position_std * extent, prior.rotation_std], [POSITION, OUTPUTS - POSITION])
-    covariance = np.zeros((basis.count * OUTPUTS + 1,) * 2)
-    covariance[:-1, :-1] = np.kron(alike, np.diag(stds**2))
+    covariance = np.zeros((encoding.dimension,) * 2)
+    of_poses = len(centres) * OUTPUTS
+    covariance[:of_poses, :of_poses] = np.kron(alike, np.diag(stds**2))
+    if encoding.shown is not None:
+        covariance[of_poses + LEVELS : -1, of_poses + LEVELS : -1] = prior.moment_std**2
     covariance[-1, -1] = prior.duration_std**2
     return covariance

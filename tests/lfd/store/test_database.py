@@ -48,6 +48,19 @@ def test_what_was_stored_is_read_back_bit_for_bit_and_in_order(path, reach):
         assert trajectory.duration == expected.trajectory.duration
 
 
+def test_how_far_the_gripper_was_open_is_kept_bit_for_bit(path, reach):
+    plain = reach([0.9, 0.1, 0.6])
+    opening = np.where(plain.trajectory.phases < 0.8, 0.08, 0.0)
+    given = replace(plain, trajectory=replace(plain.trajectory, opening=opening))
+    with DemonstrationStore(path) as store:
+        store.add(given, Purpose.INITIAL, DISHWASHER)
+        store.add(plain, Purpose.UPDATE, DISHWASHER)
+    with DemonstrationStore(path) as store:
+        with_it, without = store.active()
+    np.testing.assert_array_equal(with_it.demonstration.trajectory.opening, opening)
+    assert without.demonstration.trajectory.opening is None
+
+
 def test_whose_a_demonstration_is_since_when_and_how_far_it_is_believed_is_kept(path, reach):
     given = [UNKNOWN, Provenance("anna", 1790000000.25, 0.3, Method.WAYPOINTS)]
     with DemonstrationStore(path) as store:

@@ -28,6 +28,29 @@ def test_a_loaded_model_predicts_and_learns_as_the_saved_one(tmp_path, reach, ki
         np.testing.assert_allclose(back.position_covariances, there.position_covariances, atol=1e-12)
 
 
+@pytest.mark.parametrize("kind", [AdaptiveProMP, ConditionedProMP])
+def test_what_the_gripper_does_is_loaded_as_it_was_saved(tmp_path, reach, kind):
+    def grasping(place, at):
+        shown = reach(place)
+        opening = np.where(shown.trajectory.phases < at, 0.08, 0.01)
+        return replace(shown, trajectory=replace(shown.trajectory, opening=opening))
+
+    model = kind.fit([grasping(place, 0.8) for place in PLACES]).updated(grasping(PLACES[0], 0.6))
+    loaded, wanted = there_and_back(model, tmp_path / "model.npz"), reach([0.88, 0.0, 0.6]).situation
+    for a, b in ((model, loaded), (model.updated(grasping(PLACES[0], 0.7)), loaded.updated(grasping(PLACES[0], 0.7)))):
+        np.testing.assert_array_equal(b.predict(wanted).trajectory.opening, a.predict(wanted).trajectory.opening)
+
+
+def test_a_file_from_before_there_was_a_gripper_is_read(tmp_path, reach):
+    model, path = AdaptiveProMP.fit([reach(place) for place in PLACES]), tmp_path / "model.npz"
+    save(model, path)
+    with np.load(path) as file:
+        content = dict(file)
+    header = json.loads(content["header"].tobytes()) | {"format": "retouch-model/4"}
+    np.savez(path, **(content | {"header": np.frombuffer(json.dumps(header).encode(), dtype=np.uint8)}))
+    same_prediction(model, load(path), reach([0.88, 0.0, 0.6]).situation)
+
+
 def there_and_back(model, path):
     save(model, path)
     return load(path)

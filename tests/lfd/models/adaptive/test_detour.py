@@ -31,15 +31,20 @@ def vector(outputs):
     return np.append(np.tile(outputs, N), 0.3)
 
 
+def weights(vectors):
+    """The view of them that `Kinds.weights` gives."""
+    return vectors[:, :-1].reshape(len(vectors), N, OUTPUTS)
+
+
 def change(needed, outputs):
     """What is made of that vector: its outputs (6,) and the change of the duration."""
-    made = needed.of(vector(outputs)[None])[0]
+    made = needed.of(vector(outputs)[None], weights)[0]
     return made[:OUTPUTS], made[-1]
 
 
 def test_where_the_same_way_would_be_gone_all_of_it_is_needed():
     needed = detours(LEFT).needed(WAY)
-    np.testing.assert_array_equal(needed.of(vector(np.ones(6))[None])[0], vector(np.ones(6)))
+    np.testing.assert_array_equal(needed.of(vector(np.ones(6))[None], weights)[0], vector(np.ones(6)))
 
 
 @given(st.floats(0.0, 1.0))
@@ -72,7 +77,7 @@ def test_every_motion_passes_with_three_quarters_of_the_room_that_the_correction
 @given(sides)
 def test_what_lies_across_the_detour_does_not_matter(share):
     needed = detours(LEFT).needed(beside(share, (0.6, 0.0, 0.8)))
-    np.testing.assert_array_equal(needed.of(vector(np.ones(6))[None])[0], vector(np.ones(6)))
+    np.testing.assert_array_equal(needed.of(vector(np.ones(6))[None], weights)[0], vector(np.ones(6)))
 
 
 @given(sides, st.integers(0, 2**32 - 1))
@@ -124,7 +129,7 @@ def test_a_correction_to_the_nearer_side_bears_the_assumption_out():
 @given(st.floats(-9.0, 0.0))
 def test_where_both_ways_round_were_shown_none_is_made_up(share):
     needed = detours(LEFT).needed(beside(share), shown=True)
-    np.testing.assert_allclose(needed.of(vector(np.ones(6))[None])[0], vector(np.ones(6)))
+    np.testing.assert_allclose(needed.of(vector(np.ones(6))[None], weights)[0], vector(np.ones(6)))
 
 
 @pytest.mark.parametrize("oblique", [0.1, 0.2])
@@ -136,9 +141,9 @@ def test_a_detour_that_leads_a_little_aside_is_none_round_what_stands_there(obli
 
 def test_where_a_way_is_not_known_all_is_needed_beside_others_of_which_it_is():
     needed = detours(LEFT, LEFT, paths=(None, WAY)).needed(beside(1.0))
-    np.testing.assert_allclose(needed.of(np.array([vector(np.ones(6))] * 2))[:, 0], [1.0, 0.0], atol=1e-5)
+    np.testing.assert_allclose(needed.of(np.array([vector(np.ones(6))] * 2), weights)[:, 0], [1.0, 0.0], atol=1e-5)
 
 
 def test_a_correction_that_changed_no_position_is_needed_everywhere():
     needed = detours(np.zeros((P, 3))).needed(beside(1.0))
-    np.testing.assert_array_equal(needed.of(vector(np.ones(6))[None])[0], vector(np.ones(6)))
+    np.testing.assert_array_equal(needed.of(vector(np.ones(6))[None], weights)[0], vector(np.ones(6)))
