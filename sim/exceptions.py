@@ -4,6 +4,7 @@ SimError
 ├── UnknownScene            no scene of that name
 ├── UnknownVariant          the scene has no variant of that name
 ├── WrongPlace              a place has not as many numbers as the scene's targets have
+├── TaskUnfit               a task file that cannot be used
 ├── UnknownRobot            no robot of that name ships
 ├── RobotOfItsOwn           another robot is to stand in a scene that is about its own
 ├── OutOfReach              a position that the robot cannot take, or a place where no target can be
@@ -29,7 +30,7 @@ class UnknownScene(SimError):
     def __init__(self, name: str, known: Iterable[str]) -> None:
         self.name = name
         self.known = tuple(known)
-        super().__init__(f"unknown scene {name!r}: use one of {', '.join(self.known)}")
+        super().__init__(f"unknown scene {name!r}: use one of {', '.join(self.known)}, or the path of a task file")
 
 
 class UnknownVariant(SimError):
@@ -40,6 +41,15 @@ class UnknownVariant(SimError):
         self.name = name
         self.known = tuple(known)
         super().__init__(f"scene {scene!r} has no variant {name!r}: use one of {', '.join(self.known)}")
+
+
+class TaskUnfit(SimError):
+    """A task file that is not there, cannot be parsed, or says what cannot be."""
+
+    def __init__(self, path: Path, reason: str) -> None:
+        self.path = path
+        self.reason = reason
+        super().__init__(f"task file {path}: {reason}")
 
 
 class UnknownRobot(SimError):

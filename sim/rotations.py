@@ -35,6 +35,17 @@ def rotation_to(before: Array, after: Array) -> Array:
     return np.asarray(2.0 / np.sinc(half / np.pi) * between[..., 1:], dtype=np.float64)
 
 
+def turned(orientation: Array, vector: Array) -> Array:
+    """Return a vector as it is when what it belongs to is turned, shape (3,).
+
+    Args:
+        orientation: Unit quaternion, shape (4,).
+        vector: Shape (3,).
+    """
+    conjugate = orientation * np.array([1.0, -1.0, -1.0, -1.0])
+    return np.asarray(_product(_product(orientation, np.array([0.0, *vector])), conjugate)[1:])
+
+
 def _product(p: Array, q: Array) -> Array:
     pw, px, py, pz = (p[..., i] for i in range(4))
     qw, qx, qy, qz = (q[..., i] for i in range(4))

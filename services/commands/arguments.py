@@ -34,7 +34,9 @@ def add_scene(parser: ArgumentParser) -> None:
     """Which simulated world; the help names them all."""
     if isinstance(parser, Parser):
         parser.about_later = _about_scenes
-    parser.add_argument("--scene", metavar="S", help=f"the simulated scene (default: {RobotSection().scene})")
+    parser.add_argument(
+        "--task", "--scene", metavar="NAME|FILE", help=f"the task, or the scene of it (default: {RobotSection().scene})"
+    )
     parser.add_argument(
         "--robot-model", metavar="NAME|FILE", help="the robot in it; see 'retouch robot list' (default: tiago)"
     )

@@ -28,7 +28,7 @@ _FLAGS = {
 }
 """Flag to the key that it stands for."""
 
-_ROBOT_FLAGS = {"scene": "scene", "robot_model": "model"}
+_ROBOT_FLAGS = {"task": "scene", "robot_model": "model"}
 """The same, of the robot's section."""
 
 _STATION_FLAGS = {"headless": "scripted", "once": "once", "untaught": "untaught", "variant": "variant"}
@@ -61,10 +61,10 @@ def configuration(arguments: Namespace) -> Configuration:
         changes["master"] = msgspec.structs.replace(result.master, device=Scripted())
     station = {key: given[flag] for flag, key in _STATION_FLAGS.items() if flag in given}
     result = msgspec.structs.replace(result, station=msgspec.structs.replace(result.station, **station), **changes)
-    file = result.robot.model_file
-    if file is not None:  # named as every process finds it
-        placed_robot = msgspec.structs.replace(result.robot, model=str(file.absolute()))
-        result = msgspec.structs.replace(result, robot=placed_robot)
+    files = {"model": result.robot.model_file, "scene": result.robot.task_file}
+    paths = {key: str(file.absolute()) for key, file in files.items() if file is not None}
+    if paths:  # named as every process finds them
+        result = msgspec.structs.replace(result, robot=msgspec.structs.replace(result.robot, **paths))
     if result.station.variant or robot:
         # Imported here: few name a scene, a robot or a variant, and only they need the scenes.
         from services.process.robots import scene_of  # noqa: PLC0415

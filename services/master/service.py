@@ -56,7 +56,7 @@ def _device(bus: Bus, clock: Clock, configuration: Configuration) -> Device:
             # Imported here, so that whoever sits at a page needs no simulation packages.
             from services.master.devices.scripted import ScriptedMaster  # noqa: PLC0415
 
-            return ScriptedMaster(bus, clock, settings, configuration.seed)
+            return ScriptedMaster(bus, clock, settings, configuration.seed, configuration.robot)
         case Phantom() as settings:
             # Imported here, as the vendor's modules are: nobody else has them.
             from services.master.devices import phantom, stylus  # noqa: PLC0415

@@ -11,7 +11,7 @@ from protocol.messages import ObjectPose, Pose
 from protocol.topics import OBJECT_POSE, WORLD_STATE
 from services.bus.arrays import vector3
 from services.bus.bus import Bus
-from sim.tasks.scene import TAG_ID
+from sim.tasks.thing import Tag
 
 Array = NDArray[np.float64]
 
@@ -55,7 +55,7 @@ class Eyes:
         self._place = place
         seen = ObjectPose(
             pose=Pose(vector3(place + self._error), world.object_pose.orientation),
-            tag=TAG_ID,
+            tag=Tag().id,
             error=float(np.linalg.norm(self._error)),
             pictures=PICTURES,
         )

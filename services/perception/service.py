@@ -18,13 +18,15 @@ from services.bus.bus import Bus
 from services.bus.picture_stream import PictureStream
 from services.perception.filter import PoseFilter
 from services.perception.placement import Matrix, placement, quaternion_from_rotation
-from services.perception.tags import Picture, TagFinder, candidates, choose, decode
+from services.perception.tags import Picture, TagFinder, Tagged, candidates, choose, decode
 from services.process.clock import Clock
 from services.process.config import Configuration
+from services.process.robots import known_scene
 from services.process.runner import Service
 from services.process.schedule import Schedule
 from services.video.decoder import Decoder
-from sim.tasks.scene import TAG_ID
+from sim.tasks.reaching import ReachingScene
+from sim.tasks.thing import Thing
 
 RATE_HZ = 30.0
 
@@ -35,7 +37,9 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> Service:
     """The perception process."""
     # Threads for pictures this small cost more than they give, and take the other processes' cores.
     cv2.setNumThreads(1)
-    return PerceptionService(bus, clock, configuration.perception.window)
+    known = known_scene(configuration.robot)
+    thing = known.target if isinstance(known, ReachingScene) else None
+    return PerceptionService(bus, clock, configuration.perception.window, thing)
 
 
 class PerceptionService:
@@ -45,15 +49,17 @@ class PerceptionService:
         bus: to the robot's other processes.
         clock: what durations are measured on.
         window: over how many pictures the pose is filtered.
+        thing: whose pose it is; None where no task is known that has one.
     """
 
-    def __init__(self, bus: Bus, clock: Clock, window: int) -> None:
+    def __init__(self, bus: Bus, clock: Clock, window: int, thing: Thing | None = None) -> None:
         self._bus = bus
         self._clock = clock
         self._images = PictureStream(bus.subscribe(HEAD_IMAGE))
         self._decoder = Decoder()
         self._schedule = Schedule()
-        self._finder = TagFinder()
+        self._tagged = Tagged.of(thing)
+        self._finder = TagFinder(self._tagged.tag)
         self._filter = PoseFilter(window)
         self._previous: Matrix | None = None
         self._seen = (0, 0)
@@ -113,7 +119,7 @@ class PerceptionService:
             self._without_tag += 1
             return None
         base_from_camera = placement(image.pose.position, image.pose.orientation)
-        choice = choose(candidates(corners, image.intrinsics, base_from_camera), self._previous)
+        choice = choose(candidates(corners, image.intrinsics, base_from_camera, self._tagged), self._previous)
         if choice is None:
             self._without_pose += 1
             return None
@@ -129,7 +135,7 @@ class PerceptionService:
             OBJECT_POSE,
             ObjectPose(
                 pose=Pose(vector3(position), quaternion(quaternion_from_rotation(base_from_object[:3, :3]))),
-                tag=TAG_ID,
+                tag=self._tagged.tag.id,
                 error=self._error,
                 rejected=self._flips,
                 pictures=len(self._filter),

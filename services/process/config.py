@@ -29,14 +29,14 @@ Silence = Annotated[float, msgspec.Meta(gt=0.0, le=LONGEST_SILENCE_S)]
 
 
 ROBOT_SUFFIX = ".toml"
-"""Of a robot file: what ends so is no robot's name."""
+"""Of a robot file: what ends so is no robot's name; of a task file just so."""
 
 
 class RobotSection(Section, frozen=True):
     """The robot process.
 
     Attributes:
-        scene: which simulated scene it stands in: a name in `sim.tasks`.
+        scene: which simulated scene it stands in: the name of one that ships, or the path of a task file.
         model: which robot stands in it: the name of one that ships, or the path of a robot file; empty for the one that
             the scene was made for.
         variant: the scene's arrangement to start in; empty for the one that the model was trained in.
@@ -61,8 +61,16 @@ class RobotSection(Section, frozen=True):
     @property
     def model_file(self) -> Path | None:
         """The robot file that is meant; None where the robot is meant by its name."""
-        is_path = "/" in self.model or self.model.endswith(ROBOT_SUFFIX)
-        return Path(self.model) if is_path else None
+        return _path(self.model)
+
+    @property
+    def task_file(self) -> Path | None:
+        """The task file that is meant; None where the scene is meant by its name."""
+        return _path(self.scene)
+
+
+def _path(text: str) -> Path | None:
+    return Path(text) if "/" in text or text.endswith(ROBOT_SUFFIX) else None
 
 
 class CameraSection(Section, frozen=True):

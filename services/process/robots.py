@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from services.process.config import RobotSection
 from services.process.robot_file import load_robot
+from sim.exceptions import UnknownScene
 from sim.robots import faults
 from sim.robots.catalogue import robot
 from sim.robots.description import source_of
@@ -32,12 +33,32 @@ def scene_of(section: RobotSection, name: str = "") -> AnyScene:
 
     Args:
         section: of the configuration.
-        name: of another scene; the section's own by default.
+        name: of another scene, as a robot tells it; the section's own by default.
 
     Raises:
         UnknownScene: there is none of that name.
+        TaskUnfit: the task file cannot be used.
         UnknownRobot: see `manipulator`.
         RobotOfItsOwn: no other robot stands in that scene.
         ConfigurationError: see `manipulator`.
     """
-    return scene(name or section.scene, manipulator(section))
+    arm = manipulator(section)
+    if section.task_file is not None and name:
+        own = scene(section.scene, arm)
+        return own if own.name == name else scene(name, arm)
+    return scene(name or section.scene, arm)
+
+
+def known_scene(section: RobotSection) -> AnyScene | None:
+    """The scene of a configuration; None where it is not known here.
+
+    Raises:
+        TaskUnfit: the task file cannot be used.
+        UnknownRobot: see `manipulator`.
+        RobotOfItsOwn: no other robot stands in that scene.
+        ConfigurationError: see `manipulator`.
+    """
+    try:
+        return scene_of(section)
+    except UnknownScene:
+        return None

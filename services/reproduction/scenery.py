@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from lfd.motion.rotations import matrix_from_quaternion
 from services.reproduction.style import Line
-from sim.tasks.scene import OBJECT_SIZE, Box, Group, Vector
+from sim.tasks import DISHWASHER
+from sim.tasks.scene import Box, Group, Vector
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -70,7 +71,7 @@ def furnish(axes: Axes, boxes: Sequence[Box], lower: Vector, upper: Vector) -> N
 
 def place_object(axes: Axes, position: Sequence[float]) -> None:
     """Draw the object, its centre at a position [m]."""
-    corners = np.asarray(position) + _CORNERS * np.array(OBJECT_SIZE) / 2
+    corners = np.asarray(position) + _CORNERS * np.array(DISHWASHER.object_size) / 2
     solid(axes).add_collection3d(_block(corners, facecolors=OBJECT, edgecolors="white", linewidths=0.3))
 
 

@@ -100,7 +100,7 @@ def scene_state(scene: AnyScene, variant: str, start: Pose, condition: Array) ->
     return messages.SceneState(
         name=scene.name,
         variant=variant,
-        boxes=(*map(_box, scene.boxes(variant)), *map(_sign, scene.targets(condition))),
+        boxes=(*map(_box, scene.shown(variant)), *map(_sign, scene.targets(condition))),
         object_size=scene.object_size,
         ellipsoid_radii=scene.tolerances,
         kicked_over_thresholds=scene.kick_limits,

@@ -12,7 +12,7 @@ from services.certificates.page import is_plain, of_page, secured
 from services.process.clock import Clock
 from services.process.config import Configuration
 from services.process.load import load_now
-from services.process.robots import manipulator
+from services.process.robots import known_scene, manipulator
 from services.station.live_view.description import describe
 from services.station.page.login.judge import Judge
 from services.station.page.page import Page
@@ -31,7 +31,7 @@ def open_page(configuration: Configuration, clock: Clock) -> Page:
         PortInUse: it cannot be served there.
     """
     judge = Judge(AccountsFile(accounts_path()), is_right) if asks(configuration) else None
-    described = describe(configuration.robot.scene, manipulator(configuration.robot))
+    described = describe(known_scene(configuration.robot), manipulator(configuration.robot))
     served, robot = secured(configuration), configuration.name
     page = Page(served, robot, clock, described, configuration.operator, judge=judge, load=load_now)
     page.start()

@@ -15,7 +15,7 @@ from services.reproduction.models import Contender
 from services.reproduction.style import ADAPTIVE, CONDITIONED, OBSTACLE, REFINEMENT, TRUTH, drawn, panels
 from services.success_map.conditions import Condition, Ending, SuccessMap, Target, stage_name
 from sim.tasks import AnyScene
-from sim.tasks.scene import OBJECT_SIZE, Box, Group
+from sim.tasks.scene import Box, Group
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 _HEIGHT = 3.1  # [inch] of a row
 _EDGE = "#7c8794"
 _START = "the scene's start"
-_BELOW, _ABOVE = 0.6 * OBJECT_SIZE[2], 0.25  # [m] an object's centre: the slice that is seen from above
+_BELOW, _ABOVE = 0.6, 0.25  # of its height below an object's centre, and [m] above: what is seen from above
 
 
 @dataclass(frozen=True)
@@ -105,7 +105,7 @@ def _views(scene: AnyScene) -> tuple[_View, ...]:
             point=lambda one: np.array(one.setting.target),
             labels=("y [m]", "x [m]"),
             title="object positions, from above",
-            slice=(2, z - _BELOW, z + _ABOVE),
+            slice=(2, z - _BELOW * scene.object_size[2], z + _ABOVE),
             corrections=True,
         ),
         _View(

@@ -22,7 +22,7 @@ from services.bus.predictions import Predictions
 from services.bus.trace import Trace
 from services.process.clock import Clock
 from services.process.config import Configuration
-from services.process.robots import scene_of
+from services.process.robots import known_scene
 from services.process.runner import Service
 from services.viewer import motions, scene, series
 from services.viewer.journal import Journal
@@ -38,7 +38,7 @@ from services.viewer.web_files import web_files
 from services.viewer.words import Words
 from sim.exceptions import SimError
 from sim.robots.description import prepare
-from sim.tasks import SCENES, AnyScene, described
+from sim.tasks import AnyScene, described
 from sim.tasks.scene import Eye
 
 log = logging.getLogger(__name__)
@@ -66,7 +66,7 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> Service:
     """
     web = WebServer(configuration.viewer, web_files())
     # A scene that is not known here has an arm like ours, as far as anybody can tell.
-    known = scene_of(configuration.robot) if configuration.robot.scene in SCENES else None
+    known = known_scene(configuration.robot)
     try:
         run = Run(configuration.viewer, configuration.name, clock.now_ns(), known.eye if known else Eye())
     except BaseException:

@@ -79,6 +79,14 @@ class ParticleScene(Scene):
         """See `Scene.tolerances`."""
         return (self.tolerance,) * 3
 
+    def layout(self, variant: str) -> tuple[Box, ...]:
+        """See `Scene.layout`."""
+        return (*_board(), *(_block() if variant == _OBSTACLE else ()))
+
+    def routes(self, variant: str, place: Array) -> tuple[Corridor, ...]:
+        """See `Scene.routes`: a line that is level at its knots, and passes from one to the next as a hand does."""
+        return (_route(variant, place),)
+
     def targets(self, place: Array) -> tuple[Box, ...]:
         """See `Scene.targets`: the rings."""
         first, second = self.rings(place)
@@ -118,10 +126,6 @@ def _ring(name: str, x: float, y: float, radius: float) -> tuple[Box, ...]:
     )
 
 
-def _layout(variant: str) -> tuple[Box, ...]:
-    return (*_board(), *(_block() if variant == _OBSTACLE else ()))
-
-
 def _board() -> list[Box]:
     """The plane of the thesis' figures, a line at every unit of x and every ten of y."""
     middle, half_length, half_width, thin = _END / 2, 0.22, 0.23, 0.0008
@@ -149,8 +153,7 @@ def _block() -> list[Box]:
     return [Box("block", (x, y, _BOARD_Z + height), (half_x, half_y, height), _BRICK)]
 
 
-def _routes(variant: str, place: Array) -> tuple[Corridor]:
-    """A line that is level at its knots, and passes from one to the next as a hand does."""
+def _route(variant: str, place: Array) -> Corridor:
     (x_1, x_2), (y_1, y_2) = _VIA_X, place.tolist()
     passage = _PASSAGE if variant == _OBSTACLE else ()
     knots = np.array([(0.0, 0.0), *passage, (x_1, y_1), (x_2, y_2), (_END, y_2)])
@@ -159,7 +162,7 @@ def _routes(variant: str, place: Array) -> tuple[Corridor]:
     (x_from, y_from), (x_to, y_to) = knots[leg].T, knots[leg + 1].T
     y = y_from + (y_to - y_from) * minimum_jerk((x - x_from) / (x_to - x_from))
     positions = np.column_stack([x, y, np.zeros(_WAY_POINTS)])
-    return (Corridor(positions, np.tile(NO_ROTATION, (_WAY_POINTS, 1))),)
+    return Corridor(positions, np.tile(NO_ROTATION, (_WAY_POINTS, 1)))
 
 
 OBSTACLE_TRAINING = Y_UNIT * np.array([[10.0, 10.0], [10.0, -10.0], [-10.0, 0.0]])
@@ -173,8 +176,6 @@ PARTICLE = ParticleScene(
     region=Region((-10.0 * Y_UNIT,) * 2, (10.0 * Y_UNIT,) * 2),
     margin=10.0 * Y_UNIT,
     training_positions=np.zeros((1, 2)),
-    layout=_layout,
-    routes=_routes,
     freedom=Freedom(axes=(0.0, 1.0, 0.0), tempo=False, targets=tuple(x / _END for x in _VIA_X)),
     eye=Eye((0.2, -0.25, 0.58), (0.2, -0.01, 0.0)),
     via_x=_VIA_X,

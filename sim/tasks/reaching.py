@@ -1,15 +1,21 @@
-"""A scene in which an arm reaches for an object."""
+"""A task of an arm: it reaches for an object."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 
 from sim.robots.catalogue import DEFAULT
 from sim.robots.robot import Base, Manipulator, Robot, Stance
-from sim.tasks.scene import Array, Scene, Vector
+from sim.tasks.arrangement import Arrangement
+from sim.tasks.scene import Array, Box, Corridor, Scene, Vector
+from sim.tasks.success import Success
+from sim.tasks.thing import Thing
+from sim.tasks.way import Way
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -18,22 +24,50 @@ class ReachingScene(Scene):
 
     Attributes:
         manipulator: That reaches.
-        reached_radii: Of the ellipsoid around the grasping frame, along its axes, that the object's
-            centre must lie in (thesis, Fig. E.2), shape (3,) [m].
-        kicked_thresholds: Displacement along each axis of the base frame beyond which the object
-            counts as kicked over (thesis, Appendix E), shape (3,) [m].
+        things: Objects; motions are relative to the first.
+        success: What it means.
+        arrangement: What stands around the robot.
+        ways: That somebody drew, by variant; none where a planner is to find them.
+        bases: Where robots stand in it, by their kind, "" for any other; as the robot says where it says nothing.
+        file: That it was read from; None for one that ships.
     """
 
     has_object = True
 
     manipulator: Manipulator = DEFAULT
-    reached_radii: Array
-    kicked_thresholds: Array
+    things: tuple[Thing, ...]
+    success: Success
+    arrangement: Arrangement
+    ways: Mapping[str, Way] = field(default_factory=dict)
+    bases: Mapping[str, Base] = field(default_factory=dict)
+    file: Path | None = None
+
+    @property
+    def reference(self) -> str:
+        """See `Scene.reference`."""
+        return self.name if self.file is None else str(self.file)
+
+    @property
+    def target(self) -> Thing:
+        """The object that motions are relative to."""
+        return self.things[0]
+
+    @property
+    def gripper(self) -> bool:
+        """The gripper takes part: motions say how far it is open."""
+        return self.success.gripper
+
+    @property
+    def is_drawn(self) -> bool:
+        """Somebody drew the ways through it."""
+        return bool(self.ways)
 
     @cached_property
     def stance(self) -> Stance:
         """How the manipulator stands in it."""
-        return self.manipulator.stance(self.name)
+        own = self.manipulator.stance(self.name)
+        base = self.bases.get(self.manipulator.kind) or self.bases.get("")
+        return own if base is None else replace(own, base=base)
 
     @cached_property
     def robot(self) -> Robot:
@@ -45,21 +79,51 @@ class ReachingScene(Scene):
         """See `Scene.posture`."""
         return np.array(self.stance.posture)
 
+    def layout(self, variant: str) -> tuple[Box, ...]:
+        """See `Scene.layout`."""
+        return self.arrangement.of(variant)
+
+    def shown(self, variant: str) -> tuple[Box, ...]:
+        """See `Scene.shown`: meshes and the objects that no motion is relative to."""
+        meshes = (mesh.box(position) for mesh, position in self.arrangement.meshes_of(variant))
+        return (*self.boxes(variant), *meshes, *(thing.box for thing in self.things[1:]))
+
+    def routes(self, variant: str, place: Array) -> tuple[Corridor, ...]:
+        """See `Scene.routes`; none where none is drawn."""
+        if not self.is_drawn:
+            return ()
+        return self.ways[variant].corridors(self.start.position, self.start.orientation, place)
+
+    @property
+    def object_size(self) -> Vector:
+        """See `Scene.object_size`."""
+        return self.target.size
+
     @property
     def tolerances(self) -> Vector:
         """See `Scene.tolerances`."""
-        return _vector(self.reached_radii)
+        return self.success.reached
 
     @property
     def kick_limits(self) -> Vector:
         """See `Scene.kick_limits`."""
-        return _vector(self.kicked_thresholds)
+        return self.success.kicked_over
+
+    @property
+    def reached_radii(self) -> Array:
+        """The same as an array, shape (3,) [m]."""
+        return np.array(self.success.reached)
+
+    @property
+    def kicked_thresholds(self) -> Array:
+        """The same as an array, shape (3,) [m]."""
+        return np.array(self.success.kicked_over)
+
+    @property
+    def tipping_angle(self) -> float:
+        """See `Scene.tipping_angle`."""
+        return self.target.tipping_angle if self.success.tilt is None else self.success.tilt
 
     def missed_by(self, end: Array, target: Array, times: float) -> float:
         """See `Scene.missed_by`; along the line to the object."""
         return float(np.linalg.norm(target - end)) * (1.0 - 1.0 / times)
-
-
-def _vector(values: Array) -> Vector:
-    x, y, z = values.tolist()
-    return x, y, z

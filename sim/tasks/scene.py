@@ -3,9 +3,7 @@
 All positions are in the robot's base frame: x forward, y left, z up.
 """
 
-import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import Enum
 from typing import ClassVar, NamedTuple
@@ -23,17 +21,6 @@ Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]  # scalar first
 
 NO_ROTATION: Quaternion = (1.0, 0.0, 0.0, 0.0)
-
-# The fiducial marker lies on the object's lid; its axes are ArUco's: x right, y up, z out of the print.
-TAG_DICTIONARY = "DICT_4X4_50"
-TAG_ID = 7
-TAG_BITS = ((1, 1, 0, 0), (0, 1, 0, 0), (1, 1, 1, 1), (0, 0, 1, 0))  # 1 is white
-TAG_SIZE = 0.06  # [m] edge of the black square
-TAG_IN_OBJECT = Pose(np.array([0.0, 0.0, 0.05]), np.array([math.sqrt(0.5), 0.0, 0.0, -math.sqrt(0.5)]))
-
-OBJECT_SIZE: Vector = (0.05, 0.05, 0.10)  # [m] body and lid together
-LID_SIZE: Vector = (0.07, 0.07, 0.006)  # [m] a white rim is left around the marker
-OBJECT_MASS = 0.15  # [kg]
 
 _JOINED = 0.5  # share of the way-points after which a corridor from any start is the same
 
@@ -114,8 +101,6 @@ class Scene(ABC):
         region: Of the places that are drawn.
         margin: How far beyond the region a place is allowed, on each axis [m].
         training_positions: Places of the initial demonstrations, shape (n, d) [m].
-        layout: Boxes of a variant; call `boxes` instead.
-        routes: Of a variant and a place, one or more; call `corridors` instead.
         freedom: Of a person who moves the robot.
         eye: From where one sees all of it.
         has_object: A place is where an object stands, and motions are relative to it; else it is a condition by itself.
@@ -129,10 +114,13 @@ class Scene(ABC):
     region: Region
     margin: float = 0.05
     training_positions: Array
-    layout: Callable[[str], tuple[Box, ...]]
-    routes: Callable[[str, Array], tuple[Corridor, ...]]
     freedom: Freedom = field(default_factory=Freedom)
     eye: Eye = field(default_factory=Eye)
+
+    @property
+    def reference(self) -> str:
+        """By what `sim.tasks.scene` finds it again, in another process, too."""
+        return self.name
 
     @property
     @abstractmethod
@@ -143,6 +131,14 @@ class Scene(ABC):
     @abstractmethod
     def posture(self) -> Array:
         """Return joint positions near the start, in the order of the robot's joints, shape (m,)."""
+
+    @abstractmethod
+    def layout(self, variant: str) -> tuple[Box, ...]:
+        """Return the boxes of a variant that there is; call `boxes` instead."""
+
+    @abstractmethod
+    def routes(self, variant: str, place: Array) -> tuple[Corridor, ...]:
+        """Return the ways of a variant to a place, both of which there are; call `corridors` instead."""
 
     def boxes(self, variant: str) -> tuple[Box, ...]:
         """Return what stands around the robot.
@@ -155,6 +151,14 @@ class Scene(ABC):
         """
         self.check(variant)
         return self.layout(variant)
+
+    def shown(self, variant: str) -> tuple[Box, ...]:
+        """Return the boxes, and as boxes what else stands there, for whoever draws nothing else.
+
+        Raises:
+            UnknownVariant: There is no such variant.
+        """
+        return self.boxes(variant)
 
     def corridors(self, variant: str, place: Array, start: Pose | None = None) -> tuple[Corridor, ...]:
         """Return the ways from the start to the target that are clear of the environment, the shortest first.
@@ -184,7 +188,7 @@ class Scene(ABC):
     @property
     def object_size(self) -> Vector:
         """Full edge lengths of the object [m]; nought where there is none."""
-        return OBJECT_SIZE if self.has_object else (0.0, 0.0, 0.0)
+        return (0.0, 0.0, 0.0)
 
     @property
     @abstractmethod
@@ -203,13 +207,8 @@ class Scene(ABC):
 
     @property
     def tipping_angle(self) -> float:
-        """How far the object can be tilted and still fall back onto its foot [rad]; nought where there is none.
-
-        Its weight pulls it back for as long as its centre has not passed over the nearest edge of its foot. Over a
-        corner it could be tilted further, but nothing says that it leans over one.
-        """
-        width, depth, height = self.object_size
-        return math.atan(min(width, depth) / height) if self.has_object else 0.0
+        """How far the object can be tilted before it counts as kicked over [rad]; nought where there is none."""
+        return 0.0
 
     def targets(self, place: Array) -> tuple[Box, ...]:
         """Return what shows where the targets are; nothing where an object does.

@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 from sim.robots.description import RobotDescription
 from sim.tasks.reaching import ReachingScene
 from sim.tasks.scene import NO_ROTATION
-from sim.world.assembly import OBJECT, TIMESTEP, assemble
+from sim.world.assembly import TIMESTEP, assemble
 from sim.world.contacts import Contact, clearance, collisions, strongest
 from sim.world.staging import select
+from sim.world.things import OBJECT
 
 Array = NDArray[np.float64]
 

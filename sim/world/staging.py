@@ -2,6 +2,7 @@
 
 import mujoco
 
+from sim.tasks.reaching import ReachingScene
 from sim.tasks.scene import Box, Group, Scene
 
 # Contact classes: a pair collides if either one's type is in the other's affinity.
@@ -10,6 +11,8 @@ AFFINITY = {ROBOT: ENVIRONMENT | THING, ENVIRONMENT: ROBOT | THING, THING: ROBOT
 
 # Geometry groups: what is drawn, what only collides, what belongs to the variant not selected.
 DRAWN, UNSEEN, ABSENT = 0, 3, 5
+
+_AS_HULL = mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX  # whatever the file holds, a thing that stands has no other
 
 
 def add_stage(spec: mujoco.MjSpec, floor_z: float = 0.0) -> None:
@@ -75,9 +78,27 @@ def add_boxes(spec: mujoco.MjSpec, scene: Scene) -> None:
             add_box(
                 spec.worldbody,
                 box,
-                name=_box_name(variant, box),
+                name=_name(variant, box.name),
                 contype=ENVIRONMENT if solid else 0,
                 conaffinity=AFFINITY[ENVIRONMENT] if solid else 0,
+            )
+
+
+def add_meshes(spec: mujoco.MjSpec, scene: ReachingScene) -> None:
+    """Add the meshes of all variants; MuJoCo lets them collide as their convex hulls."""
+    for mesh in scene.arrangement.meshes:
+        spec.add_mesh(name=mesh.name, file=str(mesh.file), scale=[mesh.scale] * 3, inertia=_AS_HULL)
+    for variant in scene.variants:
+        for mesh, position in scene.arrangement.meshes_of(variant):
+            spec.worldbody.add_geom(
+                name=_name(variant, mesh.name),
+                type=mujoco.mjtGeom.mjGEOM_MESH,
+                meshname=mesh.name,
+                pos=position,
+                quat=mesh.quaternion,
+                rgba=mesh.rgba,
+                contype=ENVIRONMENT,
+                conaffinity=AFFINITY[ENVIRONMENT],
             )
 
 
@@ -103,13 +124,16 @@ def select(model: mujoco.MjModel, scene: Scene, variant: str) -> None:
     """
     scene.check(variant)
     for other in scene.variants:
-        for box in scene.boxes(other):
-            geom = model.geom(_box_name(other, box))
+        parts = [(box.name, box.group is not Group.DETAIL) for box in scene.boxes(other)]
+        if isinstance(scene, ReachingScene):
+            parts += [(mesh.name, True) for mesh, _ in scene.arrangement.meshes_of(other)]
+        for name, collides in parts:
+            geom = model.geom(_name(other, name))
             present = other == variant
-            solid = ENVIRONMENT if present and box.group is not Group.DETAIL else 0
+            solid = ENVIRONMENT if present and collides else 0
             geom.contype, geom.conaffinity = solid, AFFINITY[ENVIRONMENT] if solid else 0
             geom.group = DRAWN if present else ABSENT
 
 
-def _box_name(variant: str, box: Box) -> str:
-    return f"{variant}/{box.name}"
+def _name(variant: str, part: str) -> str:
+    return f"{variant}/{part}"

@@ -19,9 +19,10 @@ from services.master.devices.simulated_stylus import SimulatedStylus
 from services.master.feedback import Feedback
 from services.master.haptics import HapticLoop, HapticThread
 from services.process.clock import Clock, SystemClock
+from services.process.config import RobotSection
 from services.process.exceptions import ServiceError
 from services.process.master_devices import Scripted
-from sim import tasks as scenes
+from services.process.robots import scene_of
 from sim.exceptions import SimError
 from sim.person.hand import Hand, Seen
 from sim.person.itinerary import Itinerary
@@ -29,6 +30,7 @@ from sim.person.plans import Outlook
 from sim.person.scatter import CAREFUL
 from sim.person.stylus import Stylus
 from sim.pose import Pose
+from sim.tasks import AnyScene
 
 log = logging.getLogger(__name__)
 
@@ -56,11 +58,12 @@ class ScriptedMaster:
         clock: of the process.
         settings: of feedback and hand.
         seed: of all that is a person's: tremor, scatter, choice of a way, misjudged depth.
+        robot: in whose scene the hand knows its way.
     """
 
     name = "stylus"
 
-    def __init__(self, bus: Bus, clock: Clock, settings: Scripted, seed: int) -> None:
+    def __init__(self, bus: Bus, clock: Clock, settings: Scripted, seed: int, robot: RobotSection) -> None:
         self._execution = bus.subscribe(EXECUTION)
         self._predictions = Predictions(bus)
         self._scene = bus.subscribe(SCENE_STATE)
@@ -68,6 +71,8 @@ class ScriptedMaster:
         self._settings = settings
         self._hand = Hand(seed, settings.misjudgement)
         self._rng = np.random.default_rng((seed, 3))
+        self._robot = robot
+        self._scenes: dict[str, AnyScene] = {}
         self._feedback = feedback = Feedback(settings.stiffness, settings.damping, settings.force_limit)
         self._loop = HapticLoop(SimulatedStylus(Stylus(), self._hand), feedback, clock.now_ns())
         self._thread = HapticThread(self._loop, clock) if isinstance(clock, SystemClock) else None
@@ -143,7 +148,7 @@ class ScriptedMaster:
         if received is None or place is None:
             return False
         arrangement, settings, stylus = received.message, self._settings, self._loop.newest.stylus
-        scene = scenes.scene(arrangement.name)
+        scene = self._scene_named(arrangement.name)
         start = Pose(np.array(arrangement.start.position), np.array(arrangement.start.orientation))
         outlook = Outlook(scene, arrangement.variant, place, start)
         if led:
@@ -155,6 +160,12 @@ class ScriptedMaster:
             given = (motion.positions, motion.orientations, settings.scatter, self._rng)
             self._hand.grip(outlook.correction(*given, settings.exaggeration), stylus, scene.eye)
         return led or motion is not None
+
+    def _scene_named(self, name: str) -> AnyScene:
+        """As the robot tells it; looked up once."""
+        if name not in self._scenes:
+            self._scenes[name] = scene_of(self._robot, name)
+        return self._scenes[name]
 
     def _known(self, execution: ExecutionState) -> Trajectory | None:
         """What is corrected; where the hand leads alone, what the robot would do by itself as far as that is known."""

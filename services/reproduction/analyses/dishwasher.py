@@ -9,7 +9,7 @@ from services.reproduction import teaching
 from services.reproduction.analysis import Analysis, Context, Finding
 from services.reproduction.teaching import Question
 from services.reproduction.teaching_figures import first_rounds, second_round
-from sim.tasks.dishwasher import DISHWASHER
+from sim.tasks import DISHWASHER
 
 _NEEDED = 2  # of the thesis
 _CONDITIONS = 4

@@ -22,7 +22,7 @@ from services.reproduction.style import DEMONSTRATION_LINE, TRUE_LINE, Line, dra
 from services.robot.arm import Arm
 from services.robot.assembly import simulated_arm
 from sim.robots.description import prepare
-from sim.tasks.table import TABLE
+from sim.tasks import TABLE
 
 Array = NDArray[np.float64]
 

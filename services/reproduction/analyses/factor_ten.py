@@ -13,7 +13,7 @@ from services.reproduction.analysis import Analysis, Claim, Context, Figure, Fin
 from services.reproduction.models import DEFAULT, THESIS
 from services.reproduction.scripted import demonstrate
 from services.reproduction.style import ADAPTIVE, CONDITIONED, DEMONSTRATION_LINE, Line, drawn, panels
-from sim.tasks.table import TABLE
+from sim.tasks import TABLE
 
 Array = NDArray[np.float64]
 

@@ -14,7 +14,7 @@ from services.reproduction.analysis import Analysis, Claim, Context, Figure, Fin
 from services.reproduction.models import THESIS
 from services.reproduction.scripted import demonstrate
 from services.reproduction.style import CONDITIONED, TRUTH, drawn, panels
-from sim.tasks.dishwasher import DISHWASHER
+from sim.tasks import DISHWASHER
 
 Array = NDArray[np.float64]
 

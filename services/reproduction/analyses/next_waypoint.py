@@ -27,9 +27,8 @@ from services.robot.execution import look_ahead
 from sim.person.attention import REACTION
 from sim.person.intention import Intention, plan
 from sim.robots.description import prepare
-from sim.tasks.dishwasher import DISHWASHER
+from sim.tasks import DISHWASHER, TABLE
 from sim.tasks.reaching import ReachingScene
-from sim.tasks.table import TABLE
 
 Array = NDArray[np.float64]
 Displacement = Callable[[RolloutView], Array]

@@ -17,7 +17,7 @@ from services.reproduction.functions import rms
 from services.reproduction.models import CONTENDERS, DEFAULT, FINE, THESIS, Contender
 from services.reproduction.scripted import demonstrate
 from services.reproduction.style import DEMONSTRATION_LINE, TRUE_LINE, Line, drawn, panels
-from sim.tasks.table import TABLE
+from sim.tasks import TABLE
 
 Array = NDArray[np.float64]
 

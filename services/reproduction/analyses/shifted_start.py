@@ -14,7 +14,7 @@ from services.reproduction.functions import rms
 from services.reproduction.models import ANCHORED, CONTENDERS, DEFAULT, FINE, THESIS, Contender
 from services.reproduction.scripted import demonstrate, object_grid, steady_motions
 from services.reproduction.style import DEMONSTRATION_LINE, Line, drawn, panels
-from sim.tasks.table import TABLE
+from sim.tasks import TABLE
 
 Array = NDArray[np.float64]
 

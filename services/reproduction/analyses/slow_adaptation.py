@@ -23,7 +23,7 @@ from services.reproduction.style import DEMONSTRATION_LINE, OBSTACLE, REFINEMENT
 from services.robot.arm import Arm
 from services.robot.assembly import simulated_arm
 from sim.robots.description import prepare
-from sim.tasks.dishwasher import DISHWASHER
+from sim.tasks import DISHWASHER
 from sim.tasks.scene import Group
 
 Array = NDArray[np.float64]

@@ -11,7 +11,7 @@ from services.reproduction import teaching
 from services.reproduction.analysis import Analysis, Context, Finding
 from services.reproduction.teaching import Question
 from services.reproduction.teaching_figures import first_rounds, second_round
-from sim.tasks.table import TABLE
+from sim.tasks import TABLE
 
 _NEEDED = 2  # of the thesis
 _DEMONSTRATED = ((0, 1), (2, 2), (2, 0))  # rows along x and columns along y of the grid, as in the thesis

@@ -18,8 +18,7 @@ from services.reproduction.functions import rms
 from services.reproduction.models import THESIS
 from services.reproduction.scripted import demonstrate
 from services.reproduction.style import CONDITIONED, DEMONSTRATION, REFINEMENT, Line, drawn, panels
-from sim.tasks.dishwasher import DISHWASHER
-from sim.tasks.table import TABLE
+from sim.tasks import DISHWASHER, TABLE
 
 Array = NDArray[np.float64]
 

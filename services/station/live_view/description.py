@@ -18,9 +18,8 @@ from sim.robots.description import prepare
 from sim.robots.gripper import Gripper
 from sim.robots.links import Block, Cylinder, Link, Mesh, Shape, read_links
 from sim.robots.robot import Manipulator
-from sim.tasks import SCENES, AnyScene
+from sim.tasks import AnyScene
 from sim.tasks import described as description_of
-from sim.tasks import scene as scene_named
 from sim.tasks.reaching import ReachingScene
 from sim.tasks.scene import Eye
 
@@ -108,17 +107,16 @@ class _Words(msgspec.Struct, frozen=True):
     meshes: tuple[_Mesh, ...]
 
 
-def describe(scene: str, manipulator: Manipulator | None = None) -> Description:
+def describe(known: AnyScene | None, manipulator: Manipulator | None = None) -> Description:
     """The description of a scene and of the robot in it.
 
     Where the scene is not known here the robot has an arm like ours, as far as anybody can tell; where no robot is
     installed, all else is shown.
 
     Args:
-        scene: its name.
+        known: the scene; None where it is not known here.
         manipulator: that stands in it; by default the one that it was made for.
     """
-    known = scene_named(scene, manipulator) if scene in SCENES else None
     eye, point = (known.eye, known.point) if known is not None else (Eye(), None)
     arm = manipulator or DEFAULT
     links: tuple[Link, ...] = ()

@@ -26,9 +26,8 @@ from services.reproduction.models import BY_NAME, DEFAULT, THESIS
 from services.reproduction.operator import Operator
 from services.reproduction.scripted import demonstrate, object_grid, reaches
 from services.reproduction.teaching import Question, answered
-from sim.tasks import REACHING
+from sim.tasks import REACHING, TABLE
 from sim.tasks.particle import PARTICLE
-from sim.tasks.table import TABLE
 
 seeds = st.integers(0, 10_000)
 

@@ -7,7 +7,7 @@ from lfd.motion.demonstration import Situation
 from services.model.learning import MODELS
 from services.reproduction.models import ANCHORED, BY_NAME, COARSE, CONTENDERS, DEFAULT, FINE, PRIMITIVE, THESIS
 from services.reproduction.scripted import demonstrate
-from sim.tasks.table import TABLE
+from sim.tasks import TABLE
 
 ASIDE = np.array([0.0, 0.05, 0.02])
 

@@ -8,31 +8,33 @@ from scipy.spatial.transform import Rotation
 from sim.robots.description import RobotDescription
 from sim.tasks import REACHING, scene
 from sim.tasks.reaching import ReachingScene
-from sim.tasks.scene import TAG_BITS, TAG_DICTIONARY, TAG_ID, TAG_IN_OBJECT, TAG_SIZE
+from sim.tasks.thing import Tag
 from sim.world.cameras import CAMERAS, Cameras
 from sim.world.physics import World
+from sim.world.tags import bits
 
 pytestmark = pytest.mark.sim
 SCENE = pytest.mark.parametrize("place", REACHING.values(), ids=REACHING)
-HALF = TAG_SIZE / 2
+TAG = Tag()
+HALF = TAG.size / 2
 TAG_CORNERS = np.array([[-HALF, HALF, 0.0], [HALF, HALF, 0.0], [HALF, -HALF, 0.0], [-HALF, -HALF, 0.0]])
 
 
 def _corners_in_picture(picture: np.ndarray) -> np.ndarray | None:
     """Find the tag's corners, shape (4, 2) [px]."""
-    dictionary = cv2.aruco.getPredefinedDictionary(getattr(cv2.aruco, TAG_DICTIONARY))
+    dictionary = cv2.aruco.getPredefinedDictionary(getattr(cv2.aruco, TAG.dictionary))
     parameters = cv2.aruco.DetectorParameters()
     parameters.adaptiveThreshWinSizeStep = 4  # the default of 10 misses one tag in fifteen at this resolution
     detector = cv2.aruco.ArucoDetector(dictionary, parameters)
     corners, ids, _ = detector.detectMarkers(cv2.cvtColor(picture, cv2.COLOR_RGB2GRAY))
     found = [] if ids is None else ids.ravel().tolist()
-    return corners[found.index(TAG_ID)].reshape(4, 2) if TAG_ID in found else None
+    return corners[found.index(TAG.id)].reshape(4, 2) if TAG.id in found else None
 
 
 def test_the_tag_is_the_one_of_the_dictionary() -> None:
-    dictionary = cv2.aruco.getPredefinedDictionary(getattr(cv2.aruco, TAG_DICTIONARY))
-    marker = cv2.aruco.generateImageMarker(dictionary, TAG_ID, 6)
-    np.testing.assert_array_equal(marker[1:-1, 1:-1] // 255, TAG_BITS)
+    dictionary = cv2.aruco.getPredefinedDictionary(getattr(cv2.aruco, TAG.dictionary))
+    marker = cv2.aruco.generateImageMarker(dictionary, TAG.id, 6)
+    np.testing.assert_array_equal(marker[1:-1, 1:-1] // 255, bits(TAG))
 
 
 @SCENE
@@ -41,7 +43,8 @@ def test_the_head_sees_the_tag_from_the_start_wherever_the_object_stands(
 ) -> None:
     """Each corner is found within two pixels of where the object's pose puts it."""
     world = World(place, place.variants[0], description)
-    tag_rotation = Rotation.from_quat(TAG_IN_OBJECT.orientation, scalar_first=True)
+    tag_pose = world.scene.target.tag_pose
+    tag_rotation = Rotation.from_quat(tag_pose.orientation, scalar_first=True)
     lower, upper = place.region.lower, place.region.upper
     with closing(Cameras(place, description)) as cameras:
         for x in np.linspace(lower[0], upper[0], 3):
@@ -50,7 +53,7 @@ def test_the_head_sees_the_tag_from_the_start_wherever_the_object_stands(
                 corners = _corners_in_picture(cameras.render("head", world.state))
                 assert corners is not None
                 camera = cameras.pose("head", world.state)
-                in_base = world.observe().object_position + TAG_IN_OBJECT.position + tag_rotation.apply(TAG_CORNERS)
+                in_base = world.observe().object_position + tag_pose.position + tag_rotation.apply(TAG_CORNERS)
                 in_camera = (
                     Rotation.from_quat(camera.orientation, scalar_first=True).inv().apply(in_base - camera.position)
                 )

@@ -13,7 +13,7 @@ from sim.robots import meshes
 from sim.robots.catalogue import robot
 from sim.robots.description import prepare
 from sim.robots.links import Mesh, read_links
-from sim.tasks import DISHWASHER, PARTICLE
+from sim.tasks import DISHWASHER, PARTICLE, scene
 from sim.tasks.scene import Eye
 
 pytestmark = pytest.mark.sim
@@ -22,7 +22,7 @@ pytestmark = pytest.mark.sim
 @pytest.fixture(scope="module")
 def told():
     """The dishwasher's description."""
-    return describe("dishwasher")
+    return describe(DISHWASHER)
 
 
 @pytest.fixture(scope="module")
@@ -98,7 +98,7 @@ def test_the_gripper_reaches_as_far_ahead_of_the_grasping_frame_as_its_fingers_d
 
 def test_another_robot_is_told_as_it_stands_in_the_scene():
     arm = robot("panda")
-    other = describe("table", arm)
+    other = describe(scene("table", arm), arm)
     words = json.loads(other.words)
     assert set(other.joints) == {*arm.joint_names, *arm.held_names}
     rest = dict(zip(other.joints, words["rest"], strict=True))
@@ -110,13 +110,13 @@ def test_another_robot_is_told_as_it_stands_in_the_scene():
 
 
 def test_a_robot_that_is_a_point_is_told_as_one():
-    words = json.loads(describe("particle").words)
+    words = json.loads(describe(PARTICLE).words)
     assert (words["point"], words["links"]) == (PARTICLE.radius, [])
     assert words["eye"] == [list(PARTICLE.eye.position), list(PARTICLE.eye.target)]
 
 
 def test_a_scene_that_is_not_known_here_has_an_arm_like_ours(told):
-    unknown = describe("another lab's")
+    unknown = describe(None)
     assert unknown.joints == told.joints
     assert set(json.loads(unknown.words)["rest"]) == {0.0}
 
@@ -126,7 +126,7 @@ def test_where_no_robot_is_installed_the_rest_is_shown(monkeypatch, caplog):
         raise DescriptionMissing("example-robot-data")
 
     monkeypatch.setattr(description, "description_of", missing)
-    assert describe("dishwasher").joints == ()
+    assert describe(DISHWASHER).joints == ()
     assert "the robot itself is not shown" in caplog.text
 
 

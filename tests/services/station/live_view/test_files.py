@@ -11,6 +11,7 @@ from services.station.live_view.description import describe, described
 from services.station.live_view.files import LIBRARY_VERSION, Files, library
 from services.station.page.asset_files import ASSETS, asset_files
 from services.station.page.document import document
+from sim.tasks import DISHWASHER
 from sim.tasks.scene import Eye
 from tests.services.station.browser import ask
 
@@ -59,7 +60,7 @@ def test_no_other_file_is_served(path):
 
 @pytest.mark.sim
 def test_a_page_loads_less_than_three_megabytes():
-    served = Files(describe("dishwasher"))
+    served = Files(describe(DISHWASHER))
     page = document("robot1", served).encode()
     assert served.size + asset_files().size + len(page) < 0.6e6
 
