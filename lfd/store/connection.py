@@ -1,6 +1,8 @@
 """A SQLite file as the store uses it: every change whole and on the disk, every failure in this package's words."""
 
+import os
 import sqlite3
+import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -76,6 +78,39 @@ class Connection:
         """Write ahead, and fully synchronised, so that a committed change outlives a power cut; raises as `rows`."""
         for statement in ("journal_mode = WAL", "synchronous = FULL"):
             self.rows(f"PRAGMA {statement}")
+
+    def copy_to(self, target: Path) -> None:
+        """Copy all that is committed into a file, which is there whole or not at all.
+
+        Args:
+            target: Of the copy; one that is there is replaced.
+
+        Raises:
+            StorageError: It could not be written.
+        """
+        try:
+            handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}-", suffix=".part")
+        except OSError as error:
+            raise StorageUnavailable(
+                target, error.strerror or str(error), "check that its folder may be used", passes=False
+            ) from None
+        part = Path(name)
+        try:
+            self.rows("VACUUM INTO ?", (name,))
+            os.fsync(handle)
+            part.replace(target)
+        finally:
+            os.close(handle)
+            part.unlink(missing_ok=True)
+
+    def settle(self) -> None:
+        """Bring everything into the one file, which no log stands beside any more; only where nobody else uses it.
+
+        Raises:
+            StorageUnavailable: Another process uses it.
+            StorageError: It fails.
+        """
+        self.rows("PRAGMA journal_mode = DELETE")
 
     @contextmanager
     def transaction(self) -> Iterator[None]:

@@ -32,8 +32,8 @@ def row_of(
     )
 
 
-def arrays_of(version: int, demonstration: Demonstration) -> Iterator[tuple[object, ...]]:
-    """The rows of a demonstration's arrays: whose, name, number format, shape and bytes."""
+def arrays_of(demonstration: Demonstration) -> Iterator[tuple[object, ...]]:
+    """The rows of a demonstration's arrays: name, number format, shape and bytes."""
     arrays = {
         "positions": demonstration.trajectory.positions,
         "orientations": demonstration.trajectory.orientations,
@@ -43,7 +43,7 @@ def arrays_of(version: int, demonstration: Demonstration) -> Iterator[tuple[obje
     if demonstration.trajectory.opening is not None:
         arrays["opening"] = demonstration.trajectory.opening
     for name, array in arrays.items():
-        yield version, name, DTYPE, ",".join(map(str, array.shape)), array.astype(DTYPE).tobytes()
+        yield name, DTYPE, ",".join(map(str, array.shape)), array.astype(DTYPE).tobytes()
 
 
 def stored_in(row: Sequence[Any], arrays: Sequence[tuple[Any, ...]], turn: Turn) -> StoredDemonstration:

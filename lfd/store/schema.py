@@ -5,10 +5,10 @@ import numpy as np
 from lfd.exceptions import StorageError
 from lfd.store.connection import Connection
 
-SCHEMA_VERSION = 6
+SCHEMA_VERSION = 7
 """1 had no conditions: they were the object relative to the start. 2 knew neither robots nor requests, 3 no authors,
 times and confidences: its motions were stored as far as they were believed. 4 knew whole motions only. 5 took back
-the newest only and for ever, and knew no methods."""
+the newest only and for ever, and knew no methods. 6 said nothing of the skill itself."""
 
 APPLICATION_ID = 0x52544348  # "RTCH" in the file's header tells our files from others
 DTYPE = "<f8"
@@ -55,10 +55,23 @@ CREATE TABLE requests (
     version INTEGER NOT NULL UNIQUE
 ) STRICT
 """
+_SKILL = """
+CREATE TABLE skill (
+    one INTEGER PRIMARY KEY CHECK (one = 1),
+    scene TEXT NOT NULL,
+    robot TEXT NOT NULL,
+    author TEXT NOT NULL DEFAULT '',
+    notes TEXT NOT NULL DEFAULT '',
+    created_s REAL,
+    used_s REAL
+) STRICT
+"""
 
 
 def prepare(connection: Connection) -> None:
     """Make a new file one of demonstrations, bring an older one up to date, and refuse what is neither.
+
+    Of an older one a copy as it was stays beside it.
 
     Raises:
         StorageError: The file is damaged, is another program's or has a newer schema; it is as before.
@@ -85,13 +98,16 @@ def _make(connection: Connection) -> None:
     with connection.transaction():
         # Another process may have made them since this one looked.
         if connection.value("SELECT count(*) FROM sqlite_schema") == 0:
-            for statement in (_DEMONSTRATIONS, _ARRAYS, _CHANGES, _REQUESTS):
+            for statement in (_DEMONSTRATIONS, _ARRAYS, _CHANGES, _REQUESTS, _SKILL):
                 connection.rows(statement)
             connection.rows(f"PRAGMA application_id = {APPLICATION_ID}")
             connection.rows(f"PRAGMA user_version = {SCHEMA_VERSION}")
 
 
 def _upgrade(connection: Connection, schema: int) -> None:
+    kept = connection.path.with_name(f"{connection.path.name}.schema-{schema}")
+    if not kept.exists():
+        connection.copy_to(kept)
     with connection.transaction():
         if connection.value("PRAGMA user_version") != schema:
             return  # another process was first
@@ -155,11 +171,22 @@ def _add_changes(connection: Connection) -> None:
     connection.rows("ALTER TABLE anew RENAME TO demonstrations")
 
 
+def _add_skill(connection: Connection) -> None:
+    """What is in use says what the skill is for; who gave the first of it made it."""
+    connection.rows(_SKILL)
+    connection.rows(
+        "INSERT INTO skill (one, scene, robot, author, created_s)"
+        " SELECT 1, scene, robot, author, at_s FROM demonstrations WHERE"
+        " (SELECT in_use FROM changes WHERE demonstration = added ORDER BY version DESC LIMIT 1) ORDER BY added LIMIT 1"
+    )
+
+
 _UPGRADES = (
     (2, _add_conditions),
     (3, _add_robots_and_requests),
     (4, _add_provenance),
     (5, _add_parts),
     (6, _add_changes),
+    (7, _add_skill),
 )
 """In order, each with the schema that it leads to."""

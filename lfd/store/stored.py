@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
-from typing import NamedTuple, Self
+from typing import Any, NamedTuple, Self
 
 from lfd.motion.demonstration import Demonstration
 from lfd.motion.departure import Departure
@@ -33,6 +33,48 @@ class Binding(NamedTuple):
 
     def __str__(self) -> str:
         return f"scene {self.scene} with robot {self.robot}" if self.robot else f"scene {self.scene}"
+
+
+class About(NamedTuple):
+    """What a file of demonstrations says of itself.
+
+    Attributes:
+        binding: What it is learnt for.
+        author: Who made it; empty where nobody says so.
+        notes: For people.
+        created_s: When it was made, in seconds since 1970-01-01 UTC; None where that is not known.
+        used_s: When it was last taken into use, the same.
+    """
+
+    binding: Binding
+    author: str = ""
+    notes: str = ""
+    created_s: float | None = None
+    used_s: float | None = None
+
+
+class Change(NamedTuple):
+    """What made a version: a demonstration came into use, or out of it.
+
+    Attributes:
+        demonstration: By the version that it made when it was added.
+        turn: Which version this is; see `Turn`.
+    """
+
+    demonstration: int
+    turn: "Turn"
+
+
+class Record(NamedTuple):
+    """A demonstration bit by bit as its file has it.
+
+    Attributes:
+        values: Numbers and texts by the names of their columns.
+        arrays: Name, number format, shape and bytes of each.
+    """
+
+    values: dict[str, Any]
+    arrays: tuple[tuple[Any, ...], ...]
 
 
 class Turn(NamedTuple):
