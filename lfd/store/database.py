@@ -81,6 +81,9 @@ class DemonstrationStore:
     def describe(self, about: About) -> None:
         """Say what the file is, in place of what it said.
 
+        Args:
+            about: What it is for, whose, since when.
+
         Raises:
             BoundElsewhere: The demonstrations in use are of another scene or robot.
             StorageError: It could not be written; the file is as before.
@@ -236,6 +239,9 @@ class DemonstrationStore:
 
     def copy_to(self, target: Path) -> None:
         """Copy the file, whole or not at all.
+
+        Args:
+            target: Of the copy; one that is there is replaced.
 
         Raises:
             StorageError: The copy could not be written.

@@ -69,6 +69,7 @@ class Prediction(Message, frozen=True, kw_only=True):
         way: which of several ways it takes.
         origin: where the motion comes from; nothing is uncertain of one that an operator showed.
         waypoints: phases at which it passes the operator's waypoints, in their order; empty where there are none.
+        skill: that predicts, by its name.
     """
 
     id: Count = 0
@@ -80,6 +81,7 @@ class Prediction(Message, frozen=True, kw_only=True):
     way: Way = Way()
     origin: Origin = Origin.MODEL
     waypoints: Annotated[tuple[Fraction, ...], msgspec.Meta(max_length=MOST_WAYPOINTS)] = ()
+    skill: Name = ""
 
 
 class ModelState(Message, frozen=True, kw_only=True):
@@ -92,6 +94,7 @@ class ModelState(Message, frozen=True, kw_only=True):
         updates: since then.
         scene: that it is good for.
         robot_kind: the kind of robot that it is good for.
+        skill: which of the robot's skills it is, by its name.
     """
 
     kind: Name
@@ -100,6 +103,7 @@ class ModelState(Message, frozen=True, kw_only=True):
     updates: Count
     scene: Name
     robot_kind: Name = ""
+    skill: Name = ""
 
     @property
     def empty(self) -> bool:

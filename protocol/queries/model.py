@@ -54,6 +54,7 @@ class AddDemonstration(Change, frozen=True):
         alpha: of eq. 18, how far the prediction is moved towards the motion; 1 learns the motion itself.
         part: of the motion that was right; the rest stays as predicted.
         method: how it was given.
+        skill: that is to learn it, by its name; empty for whichever is in use.
     """
 
     purpose: Purpose
@@ -65,6 +66,7 @@ class AddDemonstration(Change, frozen=True):
     alpha: Fraction = 1.0
     part: Part = Part()
     method: Method = Method.UNKNOWN
+    skill: Name = ""
 
 
 class Undo(Change, frozen=True):
@@ -74,11 +76,13 @@ class Undo(Change, frozen=True):
         purpose: of the newest in use, which is meant where no entry is named.
         entry: of the history, by its id; 0 for the newest.
         operator: who takes it back; empty where nobody does.
+        skill: that it is taken back from; see `AddDemonstration`.
     """
 
     purpose: Purpose = Purpose.UPDATE
     entry: Count = 0
     operator: Name = ""
+    skill: Name = ""
 
 
 class Redo(Change, frozen=True):
@@ -87,10 +91,12 @@ class Redo(Change, frozen=True):
     Attributes:
         entry: of the history, by its id.
         operator: who wants it back; empty where nobody does.
+        skill: see `Undo`.
     """
 
     entry: Count
     operator: Name = ""
+    skill: Name = ""
 
 
 class Describe(msgspec.Struct, frozen=True):

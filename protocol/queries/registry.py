@@ -17,6 +17,7 @@ from protocol.queries.history import Compare, Compared, HistoryListed, ListHisto
 from protocol.queries.model import AddDemonstration, Describe, Learnt, Predict, Predicted, Redo, Undo
 from protocol.queries.plan import Plan
 from protocol.queries.query import Query
+from protocol.queries.skills import ChooseSkill, ListSkills, SkillsListed
 
 ACQUIRE = Query("authority/acquire", AcquireAuthority, AuthorityGranted, "robot", 20_480, "get the authority")
 ANSWER = Query(
@@ -107,6 +108,25 @@ DESCRIBE = Query(
     askers=("station", "teach", "history", "cli"),
     looks=True,
 )
+SKILLS = Query(
+    "model/skills",
+    ListSkills,
+    SkillsListed,
+    "model",
+    1_048_576,
+    "all skills of the robot, and the one in use",
+    askers=("station", "history"),
+    looks=True,
+)
+CHOOSE_SKILL = Query(
+    "model/choose_skill",
+    ChooseSkill,
+    Learnt,
+    "model",
+    20_480,
+    "use another skill, or a new one",
+    askers=("station", "history"),
+)
 
 QUERIES: tuple[Query[Any, Any], ...] = (
     ACQUIRE,
@@ -128,4 +148,6 @@ QUERIES: tuple[Query[Any, Any], ...] = (
     HISTORY,
     COMPARE,
     DESCRIBE,
+    SKILLS,
+    CHOOSE_SKILL,
 )

@@ -44,6 +44,11 @@ def add_scene(parser: ArgumentParser) -> None:
     parser.add_argument("--seed", type=whole(0), metavar="N", help="of the target's place and the scripted hand")
 
 
+def add_skill(parser: ArgumentParser) -> None:
+    """Which of a robot's skills is in use to begin with."""
+    parser.add_argument("--skill", metavar="NAME", help="the skill in use to begin with; see 'retouch skill --help'")
+
+
 def _about_scenes() -> str:
     # Imported here: only who asks for help waits until the scenes are loaded.
     from sim.tasks import SCENES  # noqa: PLC0415

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
 
-from services.commands.arguments import add_network, add_scene
+from services.commands.arguments import add_network, add_scene, add_skill
 from services.commands.settings import configuration
 from services.process.processes import process
 from services.process.worker import run_process
@@ -14,6 +14,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     """See `Action`."""
     add_network(parser)
     add_scene(parser)
+    add_skill(parser)
 
 
 def run(arguments: Namespace) -> int:

@@ -60,6 +60,8 @@ def configuration(arguments: Namespace) -> Configuration:
     if given.get("headless"):
         changes["master"] = msgspec.structs.replace(result.master, device=Scripted())
     station = {key: given[flag] for flag, key in _STATION_FLAGS.items() if flag in given}
+    if "skill" in given:
+        changes["model"] = msgspec.structs.replace(result.model, skill=given["skill"])
     result = msgspec.structs.replace(result, station=msgspec.structs.replace(result.station, **station), **changes)
     files = {"model": result.robot.model_file, "scene": result.robot.task_file}
     paths = {key: str(file.absolute()) for key, file in files.items() if file is not None}

@@ -19,6 +19,7 @@ from services.commands.arguments import add_network, add_scene, position, within
 from services.commands.model_process import ANSWER_S, ModelProcess, model_process
 from services.commands.settings import configuration as configured
 from services.model.skill import binding_of
+from services.model.skills import is_own
 from services.offline.first_demonstrations import first_demonstrations
 from services.process.config import Configuration
 from services.process.exceptions import CommandFailed
@@ -89,6 +90,9 @@ def teach(configuration: Configuration) -> None:
     demonstrations = first_demonstrations(scene)
     with model_process(configuration, "teach") as model:
         state = _held(model, scene, MODEL_WITHIN_S)
+        if not is_own(configuration.model, binding_of(scene), state.skill):
+            log.info("skill %r is left to whoever teaches it", state.skill)
+            return
         if state.updates or state.demonstrations >= len(demonstrations):
             log.info("the model has %d demonstrations and %d updates", state.demonstrations, state.updates)
             return

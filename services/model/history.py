@@ -150,7 +150,7 @@ def _told(stored: StoredDemonstration) -> Entry:
         purpose=messages.Purpose(stored.purpose.value),
         method=messages.Method(whose.method.value),
         operator=whose.author,
-        at=_iso(whose.at_s),
+        at=iso(whose.at_s),
         alpha=whose.confidence,
         part=messages.Part(*given.part),
         object_position=vector3(given.origin),
@@ -158,11 +158,12 @@ def _told(stored: StoredDemonstration) -> Entry:
         most=departure.most if departure is not None else _NOTHING_BEFORE,
         in_use=stored.in_use,
         turned_by=turn.author if turn is not None and turned else "",
-        turned_at=_iso(turn.at_s) if turn is not None and turned else "",
+        turned_at=iso(turn.at_s) if turn is not None and turned else "",
     )
 
 
-def _iso(at_s: float | None) -> str:
+def iso(at_s: float | None) -> str:
+    """A time since 1970-01-01 UTC [s] as ISO 8601; empty where it is not known."""
     try:
         return "" if at_s is None else datetime.fromtimestamp(at_s, UTC).isoformat(timespec="seconds")
     except (OverflowError, ValueError, OSError):  # a finite number that is no year's

@@ -9,12 +9,12 @@ from typing import TypeVar
 
 import numpy as np
 
-from lfd.exceptions import LfdError
 from lfd.store.database import DemonstrationStore
 from lfd.store.stored import Counts, Purpose, StoredDemonstration
 from protocol import messages, queries, topics
 from protocol.queries import (
     AddDemonstration,
+    ChooseSkill,
     Compare,
     Compared,
     HistoryListed,
@@ -28,21 +28,20 @@ from protocol.queries import (
     Undo,
 )
 from services.bus.arrays import motion_to_wire, to_wire
-from services.bus.bus import Bus, Rep, Req
+from services.bus.bus import Bus
 from services.bus.identity import new_number
-from services.bus.server import Server
+from services.model.answering import answer
 from services.model.comparison import Comparisons
 from services.model.history import History
 from services.model.learning import MODELS, Fit
 from services.model.planning import planned
 from services.model.requests import demonstration_in, situation_in
-from services.model.skill import binding_of, check_demonstration, check_duration, check_situation, open_store
+from services.model.skill import binding_of, check_demonstration, check_duration, check_situation
+from services.model.skills import Skills
 from services.process.clock import Clock
 from services.process.config import Configuration
-from services.process.exceptions import ServiceError
 from services.process.robots import scene_of
 from services.process.schedule import Schedule
-from sim.exceptions import SimError
 from sim.tasks import AnyScene
 
 log = logging.getLogger(__name__)
@@ -60,17 +59,23 @@ def build(bus: Bus, clock: Clock, configuration: Configuration, models: Mapping[
         models: to choose from.
 
     Raises:
-        StorageError: the database cannot be used, or holds what was learnt for another scene or robot.
+        StorageError: the file of the skill in use cannot be used.
+        SkillError: that skill is for another scene or robot, or is not there.
         EnvironmentFault: its folder cannot be made or written.
         SimError: there is no such scene.
     """
     del clock
     scene = scene_of(configuration.robot)
-    store = open_store(configuration.model, configuration.name, binding_of(scene))
+    section, binding = configuration.model, binding_of(scene)
+
+    def made(store: DemonstrationStore) -> History:
+        return History(store, binding, section.kind, models)
+
+    skills = Skills(section, configuration.name, binding, made, lambda: datetime.now(UTC).timestamp())
     try:
-        return ModelService(bus, store, configuration.model.kind, scene, lambda: datetime.now(UTC), models=models)
+        return ModelService(bus, skills, section.kind, scene, lambda: datetime.now(UTC))
     except BaseException:
-        store.close()
+        skills.close()
         raise
 
 
@@ -79,31 +84,21 @@ class ModelService:
 
     Args:
         bus: to answer on.
-        store: every demonstration and update; the model is what it holds.
-        kind: of the model, a key of `models`.
+        skills: of the robot; the model is what the one in use holds.
+        kind: of the model.
         scene: that it learns for.
         utc: the time of day, which what is learnt is stored with.
-        models: to choose from.
     """
 
     rate_hz = 100.0
 
-    def __init__(
-        self,
-        bus: Bus,
-        store: DemonstrationStore,
-        kind: str,
-        scene: AnyScene,
-        utc: Callable[[], datetime],
-        *,
-        models: Mapping[str, Fit] = MODELS,
-    ) -> None:
+    def __init__(self, bus: Bus, skills: Skills, kind: str, scene: AnyScene, utc: Callable[[], datetime]) -> None:
         self._bus = bus
         self._utc = utc
         self._kind = kind
         self._scene = scene
         self._binding = binding_of(scene)
-        self._history = History(store, self._binding, kind, models)
+        self._skills = skills
         self._comparisons = Comparisons(self._history, scene)
         self._predict = bus.serve(queries.PREDICT)
         self._plan = bus.serve(queries.PLAN)
@@ -113,21 +108,26 @@ class ModelService:
         self._list = bus.serve(queries.HISTORY)
         self._compare = bus.serve(queries.COMPARE)
         self._describe = bus.serve(queries.DESCRIBE)
+        self._list_skills = bus.serve(queries.SKILLS)
+        self._choose = bus.serve(queries.CHOOSE_SKILL)
         self._stands_in = bus.subscribe(topics.SCENE_STATE)
         self._schedule = Schedule()
         self._newest: messages.Prediction | None = None
-        log.info("%s: model version %d, %d demonstrations", self._binding, self._history.version, self._size)
+        told = skills.name, self._binding, self._history.version, self._size
+        log.info("skill %r, %s: model version %d, %d demonstrations", *told)
 
     def step(self, now_ns: int) -> None:
         """Answer what was asked."""
-        _answer(self._predict, self._predicted)
-        _answer(self._plan, self._planned)
-        _answer(self._add, self._once(self._learnt))
-        _answer(self._undo, self._once(self._undone))
-        _answer(self._redo, self._once(self._redone))
-        _answer(self._list, self._listed)
-        _answer(self._compare, self._compared)
-        _answer(self._describe, self._described)
+        answer(self._predict, self._predicted)
+        answer(self._plan, self._planned)
+        answer(self._add, self._once(self._learnt))
+        answer(self._undo, self._once(self._undone))
+        answer(self._redo, self._once(self._redone))
+        answer(self._list, self._listed)
+        answer(self._compare, self._compared)
+        answer(self._describe, self._described)
+        answer(self._list_skills, lambda _: self._skills.listed())
+        answer(self._choose, self._chosen)
         self._comparisons.step()
         if self._schedule.due(topics.MODEL_STATE, now_ns):
             self._bus.publish(topics.MODEL_STATE, self._state)
@@ -140,7 +140,17 @@ class ModelService:
 
     def close(self) -> None:
         """Close the database."""
-        self._history.close()
+        self._skills.close()
+
+    @property
+    def _history(self) -> History:
+        """Of the skill in use."""
+        return self._skills.history
+
+    @property
+    def _name(self) -> str:
+        """Of the skill in use, as messages have it."""
+        return self._skills.name[:64]
 
     @property
     def _size(self) -> int:
@@ -152,11 +162,23 @@ class ModelService:
         def changed(request: Learns) -> Learnt | Refused:
             done = self._history.made_by(request.request)
             if done is None:
-                return change(request)
+                return self._other(request.skill) or change(request)
             made, counts = done
             return Learnt(self._told(made.version, counts), made.demonstration, self._purpose(made.demonstration))
 
         return changed
+
+    def _other(self, skill: str) -> Refused | None:
+        """Why nothing is changed: it was meant for a skill that is not in use any more."""
+        if skill in ("", self._name):
+            return None
+        return Refused(f"this was meant for skill {skill!r}, and {self._name!r} is in use now: choose that one first")
+
+    def _chosen(self, request: ChooseSkill) -> Learnt:
+        self._skills.choose(request)
+        self._comparisons = Comparisons(self._history, self._scene)
+        self._newest = None
+        return Learnt(self._state)
 
     def _predicted(self, request: Predict) -> Predicted | Refused:
         there = self._stands_in.latest()
@@ -183,6 +205,7 @@ class ModelService:
                 object_position=request.object_position,
                 known=prediction.known,
                 way=messages.Way(prediction.way.index, prediction.way.count, prediction.way.probability),
+                skill=self._name,
             )
         )
 
@@ -200,6 +223,7 @@ class ModelService:
                 object_position=request.object_position,
                 origin=request.origin,
                 waypoints=waypoints,
+                skill=self._name,
             )
         )
 
@@ -271,14 +295,5 @@ class ModelService:
             updates=counts.updates,
             scene=self._binding.scene,
             robot_kind=self._binding.robot,
+            skill=self._name,
         )
-
-
-def _answer(server: Server[Req, Rep], answer: Callable[[Req], Rep | Refused]) -> None:
-    for call in server.take():
-        try:
-            reply = answer(call.request)
-        except (LfdError, ServiceError, SimError) as error:
-            log.warning("refused: %s", error)
-            reply = Refused(str(error))
-        call.reply(reply)

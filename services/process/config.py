@@ -100,11 +100,15 @@ class ModelSection(Section, frozen=True):
 
     Attributes:
         kind: "adaptive", or "promp" for the thesis' own model.
-        database: file that holds every demonstration; empty for the robot's own in the user's data folder.
+        database: file of a skill, other skills beside it; empty for the robot's own in the user's data folder.
+        skill: which one is in use to begin with, by its name; empty for the one that was last, or the task's own.
+        run: of `retouch up`: a process that comes back in it goes on with the skill that was chosen since.
     """
 
     kind: Annotated[str, msgspec.Meta(pattern="^(adaptive|promp)$")] = "adaptive"
     database: str = ""
+    skill: str = ""
+    run: str = ""
 
 
 class StationSection(Section, frozen=True):

@@ -31,6 +31,14 @@ ServiceError
 ├── Jump                     a first command that does not begin where the arm is (services.robot.backends.backend)
 ├── Blocked                  something stands where the arm is to be put (services.robot.backends.backend)
 ├── NoSuchEntry              nothing of that number in a skill's history (services.model.history)
+├── SkillError               (services.model.exceptions)
+│   ├── NoSuchSkill          a robot has no skill of this name
+│   ├── SkillThere           it has one already
+│   ├── SkillNameBad         a text that no skill can be called by
+│   ├── SkillMisfit          a skill of another task or robot
+│   ├── SkillOpen            one that a model process has open (an EnvironmentFault too)
+│   ├── ChoiceLost           a file that does not say which one is in use
+│   └── ExportUnusable       a file that is no export of a skill, or not as it was written
 ├── NothingPlanned           way-points or a refinement that make no motion (services.model.planning)
 ├── ViewerError              (services.viewer.exceptions)
 │   ├── WebFilesMissing      the Rerun SDK did not give its web viewer's files (an EnvironmentFault too)

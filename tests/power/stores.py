@@ -27,8 +27,7 @@ from services.certificates.exceptions import NoAuthority
 from services.evidence.events import StopChanged
 from services.evidence.ledger import LedgerFile, path_of
 from services.evidence.reading import Reader, verify
-from services.model.skill import open_store
-from services.process.config import ModelSection
+from services.model.shelf import Shelf
 from services.process.files import data_folder
 from services.robot.latch import Latch
 from services.robot.memory import safety_file
@@ -63,7 +62,7 @@ class Learnt:
 
     def steps(self):
         for life in (0, 1):
-            store = open_store(ModelSection(), ROBOT, BINDING)
+            store = Shelf(data_folder() / ROBOT, ROBOT).take(BINDING.scene, BINDING, 0.0)
             first = store.add(demonstrated(0.1), Purpose.INITIAL, BINDING, request=10 * life + 1)
             yield
             store.add(demonstrated(0.2, points=300), Purpose.UPDATE, BINDING)
@@ -75,7 +74,7 @@ class Learnt:
             store.close()
 
     def found(self):
-        with open_store(ModelSection(), ROBOT, BINDING) as store:
+        with Shelf(data_folder() / ROBOT, ROBOT).take(BINDING.scene, BINDING, 0.0) as store:
             kept = [(one.version, one.turn.version, one.in_use) for one in store.history()]
             return {"all": (kept, store.version, [store.made_by(request) for request in (1, 2, 11, 12)])}
 

@@ -208,7 +208,7 @@ def _run_folder(parent: Path) -> Path:
 
 def _for_run(configuration: Configuration, folder: Path, options: Launch) -> Configuration:
     viewer = msgspec.structs.replace(configuration.viewer, folder=str(folder))
-    model = configuration.model
+    model = msgspec.structs.replace(configuration.model, run=str(folder))
     if options.fresh:
         model = msgspec.structs.replace(model, database=str(folder / "model.sqlite"))
     return msgspec.structs.replace(configuration, viewer=viewer, model=model)

@@ -1,5 +1,6 @@
 """The history of a skill: what was learnt, by whom, when, how and by how much; any of it taken back and used again."""
 
+import sqlite3
 from datetime import UTC, datetime
 
 import numpy as np
@@ -123,10 +124,14 @@ def test_a_long_history_is_told_page_by_page_newest_first(rig):
 
 
 def test_what_the_file_holds_of_another_scene_is_no_part_of_the_history(path):
+    """An earlier version did not bind a file for good."""
     rig = Rig(path)
     rig.teach(Purpose.INITIAL)
     rig.ask(queries.UNDO, Undo(entry=1))
     rig.service.close()
+    with sqlite3.connect(path) as file:
+        file.execute("DELETE FROM skill")
+    file.close()
     table = Rig(path, scene="table")
     assert _entries(table) == ()
     assert isinstance(table.ask(queries.REDO, Redo(1)), Refused)

@@ -12,6 +12,7 @@ from lfd.store.database import DemonstrationStore
 from protocol import queries
 from protocol.messages import Purpose
 from protocol.queries import Predicted, Undo
+from services.model.exceptions import SkillMisfit
 from tests.services.model.rig import Rig, positions
 
 
@@ -79,7 +80,7 @@ def test_a_database_of_another_scene_is_refused_by_both_names_and_untouched(path
     first.teach(Purpose.INITIAL)
     first.service.close()
     for scene in ("table", "particle"):
-        with pytest.raises(StorageError, match=rf"model\.sqlite.*dishwasher.*{scene}") as caught:
+        with pytest.raises(SkillMisfit, match=rf"'model' is for task dishwasher on tiago.* in {scene}") as caught:
             Rig(path, scene=scene)
         assert "\n" not in str(caught.value)
     again = Rig(path)

@@ -8,16 +8,19 @@ import pytest
 
 from lfd.motion.resampling import from_samples
 from lfd.motion.rotations import exp_map, multiply
-from lfd.store.database import DemonstrationStore
 from protocol import messages, queries, topics
 from protocol.messages import Mode, Purpose
 from services.bus.arrays import from_wire, motion_from_wire, motion_to_wire, vector3
 from services.bus.identity import new_number
 from services.bus.memory import MemoryNetwork
 from services.master import service as master
+from services.model.history import History
+from services.model.learning import MODELS
 from services.model.service import ModelService
+from services.model.skill import binding_of
+from services.model.skills import Skills
 from services.process.clock import ManualClock
-from services.process.config import Configuration, MasterSection, RobotSection
+from services.process.config import Configuration, MasterSection, ModelSection, RobotSection
 from services.process.master_devices import Scripted
 from services.robot import service as robot
 from sim.person.intention import plan
@@ -47,11 +50,14 @@ class Site:
             robot=RobotSection(scene=name, variant=variant),
             master=MasterSection(device=Scripted(scatter=0.0, misjudgement=0.0)),
         )
-        store = DemonstrationStore(folder / "model.sqlite")
+        binding, section = binding_of(self.scene), ModelSection(database=str(folder / "model.sqlite"))
+        skills = Skills(
+            section, "robot1", binding, lambda store: History(store, binding, "adaptive", MODELS), lambda: 0.0
+        )
         self.services = (
             robot.build(network.bus(), self.clock, configuration),
             master.build(network.bus(), self.clock, configuration),
-            ModelService(network.bus(), store, "adaptive", self.scene, lambda: MORNING),
+            ModelService(network.bus(), skills, "adaptive", self.scene, lambda: MORNING),
         )
         self.robot = self.bus.subscribe(topics.ROBOT_STATE)
         self.results = self.bus.subscribe(topics.EPISODE_RESULT)
