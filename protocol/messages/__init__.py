@@ -27,8 +27,8 @@ from protocol.messages.command import Controller, MasterState, OperatorInput, Tr
 from protocol.messages.health import Figure, Heartbeat, Probe, TopicFigures
 from protocol.messages.model import MOST_WAYPOINTS, Method, ModelState, Origin, Prediction, Purpose, Way
 from protocol.messages.safety import EmergencyStop, SafetyState
+from protocol.messages.scene import Box, SceneState
 from protocol.messages.state import (
-    Box,
     Cut,
     EpisodeResult,
     ExecutionState,
@@ -36,7 +36,6 @@ from protocol.messages.state import (
     ObjectPose,
     Phase,
     RobotState,
-    SceneState,
     Verdict,
     WorldState,
 )

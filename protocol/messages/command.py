@@ -71,6 +71,8 @@ class OperatorInput(Message, frozen=True, kw_only=True):
             where that is not known.
         drawn: age of the newest picture of a camera when the browser had drawn it, from its capture [s]; negative where
             that is not known.
+        opening: that the operator has asked of the gripper in this episode, as a share of wide open; None where s/he
+            has not, or where it takes no part.
     """
 
     operator: Name = ""
@@ -85,6 +87,7 @@ class OperatorInput(Message, frozen=True, kw_only=True):
     blind: bool = False
     captured_ns: Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)] = 0
     drawn: Real = -1.0
+    opening: Fraction | None = None
 
 
 class MasterState(Message, frozen=True, kw_only=True):
@@ -112,6 +115,9 @@ class MasterState(Message, frozen=True, kw_only=True):
             `lfd.passivity`; negative where the device renders none, and then no contact limits the correction.
         capture: from when the page read what was held there to the first sample that follows it, of the newest change
             [s]; negative where that is not known.
+        opening: that the operator asks of the gripper, as a share of wide open; None leaves it to the motion. Once
+            asked it stays so through whatever is lost meanwhile, focus, tab or link, as an object must not be dropped
+            for that; only a new episode begins with None.
     """
 
     displacement: Vector3 = (0.0, 0.0, 0.0)
@@ -131,3 +137,4 @@ class MasterState(Message, frozen=True, kw_only=True):
     echo_held_ns: Count = 0
     contact_energy: Annotated[float, msgspec.Meta(ge=-1.0, le=1e9)] = -1.0
     capture: Real = -1.0
+    opening: Fraction | None = None

@@ -17,7 +17,7 @@ from protocol.topics import MASTER_STATE, ROBOT_STATE
 from services.bus.bus import Bus
 from services.master.capture import Capture
 from services.master.devices.controllers import Controllers
-from services.master.devices.device import Device, Moment, Sample
+from services.master.devices.device import Device, Episode, Moment, Sample
 from services.master.devices.hand import Source
 from services.master.devices.keys import Keys
 from services.master.devices.led import LedMaster
@@ -108,6 +108,8 @@ class MasterService:
         self._keys: tuple[str, ...] = ()
         self._started_ns: int | None = None
         self._stepped_ns: int
+        self._opening: float | None = None
+        self._episode: Episode | None = None
 
     @property
     def call(self) -> threading.Event:
@@ -135,6 +137,7 @@ class MasterService:
         self._stepped_ns = now_ns
         self._capture.sampled(sitting.operator, now_ns)
         sample = self._device.step(moment)
+        self._hear_opening(sample, moment)
         if sample is None or moment.robot is None or now_ns - self._started_ns < _LISTEN_NS:
             return
         self._bus.publish(MASTER_STATE, self._state(sample, sitting, now_ns))
@@ -146,6 +149,20 @@ class MasterService:
     def close(self) -> None:
         """Let go of the device."""
         self._device.close()
+
+    def _hear_opening(self, sample: Sample | None, moment: Moment) -> None:
+        """What was asked of the gripper stays so until the episode ends, whatever is lost: it may hold something."""
+        robot = moment.robot
+        if robot is None:
+            return
+        before, self._episode = self._episode, (robot.publisher, robot.episode)
+        if before != self._episode or not robot.phase.running:
+            self._opening = None
+        if robot.phase.running and moment.commands:
+            by_hand = sample.opening if sample is not None else None
+            by_page = moment.operator.opening if moment.operator is not None else None
+            asked = by_hand if by_hand is not None else by_page
+            self._opening = self._opening if asked is None else asked
 
     def _state(self, sample: Sample, sitting: Sitting, now_ns: int) -> MasterState:
         operator = sitting.operator if sitting.commands else None
@@ -169,4 +186,5 @@ class MasterService:
             yaw=sample.yaw,
             contact_energy=sample.contact_energy,
             capture=self._capture.newest_s,
+            opening=self._opening,
         )

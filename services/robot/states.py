@@ -118,6 +118,7 @@ class States:
             ahead=delays.ahead_s,
             opening=tick.observation.opening,
             opening_reference=tick.opening_reference,
+            grasped=tick.observation.grasped,
         )
 
     def _authority_state(self, now_ns: int) -> messages.AuthorityState:

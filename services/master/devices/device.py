@@ -62,6 +62,8 @@ class Sample:
         trouble_with: the device that the trouble is with.
         yaw: of the axes along which the hand pushes, in base axes [rad].
         contact_energy: that the hand put in against the contact force [J]; negative where none is rendered.
+        opening: that the hand asks of the gripper, as a share of wide open; None where it asks for nothing, and what
+            the operator's station says counts.
     """
 
     displacement: Vector3 = ZERO
@@ -74,6 +76,7 @@ class Sample:
     trouble_with: str = ""
     yaw: float = 0.0
     contact_energy: float = -1.0
+    opening: float | None = None
 
 
 class Device(Protocol):
