@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property, lru_cache
 from typing import Any, Generic, TypeVar
@@ -35,10 +35,11 @@ class QoS(Enum):
 
 @dataclass(frozen=True)
 class Topic(Generic[M]):
-    """A channel of one message type.
+    """A channel of one message type, or a family of them.
 
     Attributes:
-        name: "<class>/<subject>"; access rules name the class: cmd, state, model, cam, safety, authority, health.
+        name: "<class>/<subject>"; access rules name the class: cmd, state, model, cam, safety, authority, health. That
+            of a family ends in "/*", where the name of each of its members stands; see `of`.
         type: of its messages.
         rate_hz: at which it is published in operation; timeouts are multiples of its period.
         qos: how it travels.
@@ -73,6 +74,14 @@ class Topic(Generic[M]):
             return None
         return int(max(0.1, 10.0 / self.rate_hz) * 1e9)
 
+    def of(self, member: str) -> Topic[M]:
+        """The channel of one member of the family.
+
+        Raises:
+            InvalidName: this cannot stand in a key expression.
+        """
+        return _member(self, member)
+
     def published_by(self, process: str) -> bool:
         """Whether a process of this name publishes the topic: one of the role that the table names."""
         return publishes(self.publisher, process)
@@ -80,6 +89,12 @@ class Topic(Generic[M]):
     def key(self, robot: str, source: str) -> str:
         """The key expression on which `source` publishes for `robot`."""
         return source_key(robot, self.name, source)
+
+
+@lru_cache(maxsize=256)  # one channel is one value
+def _member(family: Topic[M], member: str) -> Topic[M]:
+    name = f"{family.name.removesuffix('*')}{checked_name(member)}"
+    return replace(family, name=name, about=f"{family.about}: {member}")
 
 
 @lru_cache(maxsize=1024)  # asked with every message; bounded as below
@@ -189,22 +204,19 @@ EPISODE_RESULT = Topic(
     "what became of an episode",
     kept=16,
 )
-HEAD_IMAGE = Topic(  # kept: one that others need must not be lost between two steps of who decodes them
-    "cam/head",
+CAMERA_IMAGE = Topic(  # kept: one that others need must not be lost between two steps of who decodes them
+    "cam/image/*",
     messages.CameraImage,
     15.0,
     QoS.PICTURE,
     "camera",
     1_048_576,
-    "the head camera",
+    "what each camera sees",
     kept=32,
     readers=("perception",),
 )
-WRIST_IMAGE = Topic(
-    "cam/wrist", messages.CameraImage, 15.0, QoS.PICTURE, "camera", 1_048_576, "the wrist camera", kept=32
-)
 POINT_CLOUD = Topic(
-    "cam/cloud", messages.PointCloud, 5.0, QoS.PICTURE, "camera", 73_728, "surfaces that the head camera sees"
+    "cam/cloud", messages.PointCloud, 5.0, QoS.PICTURE, "camera", 73_728, "surfaces that a camera with depth sees"
 )
 PICTURE_QUEUE = Topic(
     "cam/queue",
@@ -281,8 +293,7 @@ TOPICS: tuple[Topic[Any], ...] = (
     VERDICT,
     EXECUTION,
     EPISODE_RESULT,
-    HEAD_IMAGE,
-    WRIST_IMAGE,
+    CAMERA_IMAGE,
     POINT_CLOUD,
     PICTURE_QUEUE,
     OBJECT_POSE,

@@ -13,6 +13,7 @@ SimError
 ├── DescriptionInvalid      a mesh or link of the robot cannot be used
 ├── FileMissing             a file that a robot names is not there
 ├── RobotUnfit              a robot names what its description does not have
+├── CameraUnfit             a camera is fixed to a link that is not there
 └── DrawingLibraryMissing   neither EGL nor OSMesa is there
 """
 
@@ -138,6 +139,15 @@ class RobotUnfit(SimError):
         self.robot = robot
         self.fault = fault
         super().__init__(f"robot {robot}: {fault}")
+
+
+class CameraUnfit(SimError):
+    """A camera is fixed to a link that is not there."""
+
+    def __init__(self, camera: str, link: str) -> None:
+        self.camera = camera
+        self.link = link
+        super().__init__(f"camera {camera}: there is no link {link!r}: name one of the robot's, or none for the scene")
 
 
 class DrawingLibraryMissing(SimError):

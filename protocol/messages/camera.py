@@ -44,7 +44,7 @@ class CameraImage(Message, frozen=True, kw_only=True):
     """One picture.
 
     Attributes:
-        camera: "head" or "wrist".
+        camera: its name.
         width: [pixel].
         height: [pixel].
         data: as `coding` says.

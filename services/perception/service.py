@@ -1,4 +1,4 @@
-"""Says where the object is, from the head camera's pictures, each of them once.
+"""Says where the object is, from a camera's pictures, each of them once.
 
 While the arm hides the marker nothing is published: the pose's age says so, a repeated one would not.
 """
@@ -12,7 +12,7 @@ from statistics import median
 import cv2
 
 from protocol.messages import CameraImage, Coding, Figure, ObjectPose, PictureQueue, Pose
-from protocol.topics import HEAD_IMAGE, OBJECT_POSE, PICTURE_QUEUE
+from protocol.topics import CAMERA_IMAGE, OBJECT_POSE, PICTURE_QUEUE
 from services.bus.arrays import quaternion, vector3
 from services.bus.bus import Bus
 from services.bus.picture_stream import PictureStream
@@ -20,7 +20,7 @@ from services.perception.filter import PoseFilter
 from services.perception.placement import Matrix, placement, quaternion_from_rotation
 from services.perception.tags import Picture, TagFinder, Tagged, candidates, choose, decode
 from services.process.clock import Clock
-from services.process.config import Configuration
+from services.process.config import Configuration, PerceptionSection
 from services.process.robots import known_scene
 from services.process.runner import Service
 from services.process.schedule import Schedule
@@ -39,28 +39,28 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> Service:
     cv2.setNumThreads(1)
     known = known_scene(configuration.robot)
     thing = known.target if isinstance(known, ReachingScene) else None
-    return PerceptionService(bus, clock, configuration.perception.window, thing)
+    return PerceptionService(bus, clock, configuration.perception, thing)
 
 
 class PerceptionService:
-    """From the newest picture of the head camera to the object's pose.
+    """From the newest picture of a camera to the object's pose.
 
     Args:
         bus: to the robot's other processes.
         clock: what durations are measured on.
-        window: over how many pictures the pose is filtered.
+        section: by which camera it sees, and over how many pictures the pose is filtered.
         thing: whose pose it is; None where no task is known that has one.
     """
 
-    def __init__(self, bus: Bus, clock: Clock, window: int, thing: Thing | None = None) -> None:
+    def __init__(self, bus: Bus, clock: Clock, section: PerceptionSection, thing: Thing | None = None) -> None:
         self._bus = bus
         self._clock = clock
-        self._images = PictureStream(bus.subscribe(HEAD_IMAGE))
+        self._images = PictureStream(bus.subscribe(CAMERA_IMAGE.of(section.camera)))
         self._decoder = Decoder()
         self._schedule = Schedule()
         self._tagged = Tagged.of(thing)
         self._finder = TagFinder(self._tagged.tag)
-        self._filter = PoseFilter(window)
+        self._filter = PoseFilter(section.window)
         self._previous: Matrix | None = None
         self._seen = (0, 0)
         self._durations_ns: deque[int] = deque(maxlen=256)

@@ -10,6 +10,7 @@ import msgspec
 from protocol.messages import Coding, Method
 from protocol.queries import Adapt
 from services.process import endpoint
+from services.process.cameras import MOST_CAMERAS, CameraName, CameraSource
 from services.process.exceptions import BadEndpoint, ConfigurationError
 from services.process.files import write_whole
 from services.process.master_devices import MasterDevice, Page
@@ -74,18 +75,33 @@ def _path(text: str) -> Path | None:
 
 
 class CameraSection(Section, frozen=True):
-    """The camera process: pictures a second, their size [pixel] and quality, as of JPEG, and how they are coded."""
+    """The camera process: pictures a second, their size [pixel] and quality, as of JPEG, and how they are coded.
+
+    Attributes:
+        cameras: beside the robot's own, or in the place of one of the same name.
+        cloud: the camera whose depth is sent as a point cloud.
+    """
 
     rate_hz: Positive = 15.0
     width: Annotated[int, msgspec.Meta(ge=64, le=1920)] = 320
     height: Annotated[int, msgspec.Meta(ge=48, le=1080)] = 240
     quality: Annotated[int, msgspec.Meta(ge=10, le=100)] = 80
     codec: Coding = Coding.JPEG
+    cameras: Annotated[tuple[CameraSource, ...], msgspec.Meta(max_length=MOST_CAMERAS)] = ()
+    cloud: CameraName = "head"
+
+    def __post_init__(self) -> None:
+        """Judge the names; raises ValueError, which the reader of a file turns into its line."""
+        names = [camera.name for camera in self.cameras]
+        twice = next((name for name in names if names.count(name) > 1), None)
+        if twice is not None:
+            raise ValueError(f"two of [[camera.cameras]] are called {twice}: give each a name of its own")
 
 
 class PerceptionSection(Section, frozen=True):
-    """The perception process: over how many pictures the pose is filtered."""
+    """The perception process: by which camera it sees, and over how many pictures the pose is filtered."""
 
+    camera: CameraName = "head"
     window: Annotated[int, msgspec.Meta(ge=1, le=100)] = 9
 
 

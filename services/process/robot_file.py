@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated
 
 import msgspec
 
+from services.process import cameras
+from services.process.cameras import CameraName
 from services.process.exceptions import ConfigurationError
 from services.process.section import Positive, Section
 from services.process.written import read
@@ -126,15 +129,13 @@ class ReachSection(Section, frozen=True):
     upper: Vector
 
 
-class CamerasSection(Section, frozen=True):
-    """Where its cameras are; a head camera on a mast and a wrist camera on the gripper's back by default."""
-
-    head: CameraSection | None = None
-    wrist: CameraSection | None = None
-
-
 class RobotFile(Section, frozen=True):
-    """All that a file can say; see `Manipulator`."""
+    """All that a file can say; see `Manipulator`.
+
+    Attributes:
+        cameras: by their names; a head camera is on a mast and a wrist camera on the gripper's back where it says no
+            other.
+    """
 
     name: Name
     description: str
@@ -145,7 +146,7 @@ class RobotFile(Section, frozen=True):
     base: BaseSection = BaseSection()
     reach: ReachSection | None = None
     turn_slack: Annotated[float, msgspec.Meta(ge=0.0, le=3.2)] = 0.0
-    cameras: CamerasSection = CamerasSection()
+    cameras: dict[CameraName, CameraSection] = msgspec.field(default_factory=dict)
     stances: dict[str, StanceSection] = msgspec.field(default_factory=dict)
     limbs: tuple[str, ...] = ()
     trunk: tuple[str, ...] = ()
@@ -205,13 +206,14 @@ def _gripper(said: GripperSection) -> Gripper:
     return Gripper(mount, blocks, said.grasp_distance, said.opening, said.camera)
 
 
-def _cameras(said: CamerasSection) -> tuple[Camera, ...]:
-    given = (HEAD_CAMERA, said.head, mast_camera), (WRIST_CAMERA, said.wrist, wrist_camera)
-    return tuple(_camera(name, camera) if camera is not None else usual() for name, camera, usual in given)
+def _cameras(said: Mapping[str, CameraSection]) -> tuple[Camera, ...]:
+    usual = {HEAD_CAMERA: mast_camera(), WRIST_CAMERA: wrist_camera()}
+    return tuple({**usual, **{name: _camera(name, camera) for name, camera in said.items()}}.values())
 
 
 def _camera(name: str, said: CameraSection) -> Camera:
-    return Camera(name, Mount(said.link, said.position, said.rpy), said.fovy or FIELD_OF_VIEW[name])
+    fovy = said.fovy or FIELD_OF_VIEW.get(name, cameras.FIELD_OF_VIEW)
+    return Camera(name, Mount(said.link, said.position, said.rpy), fovy)
 
 
 def _base(said: BaseSection) -> Base:

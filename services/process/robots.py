@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from services.process.config import RobotSection
+from services.process.config import Configuration, RobotSection
 from services.process.robot_file import load_robot
 from sim.exceptions import UnknownScene
 from sim.robots import faults
 from sim.robots.catalogue import robot
 from sim.robots.description import source_of
-from sim.robots.robot import Manipulator
+from sim.robots.robot import USUAL_CAMERAS, Manipulator
 from sim.tasks import AnyScene, scene
 
 
@@ -62,3 +62,19 @@ def known_scene(section: RobotSection) -> AnyScene | None:
         return scene_of(section)
     except UnknownScene:
         return None
+
+
+def camera_names(configuration: Configuration) -> tuple[str, ...]:
+    """The names of all cameras: the robot's own, then what the configuration adds.
+
+    A robot in a scene that is not known here has those that robots usually have.
+
+    Raises:
+        TaskUnfit: the task file cannot be used.
+        UnknownRobot: see `manipulator`.
+        RobotOfItsOwn: no other robot stands in that scene.
+        ConfigurationError: see `manipulator`.
+    """
+    known = known_scene(configuration.robot)
+    own = USUAL_CAMERAS if known is None else known.robot.camera_names
+    return tuple(dict.fromkeys((*own, *(camera.name for camera in configuration.camera.cameras))))

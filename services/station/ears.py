@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import NamedTuple, TypeVar
 
 import numpy as np
@@ -17,6 +18,7 @@ from services.bus.picture_stream import PictureStream
 from services.bus.predictions import Predictions
 from services.bus.subscription import Received, Subscription
 from services.station.page.view import Picture
+from sim.robots.robot import USUAL_CAMERAS
 
 M = TypeVar("M", bound=Message)
 Camera = PictureStream | Subscription[messages.PointCloud]
@@ -44,9 +46,14 @@ class RobotClock(NamedTuple):
 
 
 class Ears:
-    """What the station subscribes to."""
+    """What the station subscribes to.
 
-    def __init__(self, bus: Bus) -> None:
+    Args:
+        bus: to the others.
+        cameras: their names.
+    """
+
+    def __init__(self, bus: Bus, cameras: Iterable[str] = USUAL_CAMERAS) -> None:
         self.robot = bus.subscribe(topics.ROBOT_STATE)
         self.authority = bus.subscribe(topics.AUTHORITY_STATE)
         self.safety = bus.subscribe(topics.SAFETY_STATE)
@@ -59,9 +66,8 @@ class Ears:
         self.master = bus.subscribe(topics.MASTER_STATE)
         self.execution = bus.subscribe(topics.EXECUTION)
         self.predictions = Predictions(bus)
-        self.head = PictureStream(bus.subscribe(topics.HEAD_IMAGE))
-        self.wrist = PictureStream(bus.subscribe(topics.WRIST_IMAGE))
-        self.queue = QueueReport(bus, self.head, self.wrist)
+        self.cameras = {name: PictureStream(bus.subscribe(topics.CAMERA_IMAGE.of(name))) for name in cameras}
+        self.queue = QueueReport(bus, *self.cameras.values())
         self.cloud = bus.subscribe(topics.POINT_CLOUD)
 
     def robot_clock(self, own: int) -> RobotClock | None:

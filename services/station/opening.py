@@ -12,7 +12,7 @@ from services.certificates.page import is_plain, of_page, secured
 from services.process.clock import Clock
 from services.process.config import Configuration
 from services.process.load import load_now
-from services.process.robots import known_scene, manipulator
+from services.process.robots import camera_names, known_scene, manipulator
 from services.station.live_view.description import describe
 from services.station.page.login.judge import Judge
 from services.station.page.page import Page
@@ -33,7 +33,8 @@ def open_page(configuration: Configuration, clock: Clock) -> Page:
     judge = Judge(AccountsFile(accounts_path()), is_right) if asks(configuration) else None
     described = describe(known_scene(configuration.robot), manipulator(configuration.robot))
     served, robot = secured(configuration), configuration.name
-    page = Page(served, robot, clock, described, configuration.operator, judge=judge, load=load_now)
+    cameras = camera_names(configuration)
+    page = Page(served, robot, clock, described, configuration.operator, judge=judge, load=load_now, cameras=cameras)
     page.start()
     if page_is_open(configuration):
         log.warning("the page is open to others (--insecure): %s", _why(configuration))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import math
 import threading
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +21,7 @@ from services.certificates.credentials import is_open
 from services.process.clock import Clock
 from services.process.config import Configuration
 from services.process.exceptions import UnusableSetting
+from services.process.robots import camera_names
 from services.process.schedule import Schedule
 from services.station.company import Company
 from services.station.device_buttons import DeviceButtons
@@ -42,6 +44,7 @@ from services.station.workflow.state import Phase, Workflow
 from services.station.workflow.view import Answer, Ask, View
 from services.station.workflow.words import teaching_state
 from services.station.workflow.workflow import advance
+from sim.robots.robot import USUAL_CAMERAS
 
 if TYPE_CHECKING:
     from services.station.page.page import Page
@@ -67,7 +70,8 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> StationServic
         raise UnusableSetting("[station] language", str(error)) from None
     page = None if section.scripted else _open_page(configuration, clock)
     told = is_open(configuration) or (page is not None and page_is_open(configuration))
-    return StationService(bus, settings(section, configuration.operator), page, configuration.seed, open_network=told)
+    chosen, cameras = settings(section, configuration.operator), camera_names(configuration)
+    return StationService(bus, chosen, page, configuration.seed, open_network=told, cameras=cameras)
 
 
 def _open_page(configuration: Configuration, clock: Clock) -> Page:
@@ -86,19 +90,27 @@ class StationService:
         page: the operator's; None where the workflow is scripted.
         seed: of the places.
         open_network: others can listen in on it, and command on it.
+        cameras: their names.
     """
 
     rate_hz = topics.OPERATOR_INPUT.rate_hz
 
     def __init__(
-        self, bus: Bus, workflow_settings: Settings, page: Frontend | None, seed: int, *, open_network: bool = False
+        self,
+        bus: Bus,
+        workflow_settings: Settings,
+        page: Frontend | None,
+        seed: int,
+        *,
+        open_network: bool = False,
+        cameras: Iterable[str] = USUAL_CAMERAS,
     ) -> None:
         self._bus = bus
         self._settings = workflow_settings
         self._page = page
         self._open_network = open_network
         self._draw = Draw(workflow_settings.place, seed)
-        self._ears = Ears(bus)
+        self._ears = Ears(bus, cameras)
         self._path = OwnPath(self._ears, bus.identity, workflow_settings.holder)
         self._stop = StopButton(bus, self._ears.safety, workflow_settings.holder)
         self._hand_over = HandOver(bus, workflow_settings.holder)
@@ -286,7 +298,6 @@ class StationService:
             path=self._path.stages(view.authority, view.robot, now_ns),
             object_pose=message(ears.seen.latest()),
             force=self._stage.force(now_ns),
-            head=self._path.picture(ears.head, now_ns),
-            wrist=self._path.picture(ears.wrist, now_ns),
+            cameras={name: self._path.picture(camera, now_ns) for name, camera in ears.cameras.items()},
             cloud=self._path.picture(ears.cloud, now_ns),
         )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import rerun as rr
 import rerun.blueprint as rrb
 
@@ -11,11 +13,12 @@ from sim.tasks.scene import Eye
 _WINDOW_S = 20.0
 
 
-def blueprint(eye: Eye) -> rrb.Blueprint:
+def blueprint(eye: Eye, cameras: Sequence[str]) -> rrb.Blueprint:
     """The layout of every recording; the panels around it are hidden, the time line is collapsed.
 
     Args:
         eye: from where the scene is seen at first.
+        cameras: their names.
     """
     return rrb.Blueprint(
         rrb.Horizontal(
@@ -37,7 +40,7 @@ def blueprint(eye: Eye) -> rrb.Blueprint:
                 row_shares=[1.4, 1],
             ),
             rrb.Vertical(
-                rrb.Horizontal(_camera("head"), _camera("wrist")),
+                rrb.Grid(*(_camera(name) for name in cameras), grid_columns=2),
                 rrb.Tabs(
                     _series("Hand", entities.MASTER_DISPLACEMENT),
                     _series("Rotation", entities.MASTER_ROTATION),

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import rerun as rr
 
 from protocol.messages import Coding
-from protocol.topics import HEAD_IMAGE, WRIST_IMAGE
+from protocol.topics import CAMERA_IMAGE
 from services.bus.bus import Bus
 from services.bus.picture_queue import QueueReport
 from services.bus.picture_stream import Group, PictureStream
@@ -15,17 +17,17 @@ from services.viewer.run import Run
 
 
 class Pictures:
-    """Of both cameras.
+    """Of all cameras.
 
     Args:
         bus: from which they come, and on which the cameras are told how late.
         run: where they are drawn.
+        names: of the cameras.
     """
 
-    def __init__(self, bus: Bus, run: Run) -> None:
+    def __init__(self, bus: Bus, run: Run, names: Iterable[str]) -> None:
         self._run = run
-        topics = {"head": HEAD_IMAGE, "wrist": WRIST_IMAGE}
-        self._cameras = {name: _Camera(PictureStream(bus.subscribe(topic))) for name, topic in topics.items()}
+        self._cameras = {name: _Camera(PictureStream(bus.subscribe(CAMERA_IMAGE.of(name)))) for name in names}
         self._queue = QueueReport(bus, *(camera.stream for camera in self._cameras.values()))
 
     @property

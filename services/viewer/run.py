@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import secrets
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TypeVar
 
@@ -36,13 +37,14 @@ class Run:
         robot: the robot's name, with which the files' begin.
         start_ns: where the time line begins [ns].
         eye: from where the scene is seen at first.
+        cameras: their names.
 
     Raises:
         PortInUse: nothing can listen at the stream's port.
         FolderUnusable: the folder cannot be written to.
     """
 
-    def __init__(self, section: ViewerSection, robot: str, start_ns: int, eye: Eye) -> None:
+    def __init__(self, section: ViewerSection, robot: str, start_ns: int, eye: Eye, cameras: Sequence[str]) -> None:
         self.identity = secrets.token_hex(8)
         self._start_ns = start_ns
         self._live = open_live(section, self.identity)
@@ -55,7 +57,7 @@ class Run:
         self._live_rows, self._recorded_rows = Rows(LIVE_S), Rows(RECORDED_S)
         self._now_ns, self._time_s = start_ns, 0.0
         self._standing: dict[str, object] = {}
-        layout, name = blueprint(eye), self.parts.path.stem
+        layout, name = blueprint(eye, cameras), self.parts.path.stem
         self.always("layout", lambda stream: stream.send_blueprint(layout))
         self.always("name", lambda stream: stream.send_recording_name(name))
 

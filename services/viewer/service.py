@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -22,7 +23,7 @@ from services.bus.predictions import Predictions
 from services.bus.trace import Trace
 from services.process.clock import Clock
 from services.process.config import Configuration
-from services.process.robots import known_scene
+from services.process.robots import camera_names, known_scene
 from services.process.runner import Service
 from services.viewer import motions, scene, series
 from services.viewer.journal import Journal
@@ -38,6 +39,7 @@ from services.viewer.web_files import web_files
 from services.viewer.words import Words
 from sim.exceptions import SimError
 from sim.robots.description import prepare
+from sim.robots.robot import USUAL_CAMERAS
 from sim.tasks import AnyScene, described
 from sim.tasks.scene import Eye
 
@@ -67,13 +69,14 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> Service:
     web = WebServer(configuration.viewer, web_files())
     # A scene that is not known here has an arm like ours, as far as anybody can tell.
     known = known_scene(configuration.robot)
+    eye, cameras = known.eye if known else Eye(), camera_names(configuration)
     try:
-        run = Run(configuration.viewer, configuration.name, clock.now_ns(), known.eye if known else Eye())
+        run = Run(configuration.viewer, configuration.name, clock.now_ns(), eye, cameras)
     except BaseException:
         web.close()
         raise
     point = known.point if known else None
-    return ViewerService(bus, run, web, point, known)
+    return ViewerService(bus, run, web, point=point, known=known, cameras=cameras)
 
 
 class ViewerService:
@@ -85,10 +88,18 @@ class ViewerService:
         web: the page to look at it.
         point: radius of a robot that is a point [m]; None for an arm.
         known: the scene, where it is known here.
+        cameras: their names.
     """
 
     def __init__(
-        self, bus: Bus, run: Run, web: WebServer, point: float | None = None, known: AnyScene | None = None
+        self,
+        bus: Bus,
+        run: Run,
+        web: WebServer,
+        *,
+        point: float | None = None,
+        known: AnyScene | None = None,
+        cameras: Sequence[str] = USUAL_CAMERAS,
     ) -> None:
         self._bus = bus
         self._run = run
@@ -103,7 +114,7 @@ class ViewerService:
         self._execution = bus.subscribe(EXECUTION)
         self._trace = Trace()
         self._cloud = News(bus.subscribe(POINT_CLOUD))
-        self._pictures = Pictures(bus, run)
+        self._pictures = Pictures(bus, run, cameras)
         self._changes = Changes(_REPEAT_S)
         self._tracing = Changes(_TRACE_S)
         self._announcing = Changes(_ANNOUNCE_S)

@@ -14,7 +14,8 @@ from sim.exceptions import OutOfReach
 from sim.region import Array, Region
 from sim.robots.gripper import WRIST_CAMERA_FRAME, Gripper, Mount, Vector
 
-HEAD_CAMERA, WRIST_CAMERA = "head", "wrist"
+HEAD_CAMERA, WRIST_CAMERA = USUAL_CAMERAS = "head", "wrist"
+"""The names of what robots usually see with."""
 FIELD_OF_VIEW = {HEAD_CAMERA: 36.0, WRIST_CAMERA: 60.0}
 """Of the cameras whose robot says no other [deg], vertical."""
 
@@ -144,6 +145,11 @@ class Robot:
     kind: str
     reach: Region
 
+    @property
+    def camera_names(self) -> tuple[str, ...]:
+        """Of the cameras that it sees with."""
+        return USUAL_CAMERAS
+
     def check(self, what: str, positions: Array) -> None:
         """Let pass positions that the robot may be able to take.
 
@@ -192,6 +198,11 @@ class Manipulator(Robot):
     turn_slack: float = 0.0
     limbs: tuple[str, ...] = ()
     trunk: tuple[str, ...] = ()
+
+    @property
+    def camera_names(self) -> tuple[str, ...]:
+        """See `Robot.camera_names`."""
+        return tuple(camera.name for camera in self.cameras)
 
     @cached_property
     def joint_names(self) -> tuple[str, ...]:

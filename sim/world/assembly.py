@@ -5,16 +5,13 @@ needs no new compilation, and one renderer serves both.
 """
 
 import mujoco
-import numpy as np
-from numpy.typing import NDArray
 
 from sim.robots.description import RobotDescription
-from sim.robots.gripper import Mount
-from sim.robots.robot import Manipulator
-from sim.rotations import rotated
+from sim.robots.robot import Camera, Manipulator
 from sim.tasks import AnyScene
 from sim.tasks.particle import ParticleScene
 from sim.tasks.reaching import ReachingScene
+from sim.world.eyes import add_cameras
 from sim.world.particle import particle
 from sim.world.staging import (
     AFFINITY,
@@ -30,21 +27,27 @@ from sim.world.things import add_things
 TIMESTEP = 0.002  # [s]
 
 
-def assemble(scene: AnyScene, description: RobotDescription) -> mujoco.MjModel:
+def assemble(scene: AnyScene, description: RobotDescription, cameras: tuple[Camera, ...] = ()) -> mujoco.MjModel:
     """Compile the model of a scene.
 
     Args:
         scene: What stands around the robot.
         description: Of the arm; a particle needs none.
+        cameras: Beside the robot's own, or in the place of one of the same name.
 
     Returns:
         The model; call `select` before use.
+
+    Raises:
+        CameraUnfit: A camera is fixed to a link that is not there.
     """
     match scene:
         case ReachingScene():
-            return _arm_and_object(scene, description).compile()
+            spec = _arm_and_object(scene, description)
         case ParticleScene():
-            return particle(scene).compile()
+            spec = particle(scene)
+    add_cameras(spec, cameras)
+    return spec.compile()
 
 
 def _arm_and_object(scene: ReachingScene, description: RobotDescription) -> mujoco.MjSpec:
@@ -77,20 +80,7 @@ def _fit_robot(spec: mujoco.MjSpec, robot: Manipulator) -> None:
         geom.group = UNSEEN if collides else DRAWN
     for joint in robot.servos:
         spec.joint(joint.name).armature = joint.armature
-    for camera in robot.cameras:
-        link = camera.mount.link
-        body = spec.body(link) if link else spec.worldbody
-        body.add_camera(name=camera.name, pos=camera.mount.position, quat=_seeing(camera.mount), fovy=camera.fovy)
-
-
-def _seeing(mount: Mount) -> NDArray[np.float64]:
-    """Return how MuJoCo has a camera, which looks along -z there with y up: optical axes, half a turn about x."""
-    orientation = np.array([1.0, 0.0, 0.0, 0.0])
-    for axis, angle in zip(np.eye(3), mount.rpy, strict=True):
-        orientation = rotated(orientation, angle * axis)
-    turned = np.zeros(4)
-    mujoco.mju_mulQuat(turned, orientation, np.array([0.0, 1.0, 0.0, 0.0]))
-    return turned
+    add_cameras(spec, robot.cameras)
 
 
 def _add_servos(spec: mujoco.MjSpec, robot: Manipulator) -> None:

@@ -1,4 +1,4 @@
-"""The robot's cameras, drawn from a published state.
+"""The robot's cameras and those that stand in the scene, drawn from a published state.
 
 They hold a model of their own, so that drawing can never disturb control.
 """
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from sim.pose import Pose
 from sim.robots.description import RobotDescription
-from sim.robots.robot import HEAD_CAMERA, WRIST_CAMERA
+from sim.robots.robot import Camera
 from sim.tasks import AnyScene
 from sim.world.assembly import assemble
 from sim.world.drawing import Canvas, Depth, Image
@@ -17,27 +17,39 @@ from sim.world.staging import select
 
 Array = NDArray[np.float64]
 
-CAMERAS = (HEAD_CAMERA, WRIST_CAMERA)
 _OPTICAL = np.diag([1.0, -1.0, -1.0])  # MuJoCo's camera axes to optical ones: half a turn about x
 
 
 class Cameras:
-    """Head and wrist camera of the robot in a scene; used by one thread, and closed at the end.
+    """All cameras in a scene; used by one thread, and closed at the end.
 
     Args:
         scene: What stands around the robot.
         description: Of the arm; a particle needs none.
         width: Of the pictures [px].
         height: Of the pictures [px].
+        more: Cameras beside the robot's own, or in the place of one of the same name.
+
+    Attributes:
+        names: Of the cameras.
 
     Raises:
         DrawingLibraryMissing: Neither EGL nor OSMesa can be used.
+        CameraUnfit: A camera is fixed to a link that is not there.
     """
 
-    def __init__(self, scene: AnyScene, description: RobotDescription, width: int = 320, height: int = 240) -> None:
+    def __init__(
+        self,
+        scene: AnyScene,
+        description: RobotDescription,
+        width: int = 320,
+        height: int = 240,
+        more: tuple[Camera, ...] = (),
+    ) -> None:
         self.scene = scene
         self.width, self.height = width, height
-        self._model = assemble(scene, description)
+        self._model = assemble(scene, description, more)
+        self.names = frozenset(self._model.camera(number).name for number in range(self._model.ncam))
         self._data = mujoco.MjData(self._model)
         self.show(scene.variants[0])
         self._canvas = Canvas(self._model, width, height)
@@ -54,7 +66,7 @@ class Cameras:
         """Draw what a camera sees.
 
         Args:
-            name: One of `CAMERAS`.
+            name: One of `names`.
             qpos: State of the world, as `World.state` gives it.
 
         Returns:
@@ -74,7 +86,7 @@ class Cameras:
         """Return a camera's matrix, shape (3, 3) [px], for pixel centres at whole numbers.
 
         Args:
-            name: One of `CAMERAS`.
+            name: One of `names`.
         """
         fovy = np.radians(float(self._model.camera(name).fovy[0]))
         focal = self.height / 2 / np.tan(fovy / 2)
@@ -84,7 +96,7 @@ class Cameras:
         """Return where a camera is in the base frame, with optical axes: x right, y down, z forward.
 
         Args:
-            name: One of `CAMERAS`.
+            name: One of `names`.
             qpos: State of the world, as `World.state` gives it.
         """
         self._place(qpos)

@@ -12,11 +12,11 @@ import sys
 import tempfile
 from pathlib import Path
 
-from protocol.topics import TOPICS
 from services.process.runner import leave_on_signals
 from tests.bench.many import looking, presence, rules
 from tests.bench.many.fleet import Fleet, Stuck
 from tests.bench.support.results import Result, write_json
+from tests.cameras import TOPICS
 
 SCENES = {"particle": "particle", "table": "arm"}
 """What stands in it, by scene."""

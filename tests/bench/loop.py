@@ -27,6 +27,7 @@ from services.process.isolation import retouch_command
 from sim.tasks import SCENES
 from tests.bench.support.path import OwnPath
 from tests.bench.support.results import Result, report
+from tests.cameras import HEAD_IMAGE, WRIST_IMAGE
 
 RUN_TIMEOUT_S = 300.0
 MEMORY_EVERY_S = 5.0
@@ -47,11 +48,11 @@ class Ear:
         self.refining = False
 
     def hear(self, passing: Passing):
-        name = "/".join(passing.key.split("/")[3:5])
+        name = "/".join(passing.key.split("/")[3:-1])
         handler = {
             topics.ROBOT_STATE.name: (topics.ROBOT_STATE, self._robot),
-            topics.HEAD_IMAGE.name: (topics.HEAD_IMAGE, self._picture),
-            topics.WRIST_IMAGE.name: (topics.WRIST_IMAGE, self._picture),
+            HEAD_IMAGE.name: (HEAD_IMAGE, self._picture),
+            WRIST_IMAGE.name: (WRIST_IMAGE, self._picture),
             topics.HEARTBEAT.name: (topics.HEARTBEAT, self._beat),
         }.get(name)
         if handler is None:

@@ -20,8 +20,9 @@ from services.robot.assembly import simulated_arm
 from services.robot.correction import Correction
 from services.video.decoder import Decoder
 from sim.robots.description import prepare
+from sim.robots.robot import USUAL_CAMERAS
 from sim.tasks import DISHWASHER
-from sim.world.cameras import CAMERAS, Cameras
+from sim.world.cameras import Cameras
 from tests.bench.support.results import Result, report
 
 DURATION_S = 20.0
@@ -69,7 +70,7 @@ def films(states, width, height):
     """What each camera sees of it."""
     cameras = Cameras(DISHWASHER, prepare(), width, height)
     cameras.show(DISHWASHER.variants[1])
-    drawn = {name: [np.ascontiguousarray(cameras.render(name, state)) for state in states] for name in CAMERAS}
+    drawn = {name: [np.ascontiguousarray(cameras.render(name, state)) for state in states] for name in USUAL_CAMERAS}
     cameras.close()
     return drawn
 

@@ -140,7 +140,7 @@ class Onlooker(threading.Thread):
         with connect(f"{self._url.replace('http', 'ws')}link", origin=self._url.rstrip("/"), max_size=None) as link:
             name = secrets.token_hex(8)
             link.send(msgspec.json.encode(Hello(name, name)).decode())
-            drawn, said = [0, 0, 0], 0
+            drawn, said = [0, 0, 0, 0], 0
             while not self.over.is_set():
                 frame = link.recv()
                 if isinstance(frame, str):

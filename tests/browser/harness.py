@@ -135,8 +135,7 @@ def working_view() -> PageView:
         drawing=drawing(),
         force=(0.0, 0.0, 2.5),
         master=messages.MasterState(device="keyboard"),
-        head=Picture(picture("head"), 0.02),
-        wrist=Picture(picture("wrist"), 0.02, yaw=0.5),
+        cameras={"head": Picture(picture("head"), 0.02), "wrist": Picture(picture("wrist"), 0.02, yaw=0.5)},
         cloud=Picture(cloud(), 0.05),
         path=Stages(capture=0.012, way=0.018, apply=0.006, motion=0.020, picture=0.031),
     )
@@ -173,8 +172,10 @@ class Feed:
                 label = f"{tick}"
                 self.view = replace(
                     self.view,
-                    head=Picture(picture(f"head {label}"), 0.0),
-                    wrist=Picture(picture(f"wrist {label}"), 0.0, yaw=0.5),
+                    cameras={
+                        "head": Picture(picture(f"head {label}"), 0.0),
+                        "wrist": Picture(picture(f"wrist {label}"), 0.0, yaw=0.5),
+                    },
                 )
             if self.moving_robot:
                 self.view = replace(self.view, robot=swinging(self.view.robot, tick * FEED_PERIOD_S))

@@ -200,9 +200,9 @@ def draw(tab, feed, view, scenery):
     """Let everything be drawn as finely as it can be."""
     tab.wait(".scene[data-view=live]")
     tab.page.wait_for_timeout(1500)  # the view is drawn finer once nothing changes
-    for _ in range(AT_LEAST_SENT if view.head is not None else 0):
+    for _ in range(AT_LEAST_SENT if view.cameras else 0):
         sent = {camera: replace(picture, data=bytes(bytearray(picture.data))) for camera, picture in scenery.items()}
-        feed.view = replace(view, **sent)
+        feed.view = replace(view, cameras=sent)
         tab.page.wait_for_timeout(200)
 
 

@@ -18,6 +18,7 @@ from protocol.messages import Light
 from services.process.clock import SystemClock
 from services.process.config import StationSection
 from services.process.exceptions import PortInUse
+from services.station.page.view import Picture
 from services.station.press import Press
 from tests.ports import free_port
 
@@ -178,7 +179,7 @@ def test_where_little_is_known_it_is_said_and_what_is_recommended_stands_out(tab
 def test_stale_data_is_shown(viewed, station):
     _, feed = station
     viewed.page.wait_for_selector(".health[data-tone=good]")
-    feed.view = replace(feed.view, robot_age_s=1.4, head=replace(feed.view.head, data=b"", age_s=1.4))
+    feed.view = replace(feed.view, robot_age_s=1.4, cameras={"head": Picture(b"", 1.4)})
     viewed.page.wait_for_selector(".health[data-tone=bad]")
     viewed.page.wait_for_selector(".scene-stale:visible")
     feed.view = replace(feed.view, robot=None, robot_age_s=math.inf)

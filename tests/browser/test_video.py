@@ -49,7 +49,7 @@ class Film:
     def give(self, data):
         """Whatever is sent as a picture."""
         self._group = self._group._replace(pictures=(*self._group.pictures, data))
-        self._feed.view = replace(self._feed.view, head=Picture(data, 0.02, 0.0, self._group))
+        self._feed.view = replace(self._feed.view, cameras={"head": Picture(data, 0.02, 0.0, self._group)})
 
 
 @pytest.fixture
@@ -122,7 +122,7 @@ def test_a_browser_without_a_decoder_asks_for_jpeg_files_and_draws_them(station,
     def sent():
         """What a camera sends that is asked for it."""
         jpeg = cv2.imencode(".jpg", np.full((HEIGHT, WIDTH, 3), COLOURS[3][::-1], np.uint8))[1].tobytes()
-        feed.view = replace(feed.view, head=Picture(jpeg, 0.02))
+        feed.view = replace(feed.view, cameras={"head": Picture(jpeg, 0.02)})
 
     film.show(COLOURS[0])
     becomes(without, eventually, COLOURS[3], sent)

@@ -22,7 +22,7 @@ CLOUDS = """
         constructor(...args) {
             super(...args);
             this.addEventListener("message", ({ data }) => {
-                if (typeof data !== "string" && new DataView(data).getUint8(0) === 3) window.clouds += 1;
+                if (typeof data !== "string" && new DataView(data).getUint8(0) === 1) window.clouds += 1;
             });
         }
     };
@@ -60,7 +60,7 @@ def test_keys_follow_the_view_that_is_large_where_that_is_asked_for(open_seated,
     tab.page.keyboard.press("ArrowRight")
     eventually(turned(page, first + math.pi / 24))
     tab.page.click("[data-swap=wrist]")
-    eventually(turned(page, feed.view.wrist.yaw))
+    eventually(turned(page, feed.view.cameras["wrist"].yaw))
     tab.page.click(".follow")
     eventually(turned(page, 0.0))
 

@@ -17,11 +17,12 @@ from services.bus.picture_queue import QueueReport
 from services.bus.picture_stream import PictureStream
 from services.bus.zenoh import Lanes, ZenohBus, open_session
 from services.process.clock import SystemClock
+from tests.cameras import HEAD_IMAGE, WRIST_IMAGE
 
 ROBOT = "robot1"
 OPEN_S = 60.0
 NEAR = (topics.ROBOT_STATE, topics.MASTER_STATE)
-PICTURES = (topics.HEAD_IMAGE, topics.WRIST_IMAGE)
+PICTURES = (HEAD_IMAGE, WRIST_IMAGE)
 FAR = (topics.WORLD_STATE, *PICTURES)
 """Of the robot only what is small: an ear is not to fill the link that it listens on."""
 

@@ -24,6 +24,7 @@ from services.bus.zenoh import open_session
 from services.bus.zenoh.encoding import encoding
 from services.certificates.credentials import Credentials
 from services.process.clock import SystemClock
+from tests.cameras import HEAD_IMAGE
 
 RATES = {"messages": 10_000.0, "pictures": 100.0, "queries": 1_000.0}
 """Of each kind, a second."""
@@ -82,7 +83,7 @@ class Flood:
 
     def pictures(self):
         """As large as pictures may be, where they belong and where they do not."""
-        places = ((topics.HEAD_IMAGE, "camera"), (topics.MASTER_STATE, "master"), (topics.EMERGENCY_STOP, "station"))
+        places = ((HEAD_IMAGE, "camera"), (topics.MASTER_STATE, "master"), (topics.EMERGENCY_STOP, "station"))
         for topic, role in itertools.cycle(places):
             key = topic.key(self._robot, self._named(role))
             yield partial(zenoh.Session.put, key_expr=key, payload=MEGABYTE)

@@ -12,7 +12,6 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
-from protocol import topics
 from protocol.messages import CameraImage, Coding, Pose
 from services.bus.zenoh import connect
 from services.camera.coding import coder
@@ -20,12 +19,13 @@ from services.camera.pacing import Pacing
 from services.camera.wishes import Wishes
 from services.process.clock import SystemClock
 from services.process.config import CameraSection
+from tests.cameras import HEAD_IMAGE, WRIST_IMAGE
 
 ROBOT = "robot1"
 WIDTH, HEIGHT, QUALITY = 320, 240, 80
-RATE_HZ = topics.HEAD_IMAGE.rate_hz
+RATE_HZ = HEAD_IMAGE.rate_hz
 NOWHERE = Pose((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
-CAMERAS = (("head", topics.HEAD_IMAGE), ("wrist", topics.WRIST_IMAGE))
+CAMERAS = (("head", HEAD_IMAGE), ("wrist", WRIST_IMAGE))
 
 
 SPEED = 30.0

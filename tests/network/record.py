@@ -7,9 +7,10 @@ import numpy as np
 from protocol import topics
 from protocol.codec import decode
 from protocol.messages import Mode, Phase
+from tests.cameras import HEAD_IMAGE, WRIST_IMAGE
 from tests.network.link import AHEAD_S
 
-PICTURES = (topics.HEAD_IMAGE, topics.WRIST_IMAGE)
+PICTURES = (HEAD_IMAGE, WRIST_IMAGE)
 SETTLED_S = 0.3
 """A robot that began to hold stands after so long."""
 

@@ -14,6 +14,7 @@ from protocol.messages import Coding, Pose, WorldState
 from services.bus.arrays import to_wire
 from services.bus.zenoh import connect
 from services.process.clock import SystemClock
+from tests.cameras import HEAD_IMAGE
 from tests.network.ear import ROBOT
 from tests.network.link import AHEAD_S, Impossible, Link
 from tests.network.sites import running
@@ -87,7 +88,7 @@ def test_the_queue_that_pictures_make_on_a_thin_link_goes_away(far):
     with running([sys.executable, HERE / "pictures.py", here, Coding.JPEG.value]):
         heard = hear(SETTLED_S)
     came_ns = max(at for at, _, _ in heard)
-    newest = [(at, decode(topics.HEAD_IMAGE, raw)) for at, name, raw in heard if name == topics.HEAD_IMAGE.name]
+    newest = [(at, decode(HEAD_IMAGE, raw)) for at, name, raw in heard if name == HEAD_IMAGE.name]
     ages = [(at - image.captured_ns) / 1e9 - AHEAD_S for at, image in newest if came_ns - at < NEWEST_S * 1e9]
     assert len(ages) > NEWEST_S
     assert np.median(ages) < 0.3

@@ -9,7 +9,7 @@ from protocol.exceptions import InvalidName
 from protocol.names import checked_name
 from protocol.queries import QUERIES
 from protocol.table import query_table, topic_table
-from protocol.topics import TOPICS
+from protocol.topics import CAMERA_IMAGE, TOPICS
 
 CLASSES = {"cmd", "state", "model", "cam", "safety", "authority", "health"}
 README = Path(__file__).resolve().parents[2] / "README.md"
@@ -22,8 +22,9 @@ def test_names_are_unique():
 
 def test_every_name_is_a_class_and_a_subject():
     for one in (*TOPICS, *QUERIES):
-        class_, subject = one.name.split("/")
+        class_, subject, *member = one.name.split("/")
         assert class_ in CLASSES
+        assert member in ([], ["*"])
         assert re.fullmatch("[a-z_]+", subject)
 
 
@@ -36,6 +37,14 @@ def test_every_topic_becomes_stale_after_ten_periods_or_never():
 def test_a_key_carries_version_robot_class_subject_and_source():
     topic = next(t for t in TOPICS if t.name == "cmd/master_state")
     assert topic.key("arm-1", "master") == "retouch/@v1/arm-1/cmd/master_state/master"
+
+
+def test_a_member_of_a_family_has_a_name_of_its_own_and_is_one_value():
+    side = CAMERA_IMAGE.of("side")
+    assert side is CAMERA_IMAGE.of("side") != CAMERA_IMAGE.of("head")
+    assert side.key("arm-1", "camera") == "retouch/@v1/arm-1/cam/image/side/camera"
+    with pytest.raises(InvalidName):
+        CAMERA_IMAGE.of("a/b")
 
 
 @pytest.mark.parametrize("name", ["", "a/b", "*", "a b", "-a", "é", "x" * 65, "$*", "a\n"])

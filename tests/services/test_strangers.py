@@ -18,6 +18,7 @@ from services.process.clock import ManualClock
 from services.process.config import Configuration, MasterSection, ModelSection
 from services.process.master_devices import Scripted
 from services.station.service import StationService
+from tests.cameras import TOPICS
 from tests.services.extremes import Extremes, encoded
 from tests.services.predictions import announce
 from tests.services.robot.site import Site, straight
@@ -145,4 +146,4 @@ def test_every_topic_is_heard_by_somebody_who_is_tried():
         topic.name for topic in (topics.WORLD_STATE, topics.TEACHING_STATE, topics.HEARTBEAT, topics.PICTURE_QUEUE)
     }
     asked = {topics.PROBE.name, topics.LOAD.name}  # which only who sends them hears
-    assert heard >= {topic.name for topic in topics.TOPICS} - drawn - asked
+    assert heard >= {topic.name for topic in TOPICS} - drawn - asked

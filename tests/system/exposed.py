@@ -15,6 +15,7 @@ from services.bus.outbox import Outbox
 from services.process.clock import SystemClock
 from services.process.config import load
 from services.process.processes import PROCESS_NAMES
+from tests import cameras
 from tests.system.harness import START_S, Command, Witness, configured, eventually, free_endpoint
 from tests.system.somebody import Somebody
 from tests.system.stranger import Stranger
@@ -23,7 +24,7 @@ EPISODE_S = 60.0
 MARK = "mark"
 STILL_RAD = 1e-3
 
-TOPICS = tuple(topic for topic in topics.TOPICS if topic not in (topics.PROBE, topics.LOAD))
+TOPICS = tuple(topic for topic in cameras.TOPICS if topic not in (topics.PROBE, topics.LOAD))
 """But for those that only who sends them hears: no process of these does."""
 
 SOURCE_OF_ANY = "robot"
@@ -66,7 +67,7 @@ def decides(witness, attempts):
 
 def subject(key):
     """The topic's name in a key expression."""
-    return "/".join(key.split("/")[3:5])
+    return "/".join(key.split("/")[3:-1])
 
 
 @contextmanager

@@ -12,6 +12,7 @@ from protocol import messages, queries, topics
 from protocol.codec import decode_reply
 from protocol.messages import Array, Purpose
 from services.process.processes import PROCESS_NAMES
+from tests.cameras import HEAD_IMAGE, WRIST_IMAGE
 from tests.system import garbage
 from tests.system.exposed import TOPICS, drops
 from tests.system.harness import eventually
@@ -124,7 +125,7 @@ def test_sound_messages_with_senseless_content_stop_nobody(network, unmoved):
         if topic.name in network.samples
     }
     replace = msgspec.structs.replace
-    world, image = decode[topics.WORLD_STATE.name], decode[topics.HEAD_IMAGE.name]
+    world, image = decode[topics.WORLD_STATE.name], decode[HEAD_IMAGE.name]
     prediction, execution = decode[topics.PREDICTION.name], decode[topics.EXECUTION.name]
     scene, robot = decode[topics.SCENE_STATE.name], decode[topics.ROBOT_STATE.name]
     result = decode[topics.EPISODE_RESULT.name]
@@ -140,10 +141,10 @@ def test_sound_messages_with_senseless_content_stop_nobody(network, unmoved):
     senseless = [
         *((topics.WORLD_STATE, replace(world, qpos=array)) for array in odd),
         *((topics.PREDICTION, replace(prediction, deviations=array)) for array in odd),
-        *((topics.HEAD_IMAGE, replace(image, data=data)) for data in bytes_of_no_picture),
-        *((topics.WRIST_IMAGE, replace(image, data=data, camera="wrist")) for data in bytes_of_no_picture),
-        (topics.HEAD_IMAGE, replace(image, intrinsics=(0.0, 0.0, 0.0, 0.0))),
-        (topics.HEAD_IMAGE, replace(image, width=2**53, height=0, camera="/../..")),
+        *((HEAD_IMAGE, replace(image, data=data)) for data in bytes_of_no_picture),
+        *((WRIST_IMAGE, replace(image, data=data, camera="wrist")) for data in bytes_of_no_picture),
+        (HEAD_IMAGE, replace(image, intrinsics=(0.0, 0.0, 0.0, 0.0))),
+        (HEAD_IMAGE, replace(image, width=2**53, height=0, camera="/../..")),
         (topics.PREDICTION, replace(prediction, motion=garbage.hollow(motion))),
         (topics.EXECUTION, replace(execution, prediction=2**53, progress=-1e9)),
         (

@@ -22,6 +22,7 @@ from services.station.page.people import GROUPS
 from services.station.page.robots import SLOTS
 from services.station.words.table import say, speech
 from services.web import look
+from sim.robots.robot import USUAL_CAMERAS
 
 HERE = Path(__file__).parent
 PARTS = HERE / "parts"
@@ -29,7 +30,6 @@ PARTS = HERE / "parts"
 _SYMBOLS = {"retouch": "brand", "view": "", "red": "lamp", "amber": "lamp", "hold": "lamp", "green": "lamp", "stop": ""}
 """Those that stand in the parts, and the class by which the style sheet sizes them."""
 
-_CAMERAS = ("head", "wrist")
 _LIVE = "live"
 _LOADED = (".css", ".js", ".svg")
 _SCRIPTS = ("script", "tour", "waypoint", "entry")
@@ -42,12 +42,20 @@ class _Html(Template):
     braceidpattern = r"[a-z][a-z0-9_]*\.[a-z0-9_]+"
 
 
-def document(robot: str, view: LiveFiles, *, settled: Iterable[str] = (), framed: bool = False) -> str:
+def document(
+    robot: str,
+    view: LiveFiles,
+    cameras: Iterable[str] = USUAL_CAMERAS,
+    *,
+    settled: Iterable[str] = (),
+    framed: bool = False,
+) -> str:
     """The page's HTML, in the language that the process speaks.
 
     Args:
         robot: its name.
         view: what the live view loads.
+        cameras: their names.
         settled: names of the actions that are never the operator's: what does nothing else is not shown.
         framed: it is shown in the frame of a page that says who is there and what is taught.
     """
@@ -64,8 +72,8 @@ def document(robot: str, view: LiveFiles, *, settled: Iterable[str] = (), framed
         "words": _for_scripts(),
         "shortest": str(SHORTEST_REASON),
         "figures": "".join(_figure(name) for name in FIGURES),
-        "cameras": "".join(_camera(name) for name in _CAMERAS),
-        "swap_live": _swap(_LIVE),
+        "cameras": "".join(_camera(name) for name in cameras),
+        "swap_live": _swap(_LIVE, say("scene.live")),
         "counters": "".join(_counter(name) for name in COUNTERS),
         "criteria": "".join(_criterion(name) for name in CRITERIA),
         "robot_slots": "".join(_robot(slot) for slot in SLOTS),
@@ -151,19 +159,20 @@ def _role(role: Role) -> str:
 
 
 def _camera(name: str) -> str:
+    title = say(f"scene.{name}") if name in USUAL_CAMERAS else say("scene.camera", name=name)
     return (
         f'<div class="stage camera" data-stage="{name}" data-camera="{name}" data-state="waiting"'
         f' data-value="camera-{name}" data-yaw="0">'
-        f'<canvas class="picture" role="img" aria-label="{_say(f"scene.{name}")}"></canvas>'
+        f'<canvas class="picture" role="img" aria-label="{escape(title)}"></canvas>'
         f'<div class="camera-empty">{_say("scene.empty")}</div>'
-        f'<div class="caption"><span>{_say(f"scene.{name}")}</span><span class="camera-age"></span></div>'
-        f"{_swap(name)}</div>"
+        f'<div class="caption"><span>{escape(title)}</span><span class="camera-age"></span></div>'
+        f"{_swap(name, title)}</div>"
     )
 
 
-def _swap(view: str) -> str:
+def _swap(view: str, title: str) -> str:
     """Covers an inset: pressed, the inset and the large view change places."""
-    label = _say("scene.large", view=say(f"scene.{view}"))
+    label = _say("scene.large", view=title)
     return f'<button type="button" class="swap" data-swap="{view}" aria-label="{label}"></button>'
 
 

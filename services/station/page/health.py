@@ -33,7 +33,7 @@ def health(shown: Shown) -> Values:
     view = shown.view
     recording = view.recording
     latency_s = view.robot.applied_latency if view.robot is not None else 0.0
-    pictures_s = max((one.age_s + shown.elapsed_s for one in (view.head, view.wrist) if one is not None), default=0.0)
+    pictures_s = max((one.age_s + shown.elapsed_s for one in view.cameras.values() if one is not None), default=0.0)
     if view.robot is None:
         tone, words = "bad", say("health.unheard")
     elif is_stale(shown):

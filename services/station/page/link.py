@@ -6,7 +6,8 @@ import asyncio
 import contextlib
 import itertools
 import struct
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import msgspec
@@ -34,11 +35,11 @@ FRAMES_IN_FLIGHT = 2
 then gets fewer of them, not older ones."""
 
 FRAME_HEADER = struct.Struct("<BBxxIf")
-"""Before a picture, a moment or a cloud: what it is (0 head camera, 1 wrist camera, 2 moment, 3 point cloud), how it is
-coded (0 a JPEG file, or what is no picture, 1 H.264 that goes on, 2 H.264 from a key picture on), its number, its age
-[s]."""
+"""Before a picture, a moment or a cloud: what it is (0 moment, 1 point cloud, from 2 on the cameras' pictures in
+their order on the page), how it is coded (0 a JPEG file, or what is no picture, 1 H.264 that goes on, 2 H.264 from a
+key picture on), its number, its age [s]."""
 
-HEAD, WRIST, MOMENT, CLOUD = range(4)
+MOMENT, CLOUD, FIRST_CAMERA = range(3)
 WHOLE, GOES_ON, FROM_KEY = range(3)
 
 LENGTH = struct.Struct("<I")
@@ -98,13 +99,13 @@ class _Tab:
         self.socket = socket
         self.session = session
         self.dismissed = asyncio.Event()
-        self.drawn = (0, 0, 0, 0)
+        self.drawn: tuple[int, ...] = ()
         self.wants_cloud = self.jpeg_only = False
         self.heard = (0.0, 0)
         self.values: Sent[str | bool] = Sent()
         self.drawing: Sent[Any] = Sent()
         self.history: Sent[Any] = Sent()
-        self._numbers = [0, 0, 0, 0]
+        self._numbers: Counter[int] = Counter()
         self._last: dict[int, bytes] = {}
         self._decoded: dict[int, Group] = {}
         self._moment: Point = ()
@@ -135,7 +136,8 @@ class _Tab:
 
     async def _send(self, kind: int, content: bytes, age_s: float, coding: int = WHOLE) -> bool:
         """Whether it was sent: not where too many are under way."""
-        if self._numbers[kind] - self.drawn[kind] >= FRAMES_IN_FLIGHT:
+        drawn = self.drawn[kind] if kind < len(self.drawn) else 0
+        if self._numbers[kind] - drawn >= FRAMES_IN_FLIGHT:
             return False
         self._numbers[kind] += 1
         await self.socket.send_bytes(FRAME_HEADER.pack(kind, coding, self._numbers[kind], age_s) + content)
@@ -151,9 +153,20 @@ class Link:
         clock: that the input ages by.
         version: of the page's files.
         joints: names of what moves in the live view.
+        cameras: their names, in their order on the page.
     """
 
-    def __init__(self, desk: Desk, board: Board, clock: Clock, version: str, joints: tuple[str, ...]) -> None:
+    def __init__(
+        self,
+        desk: Desk,
+        board: Board,
+        clock: Clock,
+        version: str,
+        *,
+        joints: tuple[str, ...],
+        cameras: Sequence[str],
+    ) -> None:
+        self._cameras = tuple(cameras)
         self._desk = desk
         self._glances = Glances(board, joints, LOOK_PERIOD_NS)
         self._clock = clock
@@ -226,8 +239,8 @@ class Link:
                 now_ns = self._clock.now_ns()  # what goes over a thin link waits until it is through
                 glance = self._glances.at(now_ns)
                 view, elapsed_s = glance.shown.view, glance.elapsed_s(now_ns)
-                for camera, picture in ((HEAD, view.head), (WRIST, view.wrist)):
-                    await tab.send_picture(camera, picture, elapsed_s)
+                for kind, camera in enumerate(self._cameras, FIRST_CAMERA):
+                    await tab.send_picture(kind, view.cameras.get(camera), elapsed_s)
                 if _is_another(MOMENT_PERIOD_NS, due_ns, before_ns):
                     await tab.send_moment(glance.moment, view.robot_age_s + elapsed_s)
                 if tab.wants_cloud:

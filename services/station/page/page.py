@@ -7,7 +7,7 @@ import contextlib
 import logging
 import platform
 import threading
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Sequence
 
 import msgspec
 from starlette.applications import Starlette
@@ -39,6 +39,7 @@ from services.station.press import Press
 from services.station.settings import settings
 from services.web.guard import Guard, policy
 from services.web.server import Server
+from sim.robots.robot import USUAL_CAMERAS
 
 log = logging.getLogger(__name__)
 
@@ -60,6 +61,7 @@ class Page:
         operator: name of an operator who gives none.
         judge: of the passwords of whoever comes; None where everybody may.
         load: says the load of this computer.
+        cameras: their names.
     """
 
     def __init__(
@@ -72,19 +74,20 @@ class Page:
         *,
         judge: Judge | None = None,
         load: Loads = no_load,
+        cameras: Sequence[str] = USUAL_CAMERAS,
     ) -> None:
         self._station = station
         self._clock = clock
         self._files = Files(description)
         self._assets = asset_files()
         settled = {action.value for action in settings(station, operator).settled}
-        self._document = document(robot, self._files, settled=settled, framed=bool(station.framed_by))
+        self._document = document(robot, self._files, cameras, settled=settled, framed=bool(station.framed_by))
         self._board = Board(clock, load)
         self.effects = Effects()
         """What entries of the history change, as far as a tab wants to see it."""
         self._address = address(station, platform.node())
         self._desk = Desk(operator)
-        self._link = Link(self._desk, self._board, clock, version(), description.joints)
+        self._link = Link(self._desk, self._board, clock, version(), joints=description.joints, cameras=cameras)
         self._login: Login | None = None
         if judge is not None:
             self._login = Login(robot, judge, clock, Cookie(station.port, secure=bool(station.certificate)))

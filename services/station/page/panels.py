@@ -19,7 +19,6 @@ def scene(shown: Shown) -> Values:
     """Where all there is can be inspected, who shaped the ways that are seen, and whether the data is old."""
     recording, stale = shown.view.recording, is_stale(shown)
     never = shown.view.robot is None
-    cameras = {"head": shown.view.head, "wrist": shown.view.wrist}
     way = Mode.AUTONOMOUS if shown.view.robot is None else shown.view.robot.mode
     age = say("scene.never") if never else say("scene.stale", age=span(shown.robot_age_s))
     curve = shown.view.drawing.prediction
@@ -32,7 +31,7 @@ def scene(shown: Shown) -> Values:
         "scene@data-origin": origin.value,
         "scene@data-kick": "no" if shown.view.drawing.kick.stood is None else "yes",
         "legend-predicted": say(f"scene.from_{origin.value}"),
-        **{f"camera-{name}@data-yaw": _told(picture) for name, picture in cameras.items()},
+        **{f"camera-{name}@data-yaw": _told(picture) for name, picture in shown.view.cameras.items()},
         "recording-fault": "" if recording is None else heard(recording.fault),
         "stale": age if stale else "",
     }

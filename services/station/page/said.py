@@ -49,8 +49,8 @@ class Held(_FromBrowser, frozen=True, tag="held"):
         visible: a person can see the tab.
         focused: it has the focus as well.
         controllers: what else is read in the browser.
-        drawn: number of the newest picture that was drawn, by camera, and in the live view of the newest moment and of
-            the newest point cloud.
+        drawn: number of the newest moment that was drawn in the live view, of the newest point cloud, and of the newest
+            picture of each camera.
         cloud: the live view shows the point cloud.
         jpeg_only: the browser draws no H.264.
         yaw: by which the person's forward is turned to the left from the robot's, as far as the keys are to follow the
@@ -66,7 +66,7 @@ class Held(_FromBrowser, frozen=True, tag="held"):
     visible: bool
     focused: bool
     controllers: Annotated[tuple[Controller, ...], msgspec.Meta(max_length=4)]
-    drawn: tuple[Count, Count, Count, Count]
+    drawn: Annotated[tuple[Count, ...], msgspec.Meta(max_length=255)]
     cloud: bool = False
     jpeg_only: bool = False
     yaw: Yaw = 0.0

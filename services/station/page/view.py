@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -70,6 +71,7 @@ class PageView:
         spoilt: shares of the motion that is shown at which something was touched or kicked over.
         drawing: what the live view shows.
         force: that the operator feels [N].
+        cameras: what each showed last, by its name.
         master: what the operator's device says of itself.
         authority_is_mine: this station holds the authority.
         neighbours: the other robots of the network.
@@ -98,8 +100,7 @@ class PageView:
     force: Vector3 = (0.0, 0.0, 0.0)
     master: MasterState | None = None
     recording: Recording | None = None
-    head: Picture | None = None
-    wrist: Picture | None = None
+    cameras: Mapping[str, Picture | None] = field(default_factory=dict)
     cloud: Picture | None = None
     path: Stages = field(default_factory=Stages)
     notice: str = ""

@@ -3,13 +3,14 @@
 import pytest
 
 from protocol.messages import CameraImage, Coding, Pose
-from protocol.topics import HEAD_IMAGE, PICTURE_QUEUE
+from protocol.topics import PICTURE_QUEUE
 from services.bus.identity import new_publisher
 from services.bus.memory import MemoryNetwork
 from services.bus.outbox import Outbox
 from services.bus.picture_queue import REMEMBERED_NS, QueueReport
 from services.bus.picture_stream import PictureStream
 from services.process.clock import ManualClock
+from tests.cameras import HEAD_IMAGE
 
 PERIOD_S = 1.0 / HEAD_IMAGE.rate_hz
 AHEAD_NS = 5_000_000_000_000

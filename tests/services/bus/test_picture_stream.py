@@ -5,12 +5,12 @@ import itertools
 import pytest
 
 from protocol.messages import CameraImage, Coding, Pose
-from protocol.topics import HEAD_IMAGE
 from services.bus.identity import new_publisher
 from services.bus.memory import MemoryNetwork
 from services.bus.outbox import Outbox
 from services.bus.picture_stream import MOST_BYTES, Group, PictureStream
 from services.process.clock import ManualClock
+from tests.cameras import HEAD_IMAGE
 
 NOWHERE = Pose((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
 

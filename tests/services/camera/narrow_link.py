@@ -1,7 +1,7 @@
 """Cameras on one machine and who looks on another, joined by a link that carries so much a second; stepped by hand."""
 
 from protocol.messages import CameraImage, Pose
-from protocol.topics import HEAD_IMAGE, PICTURE_QUEUE, WRIST_IMAGE
+from protocol.topics import PICTURE_QUEUE
 from services.bus.identity import new_publisher
 from services.bus.memory import MemoryNetwork
 from services.bus.outbox import Outbox
@@ -9,6 +9,7 @@ from services.bus.picture_queue import QueueReport
 from services.bus.picture_stream import PictureStream
 from services.camera.pacing import Pacing
 from services.process.clock import ManualClock
+from tests.cameras import HEAD_IMAGE, WRIST_IMAGE
 
 RATE_HZ, QUALITY = 15.0, 80
 STEP_S = 0.005

@@ -7,11 +7,12 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from protocol.topics import HEAD_IMAGE, SCENE_STATE, WORLD_STATE, WRIST_IMAGE
+from protocol.topics import SCENE_STATE, WORLD_STATE
 from services.bus.memory import MemoryNetwork
 from services.process.clock import ManualClock
 from services.process.config import CameraSection, Configuration
 from tests import extremes
+from tests.cameras import HEAD_IMAGE, WRIST_IMAGE
 
 pytestmark = pytest.mark.sim
 

@@ -4,20 +4,13 @@ import numpy as np
 import pytest
 
 from protocol.messages import Coding, PictureQueue, Pose, SceneState, WorldState
-from protocol.topics import (
-    HEAD_IMAGE,
-    OBJECT_POSE,
-    PICTURE_QUEUE,
-    POINT_CLOUD,
-    SCENE_STATE,
-    WORLD_STATE,
-    WRIST_IMAGE,
-)
+from protocol.topics import OBJECT_POSE, PICTURE_QUEUE, POINT_CLOUD, SCENE_STATE, WORLD_STATE
 from services.bus.arrays import points_from_wire, quaternion, to_wire, vector3
 from services.bus.memory import MemoryNetwork
 from services.perception.service import build as build_perception
 from services.process.clock import ManualClock
 from services.process.config import CameraSection, Configuration
+from tests.cameras import HEAD_IMAGE, WRIST_IMAGE
 
 pytestmark = pytest.mark.sim
 

@@ -6,12 +6,13 @@ import warnings
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from protocol.topics import HEAD_IMAGE, OBJECT_POSE
+from protocol.topics import OBJECT_POSE
 from services.bus.memory import MemoryNetwork
 from services.perception.service import build
 from services.process.clock import ManualClock
 from services.process.config import Configuration
 from tests import extremes
+from tests.cameras import HEAD_IMAGE
 
 
 @settings(suppress_health_check=list(HealthCheck))

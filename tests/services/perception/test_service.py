@@ -5,12 +5,13 @@ import numpy as np
 import pytest
 
 from protocol.messages import CameraImage, Coding, Pose
-from protocol.topics import HEAD_IMAGE, OBJECT_POSE, PICTURE_QUEUE
+from protocol.topics import OBJECT_POSE, PICTURE_QUEUE
 from services.bus.memory import MemoryNetwork
 from services.perception.service import build
 from services.process.clock import ManualClock
 from services.process.config import CameraSection, Configuration
 from services.video import library
+from tests.cameras import HEAD_IMAGE
 
 
 @pytest.fixture

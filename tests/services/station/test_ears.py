@@ -6,7 +6,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lfd.motion.rotations import exp_map, multiply
-from protocol import topics
 from protocol.codec import encode
 from protocol.messages import CameraImage, Coding, Pose
 from services.bus.arrays import quaternion
@@ -16,6 +15,7 @@ from services.bus.picture_stream import PictureStream
 from services.bus.subscription import Subscription
 from services.process.clock import ManualClock
 from services.station.ears import PICTURES_WITHIN_S, Ears, heading, picture
+from tests.cameras import HEAD_IMAGE
 
 MS = 1_000_000
 HERE, ELSEWHERE = 1 << 47, 2 << 47
@@ -25,13 +25,13 @@ DOWN = (0.0, 0.70710678, -0.70710678, 0.0)  # straight down, what lies ahead at 
 
 def heard(publisher, *, captured_ms, sent_ms, came_ms):
     """A camera's subscription to which one picture has come."""
-    came = Subscription(topics.HEAD_IMAGE, "robot1", HERE, Clocks(HERE))
+    came = Subscription(HEAD_IMAGE, "robot1", HERE, Clocks(HERE))
     shown = CameraImage(
         camera="head", width=1, height=1, data=b"x", intrinsics=(1.0,) * 4, pose=Pose((0.0,) * 3, LEVEL),
-        captured_ns=captured_ms * MS, robot="robot1", topic="cam/head", process="camera", publisher=publisher,
+        captured_ns=captured_ms * MS, robot="robot1", topic="cam/image/head", process="camera", publisher=publisher,
         sequence=1, stamp_ns=sent_ms * MS,
     )  # fmt: skip
-    came.receive(encode(topics.HEAD_IMAGE, shown), topics.HEAD_IMAGE.schema, came_ms * MS)
+    came.receive(encode(HEAD_IMAGE, shown), HEAD_IMAGE.schema, came_ms * MS)
     return PictureStream(came)
 
 
@@ -52,7 +52,7 @@ def test_of_a_camera_that_does_not_say_when_the_age_since_it_was_sent_is_known()
 
 
 def test_before_the_first_picture_there_is_none():
-    nothing = PictureStream(Subscription(topics.HEAD_IMAGE, "robot1", HERE, Clocks(HERE)))
+    nothing = PictureStream(Subscription(HEAD_IMAGE, "robot1", HERE, Clocks(HERE)))
     assert picture(nothing, MS, HERE) is None
 
 
@@ -74,7 +74,7 @@ def looking():
         shown = CameraImage(
             camera="head", width=1, height=1, data=b"x", intrinsics=(1.0,) * 4, pose=Pose((0.0,) * 3, LEVEL), **coded
         )
-        camera.publish(topics.HEAD_IMAGE, shown)
+        camera.publish(HEAD_IMAGE, shown)
         ears.queue.step(clock.now_ns())
 
     return ears, clock, show
@@ -97,9 +97,9 @@ def test_of_pictures_that_need_others_all_of_them_are_there(looking):
     ears, clock, show = looking
     show(coding=Coding.H264)
     show(coding=Coding.H264, after_key=1)
-    assert len(picture(ears.head, clock.now_ns(), HERE).group.pictures) == 2
+    assert len(picture(ears.cameras["head"], clock.now_ns(), HERE).group.pictures) == 2
     show()
-    assert picture(ears.head, clock.now_ns(), HERE).group is None
+    assert picture(ears.cameras["head"], clock.now_ns(), HERE).group is None
 
 
 def test_by_pictures_that_come_and_cannot_be_shown_nobody_corrects_either(looking):

@@ -11,6 +11,7 @@ from services.bus.stages import Stages, from_figures
 from services.process.clock import ManualClock
 from services.station.ears import Ears
 from services.station.own_path import OwnPath
+from tests.cameras import HEAD_IMAGE
 
 MS = 1_000_000
 POSE = Pose((0.5, 0.0, 0.5), (1.0, 0.0, 0.0, 0.0))
@@ -57,8 +58,8 @@ class Desk:
             camera="head", width=1, height=1, data=b"x", intrinsics=(1.0,) * 4, pose=POSE,
             captured_ns=there - captured_ms_ago * MS,
         )  # fmt: skip
-        self.say(self._camera, topics.HEAD_IMAGE, shown, there - sent_ms_ago * MS)
-        return self.path.picture(self.ears.head, self.clock.now_ns())
+        self.say(self._camera, HEAD_IMAGE, shown, there - sent_ms_ago * MS)
+        return self.path.picture(self.ears.cameras["head"], self.clock.now_ns())
 
     def stages(self, authority=MINE):
         return self.path.stages(authority, self.ears.robot.latest().message, self.clock.now_ns())

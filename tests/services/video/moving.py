@@ -6,7 +6,6 @@ import cv2
 import numpy as np
 
 from protocol.messages import CameraImage, Coding, Pose
-from protocol.topics import HEAD_IMAGE
 from services.bus.identity import new_publisher
 from services.bus.memory import MemoryNetwork
 from services.bus.outbox import Outbox
@@ -15,6 +14,7 @@ from services.camera.coding import coder
 from services.camera.wishes import Wish
 from services.process.clock import ManualClock
 from services.process.config import CameraSection
+from tests.cameras import HEAD_IMAGE
 
 WIDTH, HEIGHT = 192, 144
 H264 = CameraSection(codec=Coding.H264, width=WIDTH, height=HEIGHT)

@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from protocol.topics import (
     AUTHORITY_STATE,
-    HEAD_IMAGE,
     MASTER_STATE,
     MODEL_STATE,
     OBJECT_POSE,
@@ -24,6 +23,7 @@ from protocol.topics import (
     WORLD_STATE,
 )
 from tests import extremes
+from tests.cameras import HEAD_IMAGE
 
 pytestmark = pytest.mark.sim
 

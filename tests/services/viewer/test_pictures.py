@@ -5,8 +5,9 @@ import numpy as np
 import pytest
 
 from protocol.messages import Coding
-from protocol.topics import HEAD_IMAGE, PICTURE_QUEUE
+from protocol.topics import PICTURE_QUEUE
 from services.camera.coding import Coded
+from tests.cameras import HEAD_IMAGE
 from tests.services.video.moving import PERIOD_S, Filmed, image, number, scene
 
 pytest.importorskip("rerun")
@@ -30,7 +31,7 @@ def viewed():
     from services.viewer.pictures import Pictures
 
     filmed, drawing = Filmed(), Drawing()
-    return filmed, Pictures(filmed.network.bus("viewer"), drawing), drawing
+    return filmed, Pictures(filmed.network.bus("viewer"), drawing, ("head",)), drawing
 
 
 def test_h264_is_recorded_as_jpeg_files_the_newest_of_what_came(viewed):

@@ -17,7 +17,7 @@ def recording(configuration):
     from services.viewer.run import Run
     from sim.tasks.scene import Eye
 
-    recording = Run(configuration.viewer, "testbed", 0, Eye())
+    recording = Run(configuration.viewer, "testbed", 0, Eye(), ("head",))
     yield recording
     recording.close()
 
@@ -34,7 +34,7 @@ def test_a_stream_port_in_use_is_named_with_its_setting_and_no_file_is_begun(con
         socket.create_server(("127.0.0.1", configuration.viewer.stream_port)),
         pytest.raises(PortInUse, match="stream_port"),
     ):
-        Run(configuration.viewer, "testbed", 0, Eye())
+        Run(configuration.viewer, "testbed", 0, Eye(), ("head",))
     assert not (tmp_path / "runs").exists()
 
 

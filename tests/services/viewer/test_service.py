@@ -20,7 +20,6 @@ from protocol.messages import (
     WorldState,
 )
 from protocol.topics import (
-    HEAD_IMAGE,
     MASTER_STATE,
     OBJECT_POSE,
     POINT_CLOUD,
@@ -32,6 +31,7 @@ from protocol.topics import (
     WORLD_STATE,
 )
 from services.bus.arrays import motion_to_wire, to_wire
+from tests.cameras import HEAD_IMAGE
 
 pytestmark = pytest.mark.sim
 

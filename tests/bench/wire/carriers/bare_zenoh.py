@@ -8,7 +8,10 @@ import json
 
 import zenoh
 
-KEYS = {"command": "retouch/@v1/kitchen/cmd/master_state/master-anna", "picture": "retouch/@v1/kitchen/cam/head/camera"}
+KEYS = {
+    "command": "retouch/@v1/kitchen/cmd/master_state/master-anna",
+    "picture": "retouch/@v1/kitchen/cam/image/head/camera",
+}
 PRIORITIES = {"command": zenoh.Priority.INTERACTIVE_HIGH, "picture": zenoh.Priority.DATA_LOW}
 
 

@@ -18,6 +18,7 @@ from services.process.clock import SystemClock
 from services.process.runner import SWITCH_INTERVAL_S
 from tests.bench.wire.command import MASTER, MOVED, ROBOT
 from tests.bench.wire.program import now_ns
+from tests.cameras import HEAD_IMAGE
 
 NOWHERE = Pose((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
 SURPLUS = 1000
@@ -68,7 +69,7 @@ def sending(settings, kind):
             yield lambda _: bus.publish(topics.MASTER_STATE, MOVED)
     else:
         with _connected(settings, "camera.kitchen", "camera") as bus:
-            yield lambda picture: bus.publish(topics.HEAD_IMAGE, _image(picture))
+            yield lambda picture: bus.publish(HEAD_IMAGE, _image(picture))
 
 
 @contextlib.contextmanager
@@ -77,7 +78,7 @@ def receiving(settings, notes):
     call = Call(notes)
     with _connected(settings, "operator.bob", "viewer-bob") as bus:
         call.newest = bus.subscribe(topics.MASTER_STATE, call).latest
-        bus.subscribe(topics.HEAD_IMAGE, See(notes))
+        bus.subscribe(HEAD_IMAGE, See(notes))
         yield
 
 

@@ -48,8 +48,8 @@ def test_an_authority_that_nobody_holds_is_nobody_s():
         ({"robot": None}, "bad", "The robot is not heard"),
         ({"robot_age_s": 1.4}, "bad", "Robot data 1.4 s old"),
         ({"model": None}, "warn", "The model is not heard"),
-        ({"head": Picture(b"", 0.2), "wrist": Picture(b"", 2.9)}, "warn", "Pictures 2.9 s old"),
-        ({"head": Picture(b"", 0.2)}, "good", "All well"),
+        ({"cameras": {"head": Picture(b"", 0.2), "wrist": Picture(b"", 2.9)}}, "warn", "Pictures 2.9 s old"),
+        ({"cameras": {"head": Picture(b"", 0.2)}}, "good", "All well"),
         ({"robot": robot(Phase.IDLE, applied_latency=0.12)}, "warn", "Slow: 120 ms from hand to robot"),
         (
             {"recording": Recording(path="a", viewer_url="", recording_id="r", fault="full")},

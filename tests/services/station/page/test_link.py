@@ -14,7 +14,7 @@ from services.process.clock import SystemClock
 from services.process.config import StationSection
 from services.station.live_view.description import described
 from services.station.live_view.drawing import Drawing
-from services.station.page.link import CLOUD, FRAME_HEADER, FROM_KEY, GOES_ON, HEAD, LENGTH, MOMENT, WHOLE
+from services.station.page.link import CLOUD, FIRST_CAMERA, FRAME_HEADER, FROM_KEY, GOES_ON, LENGTH, MOMENT, WHOLE
 from services.station.page.page import Page
 from services.station.page.said import Held, Hello
 from services.station.page.view import PageView, Picture
@@ -52,7 +52,7 @@ class Browser:
                 self.drawing.update(json.loads(frame)["drawing"])
                 continue
             came, coding, number, _ = FRAME_HEADER.unpack_from(frame)
-            if came == HEAD:
+            if came == FIRST_CAMERA:
                 self.pictures.append((coding, split(frame[FRAME_HEADER.size :]) if coding else frame[-1:]))
             if came == kind:
                 numbers.append(number)
@@ -63,7 +63,7 @@ class Browser:
     def say(self, *, head=0, moment=0, cloud=False, clouds=0, jpeg_only=False):
         """What it has drawn, whether it shows the point cloud, and whether it draws no H.264."""
         self._said += 1
-        drawn = head, 0, moment, clouds
+        drawn = moment, clouds, head, 0
         held = Held(self._said, time.monotonic() * 1e3, (), True, True, (), drawn, cloud, jpeg_only)
         self._socket.send(msgspec.json.encode(held).decode())
 
@@ -152,7 +152,7 @@ def test_the_cloud_comes_to_a_tab_that_shows_it_and_no_faster_than_it_draws(page
 
 def show(page, number, *pictures):
     """The newest of a group of pictures."""
-    page.show(PageView(head=Picture(bytes(pictures[-1]), 0.1, 0.0, Group(number, Coding.H264, pictures))))
+    page.show(PageView(cameras={"head": Picture(bytes(pictures[-1]), 0.1, 0.0, Group(number, Coding.H264, pictures))}))
 
 
 def test_pictures_that_need_others_come_with_what_the_tab_does_not_have_of_them(page, browser):
@@ -185,6 +185,6 @@ def test_a_tab_that_draws_none_of_them_gets_jpeg_files_alone_and_the_cameras_are
     assert page.jpeg_only
     show(page, 1, b"key")
     browser.hear(0.1)
-    page.show(PageView(head=Picture(b"j", 0.1)))
+    page.show(PageView(cameras={"head": Picture(b"j", 0.1)}))
     browser.hear(0.1)
     assert browser.pictures == [(WHOLE, b"j")]

@@ -9,7 +9,7 @@ const HEADER_BYTES = 12;
 const TURNS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const ZOOMS = { "+": 0.9, "=": 0.9, "-": 1 / 0.9 };
 const SHOWN = "retouch-cloud";
-export const [MOMENT, CLOUD] = [2, 3];
+export const [MOMENT, CLOUD] = [0, 1];
 
 export class LiveView {
   // onForeseen: told where the gripper would touch something on its way, null for nowhere.

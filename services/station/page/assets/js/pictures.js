@@ -3,7 +3,7 @@
 import { Video, drawsVideo } from "/assets/js/video.js";
 import { say } from "/assets/js/words.js";
 
-const CAMERAS = ["head", "wrist"];
+const FIRST_CAMERA = 2; // what a frame with its picture begins with; the others follow in their order on the page
 const HEADER_BYTES = 12;
 const STALE_S = 1;
 const JPEG = 0;
@@ -12,10 +12,10 @@ const MOST_FAILED = 3; // key pictures one after another: a decoder that should 
 
 export class Pictures {
   constructor() {
-    this.drawn = [0, 0];
-    this.captured = [-Infinity, -Infinity];
-    this.age = null;
-    this.videos = CAMERAS.map(() => new Video());
+    this.panels = [...document.querySelectorAll("[data-camera]")];
+    this.restart();
+    this.captured = this.panels.map(() => -Infinity);
+    this.videos = this.panels.map(() => new Video());
     this.canVideo = true; // until it is known
     this.failed = 0;
     drawsVideo().then((can) => (this.canVideo = can));
@@ -28,7 +28,7 @@ export class Pictures {
 
   // A new connection counts its pictures anew; those still being decoded count for the old one.
   restart() {
-    this.drawn = [0, 0];
+    this.drawn = this.panels.map(() => 0);
     this.age = null;
   }
 
@@ -36,7 +36,7 @@ export class Pictures {
   async receive(buffer, way) {
     const drawn = this.drawn;
     const header = new DataView(buffer, 0, HEADER_BYTES);
-    const camera = header.getUint8(0);
+    const camera = header.getUint8(0) - FIRST_CAMERA;
     const coding = header.getUint8(1);
     const number = header.getUint32(4, true);
     const captured = performance.now() - way - header.getFloat32(8, true) * 1000;
@@ -54,7 +54,7 @@ export class Pictures {
   }
 
   draw(camera, picture, captured) {
-    const canvas = panelOf(camera).querySelector("canvas");
+    const canvas = this.panels[camera].querySelector("canvas");
     const { displayWidth: width = picture.width, displayHeight: height = picture.height } = picture;
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
     canvas.getContext("2d").drawImage(picture, 0, 0);
@@ -64,10 +64,9 @@ export class Pictures {
   }
 
   showAges() {
-    for (let camera = 0; camera < CAMERAS.length; camera += 1) {
+    for (const [camera, panel] of this.panels.entries()) {
       const age = (performance.now() - this.captured[camera]) / 1000;
       if (!Number.isFinite(age)) continue;
-      const panel = panelOf(camera);
       panel.dataset.state = age > STALE_S ? "stale" : "live";
       panel.querySelector(".camera-age").textContent = ageInWords(age);
     }
@@ -82,8 +81,4 @@ function ageInWords(age) {
   return age < 0.9995
     ? say("script.age", { number: Math.round(age * 1000) })
     : say("script.age_old", { number: age.toFixed(1) });
-}
-
-function panelOf(camera) {
-  return document.querySelector(`[data-camera="${CAMERAS[camera]}"]`);
 }

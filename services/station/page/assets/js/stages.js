@@ -1,8 +1,9 @@
-// The three views: one large, two as insets. An inset that is pressed and the large view change places.
+// The views: one large, the others as insets. An inset that is pressed and the large view change places.
 
 import { remember, remembered } from "/assets/js/memory.js";
 
 const MAIN = "retouch-main";
+const SIDES = ["left", "right"];
 
 export function swapOnPress() {
   const scene = document.querySelector(".scene");
@@ -21,5 +22,12 @@ export function swapOnPress() {
 function show(scene, view) {
   if (!scene.querySelector(`[data-stage="${view}"]`)) return;
   scene.dataset.main = view;
+  const stages = [...scene.querySelectorAll(".stage")];
+  const insets = stages.filter(({ dataset }) => dataset.stage !== view);
+  for (const stage of stages) {
+    const place = insets.indexOf(stage);
+    stage.dataset.place = place < 0 ? "main" : SIDES[place % 2];
+    stage.style.setProperty("--row", Math.max(0, Math.floor(place / 2)));
+  }
   for (const button of scene.querySelectorAll(".swap")) button.hidden = button.dataset.swap === view;
 }

@@ -113,7 +113,7 @@ function onSilence() {
 
 function say() {
   const { drawn, clouds, wantsCloud } = liveView;
-  const shown = { drawn: [...pictures.drawn, drawn, clouds], picture_ms: pictures.age };
+  const shown = { drawn: [drawn, clouds, ...pictures.drawn], picture_ms: pictures.age };
   const wanted = { cloud: wantsCloud, jpeg_only: pictures.jpegOnly };
   const when = { waited_ms: held.waited(), way_ms: roundTrip.told };
   link.sayHeld({ ...held.state(), ...shown, ...wanted, ...when, yaw: following.yaw });
