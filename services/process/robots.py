@@ -9,7 +9,7 @@ from sim.robots import faults
 from sim.robots.catalogue import robot
 from sim.robots.description import source_of
 from sim.robots.robot import USUAL_CAMERAS, Manipulator
-from sim.tasks import AnyScene, scene
+from sim.tasks import SCENES, AnyScene, is_path, scene
 
 
 def manipulator(section: RobotSection) -> Manipulator | None:
@@ -42,6 +42,8 @@ def scene_of(section: RobotSection, name: str = "") -> AnyScene:
         RobotOfItsOwn: no other robot stands in that scene.
         ConfigurationError: see `manipulator`.
     """
+    if is_path(name):  # whatever is told, no file is opened for it
+        raise UnknownScene(name, SCENES)
     arm = manipulator(section)
     if section.task_file is not None and name:
         own = scene(section.scene, arm)

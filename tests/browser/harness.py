@@ -7,7 +7,7 @@ import contextlib
 import signal
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -29,6 +29,7 @@ from services.station.page.login.judge import Judge
 from services.station.page.page import Page
 from services.station.page.view import PageView, Picture
 from sim.robots.catalogue import DEFAULT
+from sim.robots.robot import USUAL_CAMERAS
 from sim.tasks import DISHWASHER
 from sim.tasks.scene import Group
 
@@ -191,14 +192,17 @@ def swinging(robot, time_s):
 
 
 @contextlib.contextmanager
-def served(*, judge: Judge | None = None, **section: Any) -> Iterator[tuple[Page, Feed]]:
+def served(
+    *, judge: Judge | None = None, cameras: Sequence[str] = USUAL_CAMERAS, **section: Any
+) -> Iterator[tuple[Page, Feed]]:
     """A page that is served, and its feed.
 
     Args:
         judge: of passwords; None where nobody has to log in.
+        cameras: their names.
         section: of the station's configuration.
     """
-    page = Page(StationSection(**section), "robot1", SystemClock(), described(), judge=judge)
+    page = Page(StationSection(**section), "robot1", SystemClock(), described(), judge=judge, cameras=cameras)
     page.start()
     feed = Feed(page, working_view())
     feed.start()
