@@ -75,12 +75,8 @@ class Topic(Generic[M]):
         return int(max(0.1, 10.0 / self.rate_hz) * 1e9)
 
     def of(self, member: str) -> Topic[M]:
-        """The channel of one member of the family.
-
-        Raises:
-            InvalidName: this cannot stand in a key expression.
-        """
-        return _member(self, member)
+        """The channel of one member of the family; raises InvalidName where that cannot stand in a key expression."""
+        return replace(self, name=self.name.removesuffix("*") + checked_name(member))
 
     def published_by(self, process: str) -> bool:
         """Whether a process of this name publishes the topic: one of the role that the table names."""
@@ -89,12 +85,6 @@ class Topic(Generic[M]):
     def key(self, robot: str, source: str) -> str:
         """The key expression on which `source` publishes for `robot`."""
         return source_key(robot, self.name, source)
-
-
-@lru_cache(maxsize=256)  # one channel is one value
-def _member(family: Topic[M], member: str) -> Topic[M]:
-    name = f"{family.name.removesuffix('*')}{checked_name(member)}"
-    return replace(family, name=name, about=f"{family.about}: {member}")
 
 
 @lru_cache(maxsize=1024)  # asked with every message; bounded as below

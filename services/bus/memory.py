@@ -58,7 +58,7 @@ class MemoryNetwork:
     def deliver(self, topic: Topic[Any], payload: bytes, schema: str = "") -> None:
         """Put bytes on a topic, as any program on a network could."""
         for subscription in self.subscriptions:
-            if subscription.topic is topic:
+            if subscription.topic.name == topic.name:
                 subscription.receive(payload, schema, self.clock.now_ns())
 
 

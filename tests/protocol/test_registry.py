@@ -39,9 +39,9 @@ def test_a_key_carries_version_robot_class_subject_and_source():
     assert topic.key("arm-1", "master") == "retouch/@v1/arm-1/cmd/master_state/master"
 
 
-def test_a_member_of_a_family_has_a_name_of_its_own_and_is_one_value():
+def test_a_member_of_a_family_has_a_name_of_its_own():
     side = CAMERA_IMAGE.of("side")
-    assert side is CAMERA_IMAGE.of("side") != CAMERA_IMAGE.of("head")
+    assert side == CAMERA_IMAGE.of("side") != CAMERA_IMAGE.of("head")
     assert side.key("arm-1", "camera") == "retouch/@v1/arm-1/cam/image/side/camera"
     with pytest.raises(InvalidName):
         CAMERA_IMAGE.of("a/b")
