@@ -7,7 +7,7 @@ import math
 import threading
 from collections.abc import Iterable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import msgspec
 
@@ -46,9 +46,6 @@ from services.station.workflow.words import teaching_state
 from services.station.workflow.workflow import advance
 from sim.robots.robot import USUAL_CAMERAS
 
-if TYPE_CHECKING:
-    from services.station.page.page import Page
-
 log = logging.getLogger(__name__)
 
 QUERY_TIMEOUT_S = 5.0
@@ -74,7 +71,7 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> StationServic
     return StationService(bus, chosen, page, configuration.seed, open_network=told, cameras=cameras)
 
 
-def _open_page(configuration: Configuration, clock: Clock) -> Page:
+def _open_page(configuration: Configuration, clock: Clock) -> Frontend:
     # A scripted station starts without the page's packages, which take a second to load.
     from services.station.opening import open_page  # noqa: PLC0415
 
@@ -288,8 +285,7 @@ class StationService:
 
     def _page_view(self, now_ns: int, view: View) -> PageView:
         """What the page shows now."""
-        ears = self._ears
-        robot = ears.robot.latest()
+        ears, robot = self._ears, self._ears.robot.latest()
         return replace(
             self._words,
             safety=view.safety,
