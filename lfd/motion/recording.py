@@ -22,6 +22,7 @@ def demonstration_from_arrays(
     orientations: ArrayLike | None = None,
     origin: ArrayLike | None = None,
     *,
+    opening: ArrayLike | None = None,
     provenance: Provenance = UNKNOWN,
     index: int | None = None,
 ) -> Demonstration:
@@ -34,6 +35,7 @@ def demonstration_from_arrays(
         condition: External state that the motion was right for (task parameter, context), shape (C,), or one number.
         orientations: Unit quaternions (w, x, y, z) in that frame, shape (T, 4); none where it did not turn.
         origin: Point that the motion is learnt relative to, shape (D,) [m]; zero where there is none.
+        opening: Of the gripper, shape (T,) [m]; None where it takes no part.
         provenance: Whose it is.
         index: Of the motion among several, for the names of arrays in an error.
 
@@ -47,11 +49,12 @@ def demonstration_from_arrays(
         TooFewPoints: There are fewer than two samples.
         TimesNotIncreasing: Two samples are out of order or have one time.
         NotUnitQuaternion: An orientation is not a unit quaternion.
+        OutOfRange: An opening is negative.
     """
     of = "" if index is None else f"[{index}]"
     path = _with_three_axes(f"positions{of}", positions)
     turns = np.tile(IDENTITY, (len(path), 1)) if orientations is None else orientations
-    trajectory = from_samples(times, path, turns, max(len(path), 2), index=index)
+    trajectory = from_samples(times, path, turns, max(len(path), 2), opening, index=index)
     place = _point(f"origin{of}", np.zeros(AXES) if origin is None else origin)
     return Demonstration(trajectory, place, checked_condition(condition, f"condition{of}"), provenance)
 
@@ -63,6 +66,7 @@ def demonstrations_from_arrays(
     orientations: ArrayLike | Sequence[ArrayLike] | None = None,
     origins: ArrayLike | None = None,
     *,
+    openings: ArrayLike | Sequence[ArrayLike] | None = None,
     provenance: Provenance = UNKNOWN,
 ) -> list[Demonstration]:
     """Demonstrations of N recorded motions, each with as many samples as it has.
@@ -75,6 +79,7 @@ def demonstrations_from_arrays(
         conditions: Shape (N,) or (N, C).
         orientations: Shape (N, T, 4).
         origins: Shape (N, D), or (D,) where there is one for all [m].
+        openings: Shape (N, T) [m]; None where the gripper takes no part.
         provenance: Whose they are.
 
     Raises:
@@ -88,14 +93,17 @@ def demonstrations_from_arrays(
         raise TooFewDemonstrations
     all_times = [np.asarray(times)] * N if _depth(times) == 1 else _each("times", times)
     turns = [None] * N if orientations is None else _each("orientations", orientations)
+    grasps = [None] * N if openings is None else _each("openings", openings)
     shared = origins is None or _depth(origins) == 1
     places = [origins] * N if shared or origins is None else _each("origins", origins)
-    for name, values in (("conditions", given), ("times", all_times), ("orientations", turns), ("origins", places)):
+    several = {"conditions": given, "times": all_times, "orientations": turns, "origins": places, "openings": grasps}
+    for name, values in several.items():
         if len(values) != N:
             raise WrongShape(name, f"({N}, ...), as there are {N} motions", (len(values),))
+    motions = zip(all_times, paths, given, turns, places, grasps, strict=True)
     made = [
-        demonstration_from_arrays(t, path, s, turn, place, provenance=provenance, index=i)
-        for i, (t, path, s, turn, place) in enumerate(zip(all_times, paths, given, turns, places, strict=True))
+        demonstration_from_arrays(t, path, s, turn, place, opening=grasp, provenance=provenance, index=i)
+        for i, (t, path, s, turn, place, grasp) in enumerate(motions)
     ]
     for i, one in enumerate(made):
         if len(one.condition) != len(made[0].condition):

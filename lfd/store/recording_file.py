@@ -12,14 +12,14 @@ from lfd.exceptions import TableError
 from lfd.motion.demonstration import Demonstration
 from lfd.motion.provenance import UNKNOWN, Provenance
 from lfd.motion.recording import demonstration_from_arrays
-from lfd.store.poses import ORIENTATION, POSITION, UNITS, orientations_of
+from lfd.store.poses import OPENING, ORIENTATION, POSITION, UNITS, opening_of, orientations_of
 from lfd.store.spreadsheet import Row, Table, read_table
 
 LARGEST_M = 10.0  # [m] from the origin that a motion is thought to lead
 LARGEST_S = 600.0  # [s] that it is thought to take
 LARGEST_BYTES = 1 << 26
 
-_OPTIONAL = ("y", "z", *ORIENTATION)
+_OPTIONAL = ("y", "z", *ORIENTATION, OPENING)
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,12 +31,14 @@ class Recording:
         positions: Shape (T, D), D from 1 to 3: as many axes as the file names [m].
         orientations: Unit quaternions (w, x, y, z), shape (T, 4); None where the file names none.
         others: Further columns that were asked for, in the units of the file, shape (T, C).
+        opening: Of the gripper, shape (T,) [m]; None where the file does not say it.
     """
 
     times: Array
     positions: Array
     orientations: Array | None
     others: Array
+    opening: Array | None = None
 
 
 def read_recording(
@@ -44,7 +46,8 @@ def read_recording(
 ) -> Recording:
     """Read a file whose first line names the columns t [s], x [m] and, where there are any, y, z, qw, qx, qy and qz.
 
-    Whatever separates the cells, marks the decimals and encodes the letters; see `read_table`.
+    It may name opening, too, the gripper's [m]. Whatever separates the cells, marks the decimals and encodes the
+    letters; see `read_table`.
 
     Args:
         path: The file.
@@ -54,8 +57,8 @@ def read_recording(
 
     Raises:
         TableError: It cannot be read, a column is missing, a cell is not a number, two lines have one time or are out
-            of order, a quaternion is not of unit norm, a position or time is beyond what can be meant, or there are
-            fewer than two samples; says which, where, and what would be right.
+            of order, a quaternion is not of unit norm, a position, time or opening is beyond what can be meant, or
+            there are fewer than two samples; says which, where, and what would be right.
     """
     path = Path(path)
     names = [name.casefold() for name in others]
@@ -68,7 +71,7 @@ def read_recording(
     _check_times(table.rows, times, largest_s)
     _check_positions(table.rows, positions, axes, largest_m)
     turns = orientations_of(table) if "qw" in table.columns else None
-    return Recording(frozen(times), frozen(positions), turns, frozen(table.numbers(names)))
+    return Recording(frozen(times), frozen(positions), turns, frozen(table.numbers(names)), opening_of(table))
 
 
 def read_demonstration(
@@ -95,6 +98,7 @@ def read_demonstration(
         recording.others[0] if condition is None else condition,
         recording.orientations,
         origin,
+        opening=recording.opening,
         provenance=provenance,
     )
 

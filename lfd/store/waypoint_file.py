@@ -8,7 +8,7 @@ import numpy as np
 from lfd.arrays import Array, checked, frozen
 from lfd.exceptions import TableError
 from lfd.motion.waypoints import LEAST_WAYPOINTS
-from lfd.store.poses import POSITION, UNITS, orientations_of
+from lfd.store.poses import OPENING, POSITION, UNITS, opening_of, orientations_of
 from lfd.store.spreadsheet import Row, read_table
 
 MOST_WAYPOINTS = 1000
@@ -26,10 +26,12 @@ class Waypoints:
     Attributes:
         positions: Shape (k, 3) [m].
         orientations: Unit quaternions (w, x, y, z), shape (k, 4).
+        opening: Of the gripper from each of them on, shape (k,) [m]; None where the file does not say it.
     """
 
     positions: Array
     orientations: Array
+    opening: Array | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +54,9 @@ class Surroundings:
 
 
 def read_waypoints(path: Path, surroundings: Surroundings) -> Waypoints:
-    """Read a file whose first line names the columns x, y, z [m], qw, qx, qy and qz; see `read_table`.
+    """Read a file whose first line names the columns x, y, z [m], qw, qx, qy and qz, and may name opening [m].
+
+    See `read_table`.
 
     Args:
         path: The file.
@@ -63,7 +67,7 @@ def read_waypoints(path: Path, surroundings: Surroundings) -> Waypoints:
             position is out of reach, there are too few or too many rows, all are the same, or the last one is far from
             the target; says which and where.
     """
-    table = read_table(path, UNITS)
+    table = read_table(path, UNITS, [OPENING])
     rows = table.rows
     if not LEAST_WAYPOINTS <= len(rows) <= MOST_WAYPOINTS:
         count = f"at least {LEAST_WAYPOINTS}" if len(rows) < LEAST_WAYPOINTS else f"at most {MOST_WAYPOINTS}"
@@ -73,7 +77,7 @@ def read_waypoints(path: Path, surroundings: Surroundings) -> Waypoints:
     if float(np.max(np.ptp(positions, axis=0))) < STILL:
         raise TableError(path, f"all {len(rows)} waypoints are the same point: that is no motion")
     _check_end(rows[-1], positions, surroundings.target)
-    return Waypoints(frozen(positions), orientations)
+    return Waypoints(frozen(positions), orientations, opening_of(table))
 
 
 def _check_reach(rows: list[Row], positions: Array, surroundings: Surroundings) -> None:

@@ -59,6 +59,7 @@ from protocol.messages.values import (
     Reason,
     Text,
     Vector3,
+    Waypoint,
 )
 
 __all__ = [
@@ -129,6 +130,7 @@ __all__ = [
     "Vector3",
     "Verdict",
     "Way",
+    "Waypoint",
     "WorldState",
     "Yaw",
 ]

@@ -9,7 +9,7 @@ import msgspec
 
 from protocol.messages.model import MOST_WAYPOINTS, Method, Origin
 from protocol.messages.state import Mode
-from protocol.messages.values import Condition, Count, Fraction, Message, Name, Part, Pose, Real, Text, Vector3
+from protocol.messages.values import Condition, Count, Fraction, Message, Name, Part, Real, Text, Vector3, Waypoint
 
 
 class Light(enum.Enum):
@@ -72,7 +72,8 @@ class TeachingState(Message, frozen=True, kw_only=True):
         actions: what the operator may do now, by name.
         recommended: which of them brings the run on; empty where there is nothing to choose.
         method: by which the operator teaches.
-        waypoints: poses of the grasping frame that were stored for a motion through them, in order.
+        waypoints: poses of the grasping frame that were stored for a motion through them, in order, with the opening of
+            the gripper that each was stored with.
         basis: what the next refinement starts from: a prediction, or what the previous one came to.
         pace: at which motions go; 1 is their own.
         part: of the next refinement in which corrections count, or of the one that runs.
@@ -95,7 +96,7 @@ class TeachingState(Message, frozen=True, kw_only=True):
     actions: Annotated[tuple[Name, ...], msgspec.Meta(max_length=32)] = ()
     recommended: Name = ""
     method: Method = Method.REFINE
-    waypoints: Annotated[tuple[Pose, ...], msgspec.Meta(max_length=MOST_WAYPOINTS)] = ()
+    waypoints: Annotated[tuple[Waypoint, ...], msgspec.Meta(max_length=MOST_WAYPOINTS)] = ()
     basis: Origin = Origin.MODEL
     pace: Real = 1.0
     part: Part = Part()

@@ -61,6 +61,16 @@ class Pose(msgspec.Struct, frozen=True):
             raise ValueError(f"orientation has norm {norm:.6g}, not 1")
 
 
+class Waypoint(Pose, frozen=True):
+    """A pose that a motion is to pass, and what the gripper does from there on.
+
+    Attributes:
+        opening: between the gripper's fingers [m]; None where it takes no part.
+    """
+
+    opening: Annotated[float, msgspec.Meta(ge=0.0, le=1.0)] | None = None
+
+
 class Motion(msgspec.Struct, frozen=True):
     """A trajectory of the grasping frame in the base frame, uniform in time.
 

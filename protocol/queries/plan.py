@@ -6,7 +6,7 @@ from typing import Annotated
 
 import msgspec
 
-from protocol.messages import MOST_WAYPOINTS, Duration, Motion, Name, Origin, Pose, Vector3
+from protocol.messages import MOST_WAYPOINTS, Duration, Motion, Name, Origin, Vector3, Waypoint
 
 
 class Plan(msgspec.Struct, frozen=True):
@@ -17,8 +17,10 @@ class Plan(msgspec.Struct, frozen=True):
         object_position: that it leads to, base frame [m].
         scene: in which it was shown.
         duration: of the motion [s].
-        start: pose of the grasping frame from where it leads to its first waypoint; None to begin there.
-        waypoints: poses of the grasping frame, at least three.
+        start: pose of the grasping frame from where it leads to its first waypoint, with the gripper's opening there;
+            None to begin at the first waypoint.
+        waypoints: poses of the grasping frame, at least three; all with an opening of the gripper, or none. It changes
+            at once where a waypoint is reached, and the motion stands there meanwhile.
         motion: as it was shown, in the base frame.
     """
 
@@ -26,6 +28,6 @@ class Plan(msgspec.Struct, frozen=True):
     object_position: Vector3
     scene: Name
     duration: Duration
-    start: Pose | None = None
-    waypoints: Annotated[tuple[Pose, ...], msgspec.Meta(max_length=MOST_WAYPOINTS)] = ()
+    start: Waypoint | None = None
+    waypoints: Annotated[tuple[Waypoint, ...], msgspec.Meta(max_length=MOST_WAYPOINTS)] = ()
     motion: Motion | None = None

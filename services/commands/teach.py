@@ -128,7 +128,7 @@ def teach_waypoints(configuration: Configuration, file: Path, object_position: V
     target, reach = np.array(object_position), scene.robot.reach
     scene.check_place(target, scene.margin)
     waypoints = read_waypoints(file, Surroundings(np.array(reach.lower), np.array(reach.upper), target))
-    taught = through_waypoints(waypoints.positions, waypoints.orientations, duration)
+    taught = through_waypoints(waypoints.positions, waypoints.orientations, duration, opening=waypoints.opening)
     motion = motion_to_wire(taught.positions, taught.orientations, taught.duration, taught.opening)
     with model_process(configuration, "teach") as model:
         before = _held(model, scene)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 from lfd.motion.resampling import resample
 from lfd.motion.trajectory import PREDICTION_POINTS, Trajectory
 from lfd.motion.waypoints import LEAST_WAYPOINTS, Passing, passed_at, through_waypoints
-from protocol.messages import Origin, Pose
+from protocol.messages import Origin, Waypoint
 from protocol.queries import Plan
 from services.bus.arrays import motion_from_wire
 from services.model.skill import check_duration
@@ -70,14 +71,26 @@ def _through(scene: AnyScene, request: Plan) -> Planned:
         raise NothingPlanned(f"{len(positions)} waypoint(s) make no motion: store at least {LEAST_WAYPOINTS}")
     for number, position in enumerate(positions, 1):
         scene.robot.check(f"waypoint {number} at", position[None])
-    led = 0
-    if request.start is not None:
-        start, turned = _poses((request.start,))
-        if np.linalg.norm(start[0] - positions[0]) > ALREADY_THERE:
-            positions, orientations = np.concatenate([start, positions]), np.concatenate([turned, orientations])
-            led = 1
-    motion = through_waypoints(positions, orientations, request.duration, PREDICTION_POINTS, Passing.CENTRIPETAL)
-    return Planned(motion, tuple(passed_at(positions, orientations, Passing.CENTRIPETAL)[led:].tolist()))
+    waypoints, led = request.waypoints, 0
+    if request.start is not None and math.dist(request.start.position, waypoints[0].position) > ALREADY_THERE:
+        waypoints, led = (request.start, *waypoints), 1
+        positions, orientations = _poses(waypoints)
+    opening, duration = _openings(waypoints), request.duration
+    motion = through_waypoints(
+        positions, orientations, duration, PREDICTION_POINTS, Passing.CENTRIPETAL, opening=opening
+    )
+    passed = passed_at(positions, orientations, Passing.CENTRIPETAL, opening=opening, duration=duration)
+    return Planned(motion, tuple(passed[led:].tolist()))
+
+
+def _openings(waypoints: tuple[Waypoint, ...]) -> list[float] | None:
+    """Of the gripper from each waypoint on [m]; None where it takes no part."""
+    openings = [waypoint.opening for waypoint in waypoints if waypoint.opening is not None]
+    if openings and len(openings) < len(waypoints):
+        raise NothingPlanned(
+            "some waypoints have an opening of the gripper and some have none: give it to all, or to none"
+        )
+    return openings or None
 
 
 def _shown(request: Plan) -> Trajectory:
@@ -87,7 +100,7 @@ def _shown(request: Plan) -> Trajectory:
     return resample(motion, _DENSEST) if motion.n_points > _DENSEST else motion
 
 
-def _poses(poses: tuple[Pose, ...]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _poses(poses: tuple[Waypoint, ...]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     positions = np.array([pose.position for pose in poses], dtype=np.float64).reshape(-1, 3)
     orientations = np.array([pose.orientation for pose in poses], dtype=np.float64).reshape(-1, 4)
     return positions, orientations / np.linalg.norm(orientations, axis=1, keepdims=True)

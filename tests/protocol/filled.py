@@ -6,10 +6,11 @@ import typing
 
 import msgspec
 
-from protocol.messages import Array, Motion, Part, Pose, Way
+from protocol.messages import Array, Motion, Part, Pose, Way, Waypoint
 
 EXAMPLES = {
     Pose: Pose((0.1, 0.2, 0.3), (1.0, 0.0, 0.0, 0.0)),
+    Waypoint: Waypoint((0.1, 0.2, 0.3), (1.0, 0.0, 0.0, 0.0), 0.05),
     Array: Array("<f8", (1, 2), b"\0" * 16),
     Motion: Motion(Array("<f8", (2, 3), b"\0" * 48), Array("<f8", (2, 4), b"\0" * 64), 1.0),
     Part: Part(0.25, 0.75),

@@ -9,11 +9,12 @@ import pytest
 
 from protocol import messages, queries, topics
 from protocol.codec import decode, decode_reply, encode, encode_reply
-from protocol.messages import Array, Motion, Part, Pose, Way
+from protocol.messages import Array, Motion, Part, Pose, Way, Waypoint
 
 WIDEST = "\U0001f916"  # four bytes, the most that a character takes
 TINY = {
     Pose: Pose((1e9, 1e9, 1e9), (1.0, 0.0, 0.0, 0.0)),
+    Waypoint: Waypoint((1e9, 1e9, 1e9), (1.0, 0.0, 0.0, 0.0), 0.123456789),
     Array: Array("<f8", (1, 2), b"\0" * 16),
     Motion: Motion(Array("<f8", (2, 3), b"\0" * 48), Array("<f8", (2, 4), b"\0" * 64), 1.0),
     Part: Part(0.25, 0.75),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from protocol.messages import MOST_WAYPOINTS, Method, Motion, Origin, Pose
+from protocol.messages import MOST_WAYPOINTS, Method, Motion, Origin, Waypoint
 from services.station.press import Press
 
 LEAST_WAYPOINTS = 3
@@ -29,7 +29,7 @@ class Approach:
     """
 
     method: Method = Method.REFINE
-    waypoints: tuple[Pose, ...] = ()
+    waypoints: tuple[Waypoint, ...] = ()
     basis: Origin = Origin.MODEL
     previous: Motion | None = None
 
@@ -51,11 +51,11 @@ class Approach:
         """At another place, where nothing was shown yet."""
         return Approach(self.method)
 
-    def stored(self, here: Pose, number: str) -> Approach:
+    def stored(self, here: Waypoint, number: str) -> Approach:
         """With a waypoint more, or one of them moved, here.
 
         Args:
-            here: pose of the grasping frame.
+            here: pose of the grasping frame, and what its gripper does.
             number: of the waypoint that is moved, from 1; empty to add one.
         """
         if not number:
@@ -89,13 +89,13 @@ class Approach:
         return int(number) - 1 if known else None
 
 
-def edited(approach: Approach, presses: tuple[Press, ...], here: Pose | None) -> Approach:
+def edited(approach: Approach, presses: tuple[Press, ...], here: Waypoint | None) -> Approach:
     """With what was pressed about its waypoints, in order.
 
     Args:
         approach: as it was.
         presses: of the operator, those about something else included.
-        here: pose at which a waypoint is stored; None where the robot is not heard, or may not be led now.
+        here: pose with which a waypoint is stored; None where the robot is not heard, or may not be led now.
     """
     for press in presses:
         match press.action:

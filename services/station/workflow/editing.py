@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from protocol.messages import Method, Mode, Pose
+from protocol.messages import Method, Mode, Waypoint
 from services.station.workflow.action import Action
 from services.station.workflow.approach import LEAST_WAYPOINTS, edited
 from services.station.workflow.state import Phase, Workflow
@@ -35,7 +35,14 @@ def lacking(state: Workflow) -> int:
     return max(0, LEAST_WAYPOINTS - len(state.approach.waypoints))
 
 
-def _here(state: Workflow, view: View) -> Pose | None:
-    """Where a waypoint is stored: where the hand has led the robot, or left it."""
-    there = state.led and state.mode is Mode.TEACH
-    return view.robot.measured if view.robot is not None and there else None
+def _here(state: Workflow, view: View) -> Waypoint | None:
+    """What is stored: where the hand has led the robot, or left it, and to what opening the gripper was told to go.
+
+    What was measured would hold nothing: fingers that are to press on a thing are told to go on, to where it is.
+    """
+    there, robot = state.led and state.mode is Mode.TEACH, view.robot
+    if robot is None or not there:
+        return None
+    grasps = view.scene is not None and view.scene.wide_open > 0.0
+    opening = max(robot.opening_reference, 0.0) if grasps else None
+    return Waypoint(robot.measured.position, robot.measured.orientation, opening)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from protocol import queries
-from protocol.messages import Motion, Origin
+from protocol.messages import Motion, Origin, SceneState, Waypoint
 from protocol.queries import Plan
 from services.station.workflow.action import Action
 from services.station.workflow.asking import ask, not_done, to
@@ -58,10 +58,15 @@ def _plan(state: Workflow, view: View, settings: Settings) -> Plan:
         state.looked or ORIGIN,
         scene.name if scene is not None else "",
         settings.duration_s(state.mode),
-        start=scene.start if scene is not None and through else None,
+        start=_start(scene) if scene is not None and through else None,
         waypoints=state.approach.waypoints if through else (),
         motion=_motion(state),
     )
+
+
+def _start(scene: SceneState) -> Waypoint:
+    """Where motions start, with the gripper wide open where it takes part."""
+    return Waypoint(scene.start.position, scene.start.orientation, scene.wide_open or None)
 
 
 def _motion(state: Workflow) -> Motion | None:

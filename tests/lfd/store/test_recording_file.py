@@ -76,6 +76,20 @@ def test_a_demonstration_from_a_file_is_the_one_from_its_arrays(write):
         assert read.provenance == whose
 
 
+def test_how_far_the_gripper_is_open_is_a_column_that_may_be_there(write):
+    rows = ("0.0,0.1,0.08", "0.1,0.2,0.08", "0.2,0.3,0")
+    read = read_demonstration(write("t,x,opening [m]", *rows), 7)
+    np.testing.assert_array_equal(read.trajectory.opening, [0.08, 0.08, 0.0])
+    assert read_demonstration(write("t,x", "0,1", "1,2"), 7).trajectory.opening is None
+
+
+@pytest.mark.parametrize(("cell", "said"), [("80", "write metres, 0.08"), ("-0.01", "0 is closed"), ("open", "number")])
+def test_what_is_no_opening_of_a_gripper_is_named(write, cell, said):
+    with pytest.raises(TableError, match=said) as caught:
+        read_recording(write("t,x,opening", "0,0.1,0", f"1,0.2,{cell}"))
+    assert (caught.value.line, caught.value.column) == (3, "opening")
+
+
 def test_a_demonstration_without_a_condition_is_refused(write):
     with pytest.raises(LfdError, match="condition"):
         read_demonstration(write(HEADER, *ROWS))

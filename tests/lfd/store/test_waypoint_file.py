@@ -29,6 +29,12 @@ def test_rows_become_positions_and_quaternions_in_their_order(write):
     np.testing.assert_array_equal(waypoints.orientations, [[1, 0, 0, 0], [0.8, 0, 0.6, 0], [0, 0, 1, 0]])
 
 
+def test_what_the_gripper_does_from_each_on_is_a_column_that_may_be_there(write):
+    rows = [f"{row},{opening}" for row, opening in zip(ROWS, ("0.08", "0.08", "0"), strict=True)]
+    np.testing.assert_array_equal(read_waypoints(write(f"{HEADER},opening", *rows), AROUND).opening, [0.08, 0.08, 0.0])
+    assert read_waypoints(write(HEADER, *ROWS), AROUND).opening is None
+
+
 def test_columns_are_found_by_name_among_others_however_they_are_spaced(write):
     plain = read_waypoints(write(HEADER, *ROWS), AROUND)
     cells = [row.split(",") for row in ROWS]

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from protocol import queries, topics
-from protocol.messages import Origin, Pose, Purpose
+from protocol.messages import Origin, Pose, Purpose, Waypoint
 from protocol.queries import Plan, Predicted, Refused
 from services.bus.arrays import from_wire, motion_from_wire, motion_to_wire
 from tests.services.model.rig import OBJECT, START, positions
@@ -38,6 +38,34 @@ def test_a_plan_leads_from_the_start_through_the_waypoints_at_the_phases_that_it
         nearest = round(phase * (len(path) - 1))
         np.testing.assert_allclose(path[nearest], waypoint.position, atol=0.01)
         assert abs(orientations[nearest] @ waypoint.orientation) > 0.999
+
+
+def grasping(*openings):
+    return tuple(Waypoint(one.position, one.orientation, o) for one, o in zip(WAYPOINTS, openings, strict=True))
+
+
+def test_the_gripper_closes_where_its_waypoint_is_reached_and_the_motion_stands_there(rig):
+    start = Waypoint(START.position, START.orientation, 0.08)
+    planned = plan(rig, waypoints=grasping(0.08, 0.0, 0.0), start=start).prediction
+    path, _, _, opening = motion_from_wire(planned.motion)
+    phases = np.linspace(0.0, 1.0, len(path))
+    closes = phases[np.argmax(opening < 0.04)]
+    assert closes == pytest.approx(planned.waypoints[1], abs=1.0 / 74)
+    assert set(opening) == {0.0, 0.08}
+    stands = (phases > closes) & (phases < closes + 0.08)
+    np.testing.assert_allclose(path[stands], np.tile(WAYPOINTS[1].position, (stands.sum(), 1)), atol=1e-4)
+
+
+def test_a_first_waypoint_that_closes_is_reached_open(rig):
+    start = Waypoint(START.position, START.orientation, 0.08)
+    planned = plan(rig, waypoints=grasping(0.0, 0.0, 0.0), start=start).prediction
+    assert motion_from_wire(planned.motion)[3][0] == 0.08
+
+
+def test_waypoints_of_which_some_have_an_opening_make_no_motion(rig):
+    refused = plan(rig, waypoints=grasping(0.08, None, 0.0))
+    assert isinstance(refused, Refused)
+    assert "give it to all" in refused.reason
 
 
 @pytest.mark.parametrize("start", [None, Pose((0.551, 0.0, 0.6), UPRIGHT)])

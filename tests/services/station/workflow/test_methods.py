@@ -2,10 +2,11 @@
 
 from dataclasses import replace
 
+import msgspec
 import pytest
 
 from protocol import queries
-from protocol.messages import Method, Mode, Origin, Purpose
+from protocol.messages import Method, Mode, Origin, Purpose, Waypoint
 from services.station.press import Press
 from services.station.workflow.action import Action
 from services.station.workflow.state import Phase
@@ -57,12 +58,27 @@ def test_the_motion_through_the_waypoints_is_shown_before_anything_moves():
     before = set(site.names())
     site.finish()
     (plan,) = site.requests(queries.PLAN)
-    assert (plan.origin, len(plan.waypoints), plan.start, plan.duration) == (Origin.WAYPOINTS, 3, POSE, 10.0)
+    start = Waypoint(POSE.position, POSE.orientation)
+    assert (plan.origin, len(plan.waypoints), plan.start, plan.duration) == (Origin.WAYPOINTS, 3, start, 10.0)
     assert site.state.prediction.origin is Origin.WAYPOINTS
     assert site.names().count("cmd/execute") == 0
     assert "model/add_demonstration" not in before | set(site.names())
     assert site.told.recommended == "execute"
     assert "3 waypoints" in site.told.text
+
+
+def test_where_the_gripper_takes_part_a_waypoint_is_stored_with_what_it_was_told_then():
+    site = Teaching(Method.WAYPOINTS)
+    site.sees(scene=msgspec.structs.replace(site.view.scene, wide_open=0.08))
+    site.lead()
+    for opening in (0.08, 0.0, 0.0):
+        site.robot(opening_reference=opening, opening=0.04)
+        site.store(0.5)
+    site.finish()
+    (plan,) = site.requests(queries.PLAN)
+    assert [waypoint.opening for waypoint in plan.waypoints] == [0.08, 0.0, 0.0]
+    assert plan.start.opening == 0.08
+    assert [waypoint.opening for waypoint in site.told.waypoints] == [0.08, 0.0, 0.0]
 
 
 def test_a_waypoint_out_of_reach_is_named_at_once_and_the_waypoints_can_be_changed():
