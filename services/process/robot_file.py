@@ -14,7 +14,7 @@ from services.process.exceptions import ConfigurationError
 from services.process.section import Positive, Section
 from services.process.written import read
 from sim.region import Region
-from sim.robots.gripper import Block, Gripper, Mount, two_fingers
+from sim.robots.gripper import Block, Finger, Gripper, Mount, two_fingers
 from sim.robots.robot import (
     FIELD_OF_VIEW,
     HEAD_CAMERA,
@@ -78,6 +78,16 @@ class BlockSection(Section, frozen=True):
     size: Vector
 
 
+class FingerSection(Section, frozen=True):
+    """A joint that opens and closes the gripper; see `Finger`."""
+
+    joint: str
+    closed: float
+    wide: float
+    effort: Positive = 20.0
+    armature: Annotated[float, msgspec.Meta(ge=0.0)] = 0.1
+
+
 class GripperSection(Section, frozen=True):
     """The gripper's frame, x forward and the fingers opening along y, and what is there.
 
@@ -90,6 +100,9 @@ class GripperSection(Section, frozen=True):
         opening: of it [m].
         camera: of the wrist camera, in its frame [m].
         blocks: how it fills space.
+        fingers: of the description's own gripper; without any it is rigid, wide open.
+        speed: of its opening [m/s].
+        jaw: link that does not move, which the finger closes upon.
     """
 
     link: str
@@ -100,6 +113,9 @@ class GripperSection(Section, frozen=True):
     opening: Positive = 0.08
     camera: Vector = (0.0, 0.0, -0.06)
     blocks: tuple[BlockSection, ...] = ()
+    fingers: tuple[FingerSection, ...] = ()
+    speed: Positive = 0.1
+    jaw: str = ""
 
 
 class CameraSection(MountSection, frozen=True):
@@ -203,7 +219,16 @@ def _gripper(said: GripperSection) -> Gripper:
     if said.two_fingers:
         return two_fingers(mount)
     blocks = tuple(Block(f"block_{n}", block.centre, block.size) for n, block in enumerate(said.blocks))
-    return Gripper(mount, blocks, said.grasp_distance, said.opening, said.camera)
+    return Gripper(
+        mount,
+        blocks,
+        said.grasp_distance,
+        said.opening,
+        said.camera,
+        fingers=tuple(Finger(**msgspec.structs.asdict(finger)) for finger in said.fingers),
+        speed=said.speed,
+        jaw=said.jaw,
+    )
 
 
 def _cameras(said: Mapping[str, CameraSection]) -> tuple[Camera, ...]:

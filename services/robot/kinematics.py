@@ -176,10 +176,11 @@ def _load(urdf: Path) -> tuple[pin.Model, pin.GeometryModel]:
 
 
 def _at_rest(model: pin.Model, robot: Manipulator) -> Array:
-    """Joint positions of the whole description, those that are held where they are held, shape (n,)."""
+    """Joint positions of the whole description, its gripper wide open, shape (n,)."""
     q: Array = pin.neutral(model)
-    for joint in robot.held:
-        q[model.joints[model.getJointId(joint.name)].idx_q] = joint.position
+    held = {joint.name: joint.position for joint in robot.held}
+    for name, position in (held | robot.gripper.positions(robot.gripper.opening)).items():
+        q[model.joints[model.getJointId(name)].idx_q] = position
     return q
 
 

@@ -53,6 +53,7 @@ def blueprint(eye: Eye, cameras: Sequence[str]) -> rrb.Blueprint:
                     _series("Turn", entities.CORRECTION_TURN),
                     _series("Commanded, measured", entities.SERIES_FOLLOWING),
                     _series("Joints", entities.JOINTS),
+                    _series("Gripper", entities.OPENING),
                     active_tab=0,
                 ),
                 rrb.Tabs(

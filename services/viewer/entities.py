@@ -49,6 +49,8 @@ LATENCY = "/series/latency/operator_to_robot"
 STAGES = "/series/latency/stages"
 """How long each stage takes from hand to eye, by its name in `services.bus.stages`."""
 JOINTS = "/series/joints"
+OPENING = "/series/opening"
+"""Of the gripper."""
 
 STATES_LOOP = "/states/loop"
 """What holds over a time between operator and robot, in words: a lane for each, shown in the order of their names."""

@@ -51,11 +51,12 @@ class Robot:
         if robot.joint_names != self._joint_names:
             self._joint_names = robot.joint_names
             series.log_joint_legend(self._run, robot.joint_names)
-        if self._changes.due("joints", tuple(round(value, 5) for value in robot.q), now_ns):
+        if self._changes.due("joints", tuple(round(value, 5) for value in (*robot.q, robot.opening)), now_ns):
             if self._model is not None:
-                self._model.move(robot.joint_names, robot.q)
+                self._model.move(robot.joint_names, robot.q, robot.opening)
             self._run.row(entities.GRASP, POSES, robot.measured)
         series.log_joints(self._run, robot.q)
+        series.log_opening(self._run, robot.opening_reference, robot.opening)
         series.log_following(self._run, robot.reference, robot.measured)
         series.log_correction(self._run, robot.offset, robot.turn)
         series.log_latency(self._run, robot.applied_latency)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from services.viewer import entities
 from services.viewer.run import Run
+from sim.robots.gripper import Gripper
 
 Floats = NDArray[np.float64]
 
@@ -25,10 +26,12 @@ class RobotModel:
     Args:
         urdf: its description.
         run: where it is drawn.
+        gripper: of it.
     """
 
-    def __init__(self, urdf: Path, run: Run) -> None:
+    def __init__(self, urdf: Path, run: Run, gripper: Gripper) -> None:
         self._run = run
+        self._gripper = gripper
         self._tree = rr.urdf.UrdfTree.from_file_path(
             urdf, entity_path_prefix=entities.ROBOT.removeprefix("/"), static_transform_entity_path=_LINKS
         )
@@ -40,19 +43,22 @@ class RobotModel:
         base = rr.Transform3D(parent_frame=f"tf#{entities.WORLD}", child_frame=self._tree.root_link().name)
         run.log_always(f"{entities.ROBOT}/base", base)
 
-    def move(self, names: Sequence[str], q: Sequence[float]) -> None:
+    def move(self, names: Sequence[str], q: Sequence[float], opening: float) -> None:
         """Put the joints where they are; those that the description does not have are left out.
 
         Args:
             names: of the joints.
             q: positions, in the order of `names` [rad, m].
+            opening: of the gripper [m].
         """
         if len(q) != len(names):
             return
-        if tuple(names) != self._joints.names:
-            self._joints = _Joints(self._tree, tuple(names))
+        fingers = self._gripper.positions(opening)
+        moving = (*names, *fingers)
+        if moving != self._joints.names:
+            self._joints = _Joints(self._tree, moving)
         if self._joints.rows:
-            self._run.row(_MOVING, self._joints, q)
+            self._run.row(_MOVING, self._joints, (*q, *fingers.values()))
 
 
 class _Joints:

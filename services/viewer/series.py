@@ -30,6 +30,7 @@ _LEGENDS = {
     entities.ORIENTATION_ERROR: ["angle [deg]"],
     entities.OBJECT_ERROR: ["distance [mm]"],
     entities.SELF_DISTANCE: ["distance [mm]"],
+    entities.OPENING: ["told [mm]", "measured [mm]"],
     entities.LATENCY: ["operator to robot [ms]"],
 }
 
@@ -38,6 +39,7 @@ _COLOURS = {
     entities.ORIENTATION_ERROR: palette.MANY,
     entities.OBJECT_ERROR: palette.MANY,
     entities.SELF_DISTANCE: palette.MANY,
+    entities.OPENING: palette.MANY,
     entities.LATENCY: palette.MANY,
 }
 """Where they are not those of the axes."""
@@ -60,6 +62,12 @@ def log_joints(run: Run, q: Sequence[float]) -> None:
     """Joint positions [rad, torso m]."""
     if q:
         run.row(entities.JOINTS, SCALARS, q)
+
+
+def log_opening(run: Run, told: float, measured: float) -> None:
+    """How far the gripper is open [m]; nothing of a robot without one."""
+    if told or measured:
+        run.row(entities.OPENING, SCALARS, _milli([told, measured]))
 
 
 def log_axes(run: Run, controller: str, axes: Sequence[float]) -> None:

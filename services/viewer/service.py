@@ -38,9 +38,11 @@ from services.viewer.web import WebServer
 from services.viewer.web_files import web_files
 from services.viewer.words import Words
 from sim.exceptions import SimError
+from sim.robots.catalogue import DEFAULT
 from sim.robots.description import prepare
 from sim.robots.robot import USUAL_CAMERAS
 from sim.tasks import AnyScene, described
+from sim.tasks.reaching import ReachingScene
 from sim.tasks.scene import Eye
 
 log = logging.getLogger(__name__)
@@ -246,7 +248,8 @@ def _rounded(pose: Pose) -> tuple[float, ...]:
 def _robot_model(stream: Run, known: AnyScene | None) -> RobotModel | None:
     """The robot's shape; a station without the description shows the rest all the same."""
     try:
-        return RobotModel((described(known) if known is not None else prepare()).urdf, stream)
+        arm = known.manipulator if isinstance(known, ReachingScene) else DEFAULT
+        return RobotModel((described(known) if known is not None else prepare()).urdf, stream, arm.gripper)
     except (SimError, ImportError) as error:
         log.warning("the robot itself is not shown: %s", error)
         return None

@@ -112,7 +112,7 @@ def _key(source: Path, robot: Manipulator, base: Base) -> str:
     # Our own text belongs to the key: whoever edits the build gets a new description without a thought.
     modules = (inspect.getmodule(_build), meshes, gripper, inertia, shapes)
     texts = [source.read_bytes(), *(Path(str(module.__file__)).read_bytes() for module in modules if module)]
-    told = repr((robot.source, robot.joints, robot.held_names, robot.gripper, base)).encode()
+    told = repr((robot.source, robot.joints, robot.moving_names, robot.gripper, base)).encode()
     return hashlib.sha256(b"".join((*texts, told))).hexdigest()[:16]
 
 
@@ -140,12 +140,12 @@ def _build(source: Path, robot: Manipulator, base: Base, scratch: Path, target: 
 
 
 def _fix_what_is_not_moved(root: ET.Element, robot: Manipulator) -> None:
-    moving = {*robot.joint_names, *robot.held_names}
+    moving = robot.moving_names
     for joint in root.iterfind("joint"):
         if joint.attrib["name"] not in moving:
             joint.attrib["type"] = "fixed"
         for mimic in joint.findall("mimic"):
-            joint.remove(mimic)  # a joint that is held has a servo of its own
+            joint.remove(mimic)  # whoever moves a joint says so
 
 
 def _narrow_limits(root: ET.Element, robot: Manipulator) -> None:

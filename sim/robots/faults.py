@@ -75,10 +75,16 @@ def _of_the_tree(root: ET.Element) -> Iterator[str]:
 def _of_joints(root: ET.Element, robot: Manipulator) -> Iterator[str]:
     joints = {joint.attrib["name"]: joint for joint in root.iterfind("joint")}
     movable = [name for name, joint in joints.items() if joint.attrib.get("type") in (*_TURNS, _SLIDES)]
-    for name in (*robot.joint_names, *robot.held_names):
+    made = [block.joint for block in robot.gripper.blocks] if robot.gripper.made else []
+    named = dict.fromkeys((*robot.joint_names, *robot.held_names), "joint")
+    named |= {name: "the gripper's finger joint" for name in robot.gripper.finger_names if name not in made}
+    for name, kind in named.items():
         if name not in movable:
             what = "is fixed" if name in joints else "is not in the description"
-            yield f"joint {name} {what}{_instead(name, movable)}"
+            yield f"{kind} {name} {what}{_instead(name, movable)}"
+    for finger in robot.gripper.fingers:
+        if finger.closed == finger.wide:
+            yield f"the gripper's finger joint {finger.joint} does not move: give it two positions, closed and wide"
     for said in robot.joints:
         if said.name in movable:
             yield from _of_limits(joints[said.name], said)
@@ -107,7 +113,7 @@ def _number(written: dict[str, str], key: str) -> float | None:
 
 def _of_frames(root: ET.Element, robot: Manipulator) -> Iterator[str]:
     links = _links(root)
-    named = {"the gripper": robot.gripper.mount.link}
+    named = {"the gripper": robot.gripper.mount.link, "the gripper's jaw": robot.gripper.jaw}
     named |= {f"camera {camera.name}": camera.mount.link for camera in robot.cameras}
     made = [block.name for block in robot.gripper.blocks] if robot.gripper.made else []
     for what, link in named.items():

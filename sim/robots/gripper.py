@@ -1,4 +1,4 @@
-"""The gripper: its frames, how it fills space, and one made of boxes for arms that come without.
+"""The gripper: its frames, its fingers, how it fills space, and one made of boxes for arms that come without.
 
 In the gripper's frame x points forward, and the fingers open along y; with the usual roll of 180 degrees -z points up,
 which is where the wrist camera sits.
@@ -51,6 +51,8 @@ class Block:
         size: Full edge lengths [m].
         mass: [kg].
         colour: Name of a material of the description.
+        joint: On which it slides outwards along y, to where it is said to be from where the gripper is closed; a part
+            that does not move has none.
     """
 
     name: str
@@ -58,6 +60,34 @@ class Block:
     size: Vector
     mass: float = 0.05
     colour: str = "Grey"
+    joint: str = ""
+
+
+@dataclass(frozen=True)
+class Finger:
+    """A joint that moves a finger; its position is linear in the gripper's opening [m, or rad where it turns].
+
+    Attributes:
+        joint: Its name in the description.
+        closed: Position at which the gripper is closed.
+        wide: Position at which it is wide open.
+        effort: With which it presses at most [N, or N m].
+        armature: Inertia of motor and gear, as the joint feels it [kg, or kg m^2].
+    """
+
+    joint: str
+    closed: float
+    wide: float
+    effort: float
+    armature: float = 0.1
+
+    def position(self, share: float) -> float:
+        """Return where it is at a share of the gripper's opening."""
+        return self.closed + share * (self.wide - self.closed)
+
+    def share(self, position: float) -> float:
+        """Return the share of the gripper's opening at which it is at a position."""
+        return (position - self.closed) / (self.wide - self.closed)
 
 
 @dataclass(frozen=True)
@@ -69,6 +99,9 @@ class Gripper:
         blocks: How it fills space, in its frame: what goes ahead and may touch something.
         grasp_distance: From its frame to the grasping frame, along x [m].
         opening: Between the open fingers [m].
+        fingers: That open and close it together; it is rigid, wide open, where there are none.
+        speed: Of the opening, as it changes where nothing is in the way [m/s].
+        jaw: Link that does not move and that a finger closes upon; empty where fingers close upon one another.
         camera: Of the wrist camera, in its frame [m].
         made: It is made of the blocks; else the description has it, and they only tell how large it is.
     """
@@ -79,15 +112,33 @@ class Gripper:
     opening: float
     camera: Vector
     made: bool = False
+    fingers: tuple[Finger, ...] = ()
+    speed: float = 0.1
+    jaw: str = ""
+
+    @property
+    def finger_names(self) -> tuple[str, ...]:
+        """Of the joints that open and close it."""
+        return tuple(finger.joint for finger in self.fingers)
+
+    def positions(self, opening: float) -> dict[str, float]:
+        """Return where its fingers are, by their joints' names [m, rad].
+
+        Args:
+            opening: Between them [m].
+        """
+        return {finger.joint: finger.position(opening / self.opening) for finger in self.fingers}
 
 
 _FINGER = (0.098, 0.012, 0.022)
 _FINGER_Y = (OPENING + _FINGER[1]) / 2
+_LEFT, _RIGHT = "gripper_left_finger_joint", "gripper_right_finger_joint"
+_EFFORT = 20.0  # [N] of each of its fingers
 
 BLOCKS = (
     Block("gripper_palm_link", (0.033, 0.0, 0.0), (0.054, 0.128, 0.05), 0.5, "FlatBlack"),
-    Block("gripper_left_finger_link", (0.108, _FINGER_Y, 0.0), _FINGER, 0.06, "Grey"),
-    Block("gripper_right_finger_link", (0.108, -_FINGER_Y, 0.0), _FINGER, 0.06, "Grey"),
+    Block("gripper_left_finger_link", (0.108, _FINGER_Y, 0.0), _FINGER, 0.06, "Grey", _LEFT),
+    Block("gripper_right_finger_link", (0.108, -_FINGER_Y, 0.0), _FINGER, 0.06, "Grey", _RIGHT),
     Block("wrist_camera_link", (0.03, 0.0, -0.041), (0.025, 0.06, 0.022), 0.05, "DarkGrey"),
 )
 
@@ -100,16 +151,17 @@ COLOURS = {"FlatBlack": "0.1 0.1 0.1 1", "Grey": "0.7 0.7 0.7 1.0", "DarkGrey": 
 
 
 def two_fingers(mount: Mount) -> Gripper:
-    """The gripper of boxes: two fingers, open, rigid.
+    """The gripper of boxes: two fingers that close upon one another.
 
     Args:
         mount: Where it is put on an arm.
     """
-    return Gripper(mount, BLOCKS, GRASP_DISTANCE, OPENING, _CAMERA_POSITION, made=True)
+    fingers = tuple(Finger(joint, 0.0, OPENING / 2, _EFFORT) for joint in (_LEFT, _RIGHT))
+    return Gripper(mount, BLOCKS, GRASP_DISTANCE, OPENING, _CAMERA_POSITION, made=True, fingers=fingers)
 
 
 def gripper_urdf(gripper: Gripper, materials: Iterable[str]) -> str:
-    """Return the gripper's links, frames and joints as URDF elements, each hung on by a fixed joint.
+    """Return the gripper's links, frames and joints as URDF elements.
 
     Args:
         gripper: What to describe.
@@ -123,22 +175,35 @@ def gripper_urdf(gripper: Gripper, materials: Iterable[str]) -> str:
     if gripper.made:
         colours = {block.colour for block in gripper.blocks} - set(materials)
         parts += [f'<material name="{name}"><color rgba="{COLOURS[name]}"/></material>' for name in sorted(colours)]
-        parts += [_block_urdf(link, block) for block in gripper.blocks]
+        parts += [_block_urdf(link, block, gripper.opening) for block in gripper.blocks]
     parts.append(frame_urdf(GRASPING_FRAME, Mount(link, (gripper.grasp_distance, 0.0, 0.0))))
     parts.append(frame_urdf(WRIST_CAMERA_FRAME, Mount(link, gripper.camera, _CAMERA_RPY)))
     return "".join(parts)
 
 
-def _block_urdf(link: str, block: Block) -> str:
+def _block_urdf(link: str, block: Block, opening: float) -> str:
     x, y, z = block.size
+    joint = fixed_urdf(block.name, Mount(link, block.centre))
+    if block.joint:
+        joint = _finger_urdf(link, block, opening / 2)
     ixx, iyy, izz = (block.mass / 12 * s for s in (y * y + z * z, x * x + z * z, x * x + y * y))
     shape = f'<geometry><box size="{x} {y} {z}"/></geometry>'
     return (
         f'<link name="{block.name}">'
         f'<inertial><mass value="{block.mass}"/>'
         f'<inertia ixx="{ixx}" ixy="0" ixz="0" iyy="{iyy}" iyz="0" izz="{izz}"/></inertial>'
-        f'<visual>{shape}<material name="{block.colour}"/></visual><collision>{shape}</collision></link>'
-        + fixed_urdf(block.name, Mount(link, block.centre))
+        f'<visual>{shape}<material name="{block.colour}"/></visual><collision>{shape}</collision></link>' + joint
+    )
+
+
+def _finger_urdf(link: str, block: Block, way: float) -> str:
+    """The joint of a finger, which is where the block says when it has gone so far [m]."""
+    outwards = math.copysign(1.0, block.centre[1])
+    x, y, z = block.centre
+    return (
+        f'<joint name="{block.joint}" type="prismatic"><parent link="{link}"/><child link="{block.name}"/>'
+        f'<origin xyz="{x} {y - outwards * way} {z}"/><axis xyz="0 {outwards} 0"/>'
+        f'<limit lower="0" upper="{way}" velocity="1" effort="0"/></joint>'
     )
 
 

@@ -54,7 +54,7 @@ class Joint:
 
 @dataclass(frozen=True)
 class HeldJoint:
-    """A joint that moves and is not commanded: a head's, a finger's. Its servo holds it.
+    """A joint that moves and is not commanded: a head's. Its servo holds it.
 
     Attributes:
         name: In the description.
@@ -214,10 +214,24 @@ class Manipulator(Robot):
         """Of the joints that are held."""
         return tuple(joint.name for joint in self.held)
 
+    @cached_property
+    def moving_names(self) -> tuple[str, ...]:
+        """Of all joints that are not rigid: commanded, held, and the gripper's."""
+        return (*self.joint_names, *self.held_names, *self.gripper.finger_names)
+
     @property
     def servos(self) -> tuple[Joint | HeldJoint, ...]:
-        """All joints that a servo moves, those that are commanded first."""
+        """The arm's joints that a servo moves, those that are commanded first."""
         return (*self.joints, *self.held)
+
+    def positions(self, stance: Stance) -> dict[str, float]:
+        """Return where all joints are that are not rigid, the gripper wide open, by their names [rad, m].
+
+        Args:
+            stance: Everything said of it, see `stance`.
+        """
+        arm = zip((*self.joint_names, *self.held_names), (*stance.posture, *stance.held), strict=True)
+        return dict(arm) | self.gripper.positions(self.gripper.opening)
 
     def stance(self, scene: str) -> Stance:
         """Return how it stands in a scene, everything said.

@@ -12,6 +12,7 @@ from sim.tasks import AnyScene
 from sim.tasks.particle import ParticleScene
 from sim.tasks.reaching import ReachingScene
 from sim.world.eyes import add_cameras
+from sim.world.grip import add_fingers
 from sim.world.particle import particle
 from sim.world.staging import (
     AFFINITY,
@@ -59,6 +60,7 @@ def _arm_and_object(scene: ReachingScene, description: RobotDescription) -> mujo
     add_boxes(spec, scene)
     add_meshes(spec, scene)
     add_things(spec, scene)
+    add_fingers(spec, scene.manipulator.gripper)
     return spec
 
 

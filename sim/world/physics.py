@@ -12,6 +12,7 @@ from sim.tasks.reaching import ReachingScene
 from sim.tasks.scene import NO_ROTATION
 from sim.world.assembly import TIMESTEP, assemble
 from sim.world.contacts import Contact, clearance, collisions, strongest
+from sim.world.grip import Grip
 from sim.world.staging import select
 from sim.world.things import OBJECT
 
@@ -73,6 +74,7 @@ class World:
         joints = [self._model.joint(name) for name in robot.joint_names]
         self._q = np.array([joint.qposadr[0] for joint in joints])
         self._qd = np.array([joint.dofadr[0] for joint in joints])
+        self._grip = Grip(self._model, robot.gripper)
         self._held = np.array([self._model.joint(name).qposadr[0] for name in robot.held_names], dtype=int)
         self._lag = np.array([joint.lag for joint in robot.joints])
         start = self._model.joint(OBJECT).qposadr[0]
@@ -102,8 +104,10 @@ class World:
         qpos[self._held] = self.scene.stance.held
         qpos[self._object] = [*object_position, *NO_ROTATION]
         self._data.ctrl[: len(self._q)] = qpos[self._q]
-        self._data.ctrl[len(self._q) :] = self.scene.stance.held
+        self._data.ctrl[len(self._q) : len(self._q) + len(self._held)] = self.scene.stance.held
+        self._grip.open(self._data)
         self._contact_force = np.zeros(3)
+        self._grasped = False
         self._look()
 
     def step(self, q_reference: Array, qd_reference: Array, opening: float) -> None:
@@ -115,9 +119,9 @@ class World:
         Args:
             q_reference: Joint positions, shape (m,) [m, rad].
             qd_reference: Joint velocities, shape (m,) [m/s, rad/s].
-            opening: That the gripper goes to [m]; its fingers are fixed, wide open.
+            opening: That the gripper goes to, by its force and at its speed [m].
         """
-        del opening
+        self._grasped = False
         found: list[Contact] = []
         for remaining in reversed(range(_STEPS)):
             q = self._data.qpos[self._q]
@@ -127,7 +131,9 @@ class World:
             free = np.minimum(np.maximum(2.0 - np.abs(error) / self._lag, 0.0), 1.0)
             pull = np.minimum(np.maximum(error, -self._lag), self._lag) + free * self._lead * qd_reference
             self._data.ctrl[: len(self._q)] = q + pull
+            self._grip.pull(self._data, opening)
             mujoco.mj_step(self._model, self._data)
+            self._grasped = self._grasped or self._grip.holds(self._data)
             found.extend(collisions(self._model, self._data))
         self._contact_force = sum((contact.push for contact in found), start=np.zeros(3)) / _STEPS
         # mj_step leaves poses and contacts one step behind the joints.
@@ -144,8 +150,8 @@ class World:
             object_orientation=pose[3:].copy(),
             contacts=self._contacts,
             contact_force=self._contact_force,
-            opening=self.scene.manipulator.gripper.opening,
-            grasped=False,
+            opening=self._grip.opening(self._data),
+            grasped=self._grasped,
         )
 
     @property
@@ -170,6 +176,7 @@ class World:
         self._data.qpos[:] = qpos
         self._data.qvel[:] = 0.0
         self._contact_force = np.zeros(3)
+        self._grasped = False
         self._look()
 
     def clearance(self, limit: float = 0.1) -> float:

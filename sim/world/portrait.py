@@ -66,8 +66,7 @@ def portrait(
         _add_dot(spec.worldbody, dot)
     model = spec.compile()
     data = mujoco.MjData(model)
-    held = (joint.position for joint in robot.held)
-    for name, position in zip((*robot.joint_names, *robot.held_names), (*robot.home, *held), strict=True):
+    for name, position in robot.positions(robot.stance("")).items():
         data.joint(name).qpos[0] = position
     mujoco.mj_forward(model, data)
     canvas = Canvas(model, width, height)

@@ -38,11 +38,13 @@ class Description:
         shapes: the meshes' numbers, little endian: vertices, three uint16 each, in steps from the mesh's corner; then
             triangles, three uint16 each, the first vertex of their mesh being 0; then normals, three int8 each.
         joints: names of what moves, in the order in which their positions are told.
+        gripper: whose fingers are among them; None of a robot that is a point.
     """
 
     words: bytes
     shapes: bytes
     joints: tuple[str, ...]
+    gripper: Gripper | None
 
 
 class _Part(msgspec.Struct, frozen=True, omit_defaults=True):
@@ -158,7 +160,8 @@ def described(
         links=tuple(_link(link, numbers, joints, paths) for link in links),
         meshes=tuple(_mesh(solid) for solid in solids),
     )
-    return Description(msgspec.json.encode(words), _shapes(solids), joints)
+    own = gripper if point is None else None
+    return Description(msgspec.json.encode(words), _shapes(solids), joints, own)
 
 
 def _gripper(gripper: Gripper) -> tuple[_Block, ...]:
@@ -171,8 +174,7 @@ def _gripper(gripper: Gripper) -> tuple[_Block, ...]:
 def _posture(scene: AnyScene | None) -> dict[str, float]:
     if not isinstance(scene, ReachingScene):
         return {}
-    arm, stance = scene.manipulator, scene.stance
-    return dict(zip((*arm.joint_names, *arm.held_names), (*stance.posture, *stance.held), strict=True))
+    return scene.manipulator.positions(scene.stance)
 
 
 def _link(link: Link, numbers: Mapping[str, int], joints: tuple[str, ...], paths: tuple[Path, ...]) -> _Link:

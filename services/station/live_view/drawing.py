@@ -10,6 +10,7 @@ from typing import Any
 import msgspec
 
 from protocol.messages import Box, ObjectPose, Origin, Pose, RobotState, Vector3
+from sim.robots.gripper import Gripper
 
 Point = tuple[float, ...]
 
@@ -115,7 +116,13 @@ class Drawing(msgspec.Struct, frozen=True):
         return {name: getattr(self, name) for name in self.__struct_fields__}
 
 
-def moment(robot: RobotState | None, seen: ObjectPose | None, force: Vector3, joints: tuple[str, ...]) -> Point:
+def moment(
+    robot: RobotState | None,
+    seen: ObjectPose | None,
+    force: Vector3,
+    joints: tuple[str, ...],
+    gripper: Gripper | None = None,
+) -> Point:
     """What moves; not a number where nothing is known.
 
     In order: position and orientation (scalar first) of the grasping frame and of the object as it is seen, the applied
@@ -127,10 +134,13 @@ def moment(robot: RobotState | None, seen: ObjectPose | None, force: Vector3, jo
         seen: the object.
         force: that the master renders [N].
         joints: names of those that are told, in order.
+        gripper: whose fingers are among them; None where nothing is known of it.
     """
     measured = _NOWHERE if robot is None else robot.measured
     thing = _NOWHERE if seen is None else seen.pose
     positions = {} if robot is None else dict(zip(robot.joint_names, robot.q, strict=False))
+    if robot is not None and gripper is not None:
+        positions |= gripper.positions(robot.opening)
     return (
         *measured.position,
         *measured.orientation,

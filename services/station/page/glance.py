@@ -3,11 +3,25 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import NamedTuple
 
 from services.station.live_view.drawing import Point, moment
 from services.station.page.layout import shared
 from services.station.page.values import Values
 from services.station.page.view import Board, Shown
+from sim.robots.gripper import Gripper
+
+
+class Moving(NamedTuple):
+    """What moves in the live view.
+
+    Attributes:
+        joints: their names.
+        gripper: whose fingers are among them; None where there is none.
+    """
+
+    joints: tuple[str, ...]
+    gripper: Gripper | None
 
 
 class Glance:
@@ -15,13 +29,13 @@ class Glance:
 
     Args:
         shown: the view.
-        joints: names of what moves in the live view.
+        moving: what moves in the live view.
         now_ns: when it was looked up.
     """
 
-    def __init__(self, shown: Shown, joints: tuple[str, ...], now_ns: int) -> None:
+    def __init__(self, shown: Shown, moving: Moving, now_ns: int) -> None:
         self.shown = shown
-        self._joints = joints
+        self._moving = moving
         self._looked_ns = now_ns
 
     def elapsed_s(self, now_ns: int) -> float:
@@ -37,7 +51,7 @@ class Glance:
     def moment(self) -> Point:
         """What moves."""
         view = self.shown.view
-        return moment(view.robot, view.object_pose, view.force, self._joints)
+        return moment(view.robot, view.object_pose, view.force, *self._moving)
 
 
 class Glances:
@@ -45,13 +59,13 @@ class Glances:
 
     Args:
         board: that the view hangs on.
-        joints: names of what moves in the live view.
+        moving: what moves in the live view.
         period_ns: within which all tabs are told the same.
     """
 
-    def __init__(self, board: Board, joints: tuple[str, ...], period_ns: int) -> None:
+    def __init__(self, board: Board, moving: Moving, period_ns: int) -> None:
         self._board = board
-        self._joints = joints
+        self._moving = moving
         self._period_ns = period_ns
         self._newest: tuple[int, Glance] | None = None
 
@@ -59,5 +73,5 @@ class Glances:
         """The newest view at this time."""
         period = now_ns // self._period_ns
         if self._newest is None or self._newest[0] != period:
-            self._newest = period, Glance(self._board.newest(), self._joints, now_ns)
+            self._newest = period, Glance(self._board.newest(), self._moving, now_ns)
         return self._newest[1]

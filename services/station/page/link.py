@@ -16,7 +16,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from services.bus.picture_stream import Group
 from services.process.clock import Clock
 from services.station.live_view.drawing import Point, has_moved, packed
-from services.station.page.glance import Glances
+from services.station.page.glance import Glances, Moving
 from services.station.page.input import Desk
 from services.station.page.layout import own
 from services.station.page.login.door import NOT_LOGGED_IN, SESSION
@@ -152,7 +152,7 @@ class Link:
         board: that the pictures come from.
         clock: that the input ages by.
         version: of the page's files.
-        joints: names of what moves in the live view.
+        moving: what moves in the live view.
         cameras: their names, in their order on the page.
     """
 
@@ -163,12 +163,12 @@ class Link:
         clock: Clock,
         version: str,
         *,
-        joints: tuple[str, ...],
+        moving: Moving,
         cameras: Sequence[str],
     ) -> None:
         self._cameras = tuple(cameras)
         self._desk = desk
-        self._glances = Glances(board, joints, LOOK_PERIOD_NS)
+        self._glances = Glances(board, moving, LOOK_PERIOD_NS)
         self._clock = clock
         self._version = version
         self._numbers = itertools.count(1)

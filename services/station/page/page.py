@@ -28,6 +28,7 @@ from services.station.page.certificate import Renewal, check
 from services.station.page.controls import is_confirmed
 from services.station.page.document import document, version
 from services.station.page.effects import Effects
+from services.station.page.glance import Moving
 from services.station.page.input import Desk
 from services.station.page.link import Link
 from services.station.page.login.cookie import Cookie
@@ -87,7 +88,8 @@ class Page:
         """What entries of the history change, as far as a tab wants to see it."""
         self._address = address(station, platform.node())
         self._desk = Desk(operator)
-        self._link = Link(self._desk, self._board, clock, version(), joints=description.joints, cameras=cameras)
+        moving = Moving(description.joints, description.gripper)
+        self._link = Link(self._desk, self._board, clock, version(), moving=moving, cameras=cameras)
         self._login: Login | None = None
         if judge is not None:
             self._login = Login(robot, judge, clock, Cookie(station.port, secure=bool(station.certificate)))

@@ -6,8 +6,8 @@ Speeds and positions are the description's, accelerations and jerks the maker's.
 import math
 
 from sim.region import Region
-from sim.robots.gripper import Block, Gripper, Mount
-from sim.robots.robot import Base, HeldJoint, Joint, Manipulator, Source, mast_camera, wrist_camera
+from sim.robots.gripper import Block, Finger, Gripper, Mount
+from sim.robots.robot import Base, Joint, Manipulator, Source, mast_camera, wrist_camera
 
 _HAND = Gripper(
     # The hand points along its z axis, and its fingers open along y.
@@ -20,6 +20,7 @@ _HAND = Gripper(
     grasp_distance=0.1034,
     opening=0.08,
     camera=(0.02, 0.0, -0.055),
+    fingers=(Finger("panda_finger_joint1", 0.0, 0.04, 30.0), Finger("panda_finger_joint2", 0.0, 0.04, 30.0)),
 )
 
 ROBOT = Manipulator(
@@ -35,7 +36,6 @@ ROBOT = Manipulator(
         Joint("panda_joint6", 2000.0, 200.0, 0.1, lag=0.015, acceleration=20.0, jerk=10_000.0),
         Joint("panda_joint7", 2000.0, 200.0, 0.1, lag=0.015, acceleration=20.0, jerk=10_000.0),
     ),
-    held=(HeldJoint("panda_finger_joint1", 0.04), HeldJoint("panda_finger_joint2", 0.04)),
     gripper=_HAND,
     home=(0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785),
     cameras=(mast_camera(), wrist_camera()),

@@ -7,23 +7,30 @@ description's; speeds are those of its servos under load, accelerations and jerk
 import math
 
 from sim.region import Region
-from sim.robots.gripper import Block, Gripper, Mount
-from sim.robots.robot import Base, HeldJoint, Joint, Manipulator, Source, Stance, mast_camera, wrist_camera
+from sim.robots.gripper import Block, Finger, Gripper, Mount
+from sim.robots.robot import Base, Joint, Manipulator, Source, Stance, mast_camera, wrist_camera
 
 _SPEED = 3.0  # [rad/s] the description's 10 are more than the servos can
 
 _HOME = (0.0, -0.6, 0.6, 0.6, 0.0)
 
+_MIDDLE = 0.03  # [m] from the fixed jaw
+_INSIDE = 0.015  # [m] behind the jaws' tips, where they hold
+
 _JAWS = Gripper(
-    # The fixed jaw points along -z of its link, and the other one opens along x: along -y of the gripper.
-    mount=Mount("gripper_link", (-0.0079, -0.0002, 0.0), (-math.pi / 2, math.pi / 2, 0.0)),
+    # The fixed jaw points along -z of its link, and the other one opens along x: along -y of the gripper, whose x axis
+    # runs in the middle between them.
+    mount=Mount("gripper_link", (-0.0079 + _MIDDLE, -0.0002, 0.0), (-math.pi / 2, math.pi / 2, 0.0)),
     blocks=(
-        Block("fixed_jaw", (0.05, 0.008, 0.0), (0.11, 0.03, 0.05)),
-        Block("moving_jaw", (0.06, -0.045, 0.0), (0.08, 0.03, 0.03)),
+        Block("fixed_jaw", (0.05, 0.008 + _MIDDLE, 0.0), (0.11, 0.03, 0.05)),
+        Block("moving_jaw", (0.06, -0.045 + _MIDDLE, 0.0), (0.08, 0.03, 0.03)),
     ),
-    grasp_distance=0.0981,
-    opening=0.06,
+    grasp_distance=0.0981 - _INSIDE,
+    opening=0.072,
     camera=(0.01, 0.0, -0.06),
+    # The jaw turns: between its tip and the other one's it is open in proportion to the angle, within 3 mm.
+    fingers=(Finger("gripper", -0.17, 0.8, effort=1.5, armature=0.005),),
+    jaw="gripper_link",
 )
 
 ROBOT = Manipulator(
@@ -40,7 +47,6 @@ ROBOT = Manipulator(
             ("wrist_roll", 20.0, 0.8, 0.01),
         )
     ),
-    held=(HeldJoint("gripper", 0.8, stiffness=20.0, damping=0.8, armature=0.01),),
     gripper=_JAWS,
     home=_HOME,
     cameras=(mast_camera(), wrist_camera()),

@@ -47,6 +47,12 @@ base = {{ position = [0.3, 0.0, 0.5] }}
 """
 
 
+def fingers(joint: str, *, wide: float = 0.04, jaw: str = "arm") -> str:
+    """A file whose gripper is the description's own."""
+    own = f"fingers = [{{{{{joint}, closed = 0.0, wide = {wide}}}}}]\njaw = '{jaw}'"
+    return FILE.replace("two_fingers = true", own)
+
+
 def urdf(*, limit: str = LIMIT, mesh: str = "") -> str:
     links = LINK.format("foot", mesh) + LINK.format("arm", "") + LINK.format("tip", "")
     joints = JOINT.format("first", "foot", "arm", LIMIT)
@@ -69,6 +75,12 @@ def test_a_file_says_what_a_value_is(tmp_path: Path) -> None:
     assert one.stance("table").base == Base((0.3, 0.0, 0.5))
     assert one.stance("post") == one.stance("dishwasher")
     assert one.stance("post").base == Base((0.1, 0.0, 0.2))
+
+
+def test_a_file_says_which_joints_open_and_close_the_gripper(tmp_path: Path) -> None:
+    gripper = load_robot(written(tmp_path, file=fingers('joint = "first"').format(""))).gripper
+    assert gripper.positions(0.5 * gripper.opening) == {"first": 0.02}
+    assert (gripper.finger_names, gripper.jaw, gripper.made) == (("first",), "arm", False)
 
 
 def test_a_path_and_a_name_are_told_apart(tmp_path: Path) -> None:
@@ -108,6 +120,9 @@ def test_what_is_wrong_in_a_file_is_one_line(tmp_path: Path, file: str, match: s
         (FILE, urdf(limit='<limit lower="-1" upper="1" effort="1"/>'), ""),
         (FILE.replace("speed = 0.5", ""), urdf(limit='<limit lower="-1" upper="1" effort="1"/>'), "no limit of speed"),
         (FILE.replace('"second"', '"secnd"'), urdf(), "joint secnd is not in the description: did you mean second"),
+        (fingers('joint = "fingr"'), urdf(), "the gripper's finger joint fingr is not in the description"),
+        (fingers('joint = "first"', wide=0.0), urdf(), "the gripper's finger joint first does not move: give it two"),
+        (fingers('joint = "first"', jaw="jaw"), urdf(), "the gripper's jaw is to be at link jaw"),
     ],
 )
 def test_what_does_not_fit_the_description_is_one_line(tmp_path: Path, file: str, description: str, match: str) -> None:

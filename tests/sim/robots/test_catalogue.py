@@ -79,7 +79,7 @@ def test_every_limit_is_positive(arm: Manipulator) -> None:
 def test_what_moves_in_the_description_is_what_the_value_says(arm: Manipulator, cache: Path) -> None:
     model = mujoco.MjModel.from_xml_path(str(prepare(cache, arm).urdf))
     moving = {model.joint(number).name for number in range(model.njnt)}
-    assert moving == {*arm.joint_names, *arm.held_names}
+    assert moving == set(arm.moving_names)
 
 
 @EACH
@@ -112,7 +112,7 @@ def test_its_head_camera_looks_at_the_object(arm: Manipulator, cache: Path) -> N
     place = scene("table", arm)
     model = assemble(place, described(place, cache))
     data = mujoco.MjData(model)
-    for name, position in zip((*arm.joint_names, *arm.held_names), (*arm.home, *place.stance.held), strict=True):
+    for name, position in arm.positions(place.stance).items():
         data.joint(name).qpos[0] = position
     mujoco.mj_kinematics(model, data)
     mujoco.mj_camlight(model, data)

@@ -32,10 +32,10 @@ def test_every_link_comes_after_the_one_that_it_hangs_on(description: RobotDescr
     assert GRASPING_FRAME in before
 
 
-def test_what_moves_are_the_arm_and_the_head(description: RobotDescription) -> None:
+def test_what_moves_are_the_arm_the_head_and_the_fingers(description: RobotDescription) -> None:
     links = read_links(description.urdf)
-    assert {link.joint for link in links} - {""} == {*DEFAULT.joint_names, *DEFAULT.held_names}
-    assert [link.joint for link in links if link.slides] == ["torso_lift_joint"]
+    assert {link.joint for link in links} - {""} == set(DEFAULT.moving_names)
+    assert [link.joint for link in links if link.slides] == ["torso_lift_joint", *DEFAULT.gripper.finger_names]
 
 
 def test_a_link_looks_as_its_description_says(description: RobotDescription) -> None:

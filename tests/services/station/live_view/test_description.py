@@ -100,7 +100,7 @@ def test_another_robot_is_told_as_it_stands_in_the_scene():
     arm = robot("panda")
     other = describe(scene("table", arm), arm)
     words = json.loads(other.words)
-    assert set(other.joints) == {*arm.joint_names, *arm.held_names}
+    assert set(other.joints) == set(arm.moving_names)
     rest = dict(zip(other.joints, words["rest"], strict=True))
     assert [rest[joint] for joint in arm.joint_names] == list(arm.home)
     positions = dict(placed(words, words["rest"]))
