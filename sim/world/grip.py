@@ -6,8 +6,6 @@ its damping is such that it moves at its speed where nothing is in the way. All 
 Between fingers and things rubber holds: contacts of their own, which leave those with everything else as they were.
 """
 
-from collections import defaultdict
-
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
@@ -51,9 +49,10 @@ class Grip:
     Args:
         model: That `add_fingers` was given.
         gripper: Of the robot in it.
+        thing: Name of the body that it is there to hold.
     """
 
-    def __init__(self, model: mujoco.MjModel, gripper: Gripper) -> None:
+    def __init__(self, model: mujoco.MjModel, gripper: Gripper, thing: str) -> None:
         self._model = model
         self._gripper = gripper
         joints = [model.joint(finger.joint) for finger in gripper.fingers]
@@ -62,8 +61,9 @@ class Grip:
         self._closed = np.array([finger.closed for finger in gripper.fingers])
         self._way = np.array([finger.wide - finger.closed for finger in gripper.fingers])
         self._lag = _LAG * np.abs(self._way)
-        bodies = [int(joint_body) for joint_body in (model.jnt_bodyid[joint.id] for joint in joints)]
-        self._sides = tuple(bodies) if not gripper.jaw else (*bodies, int(model.body(gripper.jaw).id))
+        fingers = [int(model.jnt_bodyid[joint.id]) for joint in joints]
+        self._sides = {*fingers, *([int(model.body(gripper.jaw).id)] if gripper.jaw else [])}
+        self._thing = int(model.body(thing).id)
 
     def open(self, data: mujoco.MjData) -> None:
         """Put the fingers wide open, at rest."""
@@ -82,17 +82,12 @@ class Grip:
         return self._gripper.opening * float(np.mean((data.qpos[self._q] - self._closed) / self._way))
 
     def holds(self, data: mujoco.MjData) -> bool:
-        """Return whether all of its fingers, or finger and jaw, touch one and the same thing."""
+        """Return whether all of its fingers, or finger and jaw, touch the thing."""
         if data.ncon == 0 or not self._q.size:
             return False
-        touched: defaultdict[int, set[int]] = defaultdict(set)
         bodies = self._model.geom_bodyid[data.contact.geom].tolist()
-        types = self._model.geom_contype[data.contact.geom].tolist()
-        for (one, other), (first, second) in zip(bodies, types, strict=True):
-            if first | second == ROBOT | THING:
-                finger, thing = (one, other) if first == ROBOT else (other, one)
-                touched[thing].add(finger)
-        return any(touching.issuperset(self._sides) for touching in touched.values())
+        touching = {one if other == self._thing else other for one, other in bodies if self._thing in (one, other)}
+        return touching.issuperset(self._sides)
 
 
 def _stiffness(finger: Finger) -> float:

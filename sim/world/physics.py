@@ -74,7 +74,7 @@ class World:
         joints = [self._model.joint(name) for name in robot.joint_names]
         self._q = np.array([joint.qposadr[0] for joint in joints])
         self._qd = np.array([joint.dofadr[0] for joint in joints])
-        self._grip = Grip(self._model, robot.gripper)
+        self._grip = Grip(self._model, robot.gripper, OBJECT)
         self._held = np.array([self._model.joint(name).qposadr[0] for name in robot.held_names], dtype=int)
         self._lag = np.array([joint.lag for joint in robot.joints])
         start = self._model.joint(OBJECT).qposadr[0]
