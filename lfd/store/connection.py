@@ -97,6 +97,7 @@ class Connection:
         part = Path(name)
         try:
             self.rows("VACUUM INTO ?", (name,))
+            os.fchmod(handle, self.path.stat().st_mode & 0o777)
             os.fsync(handle)
             part.replace(target)
         finally:

@@ -1,6 +1,5 @@
 """Durable demonstrations: one SQLite file, from which a model can always be built again."""
 
-from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, Self
 
@@ -10,7 +9,8 @@ from lfd.motion.departure import Departure
 from lfd.store.connection import Connection
 from lfd.store.rows import COLUMNS, arrays_of, row_of, stored_in
 from lfd.store.schema import prepare
-from lfd.store.stored import About, Binding, Change, Counts, Made, Purpose, Record, StoredDemonstration, Turn
+from lfd.store.stored import About, Binding, Change, Counts, Made, Purpose, StoredDemonstration, Turn
+from lfd.store.whole import Whole, arrays, insert, note, said, say
 
 _IN_USE = "(SELECT in_use FROM changes WHERE demonstration = added ORDER BY version DESC LIMIT 1)"
 
@@ -75,8 +75,7 @@ class DemonstrationStore:
 
     def about(self) -> About | None:
         """What the file says of itself; None where nobody has said it."""
-        found = self._connection.rows("SELECT scene, robot, author, notes, created_s, used_s FROM skill")
-        return About(Binding(*found[0][:2]), *found[0][2:]) if found else None
+        return said(self._connection)
 
     def describe(self, about: About) -> None:
         """Say what the file is, in place of what it said.
@@ -89,7 +88,8 @@ class DemonstrationStore:
             StorageError: It could not be written; the file is as before.
         """
         with self._connection.transaction():
-            self._say(about)
+            say(self._connection, about)
+            self.check(about.binding)
 
     def made_by(self, request: int) -> Made | None:
         """What a request has changed already; None where it has changed nothing."""
@@ -135,7 +135,7 @@ class DemonstrationStore:
             self.check(binding)
             version = self.version + 1
             row = row_of(version, demonstration, purpose, binding, departure)
-            self._insert(COLUMNS.split(", "), row, arrays_of(demonstration))
+            insert(self._connection, COLUMNS.split(", "), row, arrays_of(demonstration))
             whose = demonstration.provenance
             self._turn(version, Turn(version, True, whose.author, whose.at_s), request)
         return version
@@ -202,39 +202,25 @@ class DemonstrationStore:
         """Every demonstration that was ever added, oldest first; raises as `active`."""
         return self._found("TRUE")
 
-    def changes(self) -> list[Change]:
-        """Every change that was ever made, oldest first."""
-        rows = self._connection.rows("SELECT demonstration, version, in_use, turned_by, turned_at_s FROM changes")
-        found = [Change(one, Turn(version, bool(in_use), by, at_s)) for one, version, in_use, by, at_s in rows]
-        return sorted(found, key=lambda change: change.turn.version)
+    def whole(self) -> Whole:
+        """All that the file holds, as it is at one moment."""
+        with self._connection.transaction():
+            return Whole.of(self._connection)
 
-    def records(self) -> list[Record]:
-        """Every demonstration as its file has it, oldest first."""
-        rows = self._connection.rows(f"SELECT {COLUMNS} FROM demonstrations ORDER BY added")
-        names = COLUMNS.split(", ")
-        return [Record(dict(zip(names, row, strict=True)), tuple(self._arrays(row[0]))) for row in rows]
-
-    def restore(self, about: About, records: Sequence[Record], changes: Sequence[Change]) -> None:
+    def restore(self, whole: Whole) -> None:
         """Make a file that holds nothing one with the history of another, version by version, bit by bit.
 
         Args:
-            about: See `describe`.
-            records: Every demonstration.
-            changes: Every change.
+            whole: Of the other.
 
         Raises:
-            BoundElsewhere: What is in use is of another scene or robot than `about` says.
+            BoundElsewhere: What is in use is of another scene or robot than it says.
             StorageError: It could not be written, or is no history; the file is as before.
         """
-        known = COLUMNS.split(", ")
         with self._connection.transaction():
-            for record in records:
-                names = [name for name in known if name in record.values]
-                self._insert(names, [record.values[name] for name in names], record.arrays)
-            for change in changes:
-                self._turn(change.demonstration, change.turn, 0)
-            self._say(about)
-            if len(self.history()) != len(records):
+            whole.put(self._connection)
+            self.check(whole.about.binding)
+            if len(self.history()) != len(whole.records):
                 raise StorageError(self._path, "a demonstration never came into use", "take another copy")
 
     def copy_to(self, target: Path) -> None:
@@ -256,23 +242,9 @@ class DemonstrationStore:
         """
         self._connection.settle()
 
-    def _say(self, about: About) -> None:
-        self._connection.rows("DELETE FROM skill")
-        self.check(about.binding)
-        row = (*about.binding, about.author, about.notes, about.created_s, about.used_s)
-        self._connection.rows("INSERT INTO skill VALUES (1, ?, ?, ?, ?, ?, ?)", row)
-
-    def _insert(self, names: Sequence[str], row: Sequence[object], arrays: Iterable[tuple[object, ...]]) -> None:
-        marks = ", ".join("?" * len(row))
-        self._connection.rows(f"INSERT INTO demonstrations ({', '.join(names)}) VALUES ({marks})", row)
-        added = row[list(names).index("added")]
-        for array in arrays:
-            self._connection.rows("INSERT INTO arrays VALUES (?, ?, ?, ?, ?)", (added, *array))
-
     def _turn(self, demonstration: int, turn: Turn, request: int) -> None:
         """Note what the running transaction changes, and for which request."""
-        row = (turn.version, demonstration, turn.in_use, turn.author, turn.at_s)
-        self._connection.rows("INSERT INTO changes VALUES (?, ?, ?, ?, ?)", row)
+        note(self._connection, Change(demonstration, turn))
         if request:
             self._connection.rows("INSERT INTO requests VALUES (?, ?)", (request, turn.version))
 
@@ -287,10 +259,7 @@ class DemonstrationStore:
     def _stored(self, turn: Turn, row: list[Any]) -> StoredDemonstration:
         added = row[0]
         try:
-            return stored_in(row, self._arrays(added), turn)
+            return stored_in(row, arrays(self._connection, added), turn)
         except (LfdError, ValueError, KeyError) as error:
             reason = f"demonstration {added} is damaged ({error})"
             raise StorageError(self._path, reason, "restore the file from a copy") from error
-
-    def _arrays(self, added: int) -> list[tuple[Any, ...]]:
-        return self._connection.rows("SELECT name, dtype, shape, bytes FROM arrays WHERE demonstration = ?", (added,))

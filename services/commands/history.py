@@ -88,10 +88,18 @@ def show(state: ModelState, history: HistoryListed, console: Terminal) -> None:
         return
     counted = f"version {rows.version}, {rows.in_use} of {len(rows.rows)} in use"
     console.print(f"{whose}: {counted}", markup=False, soft_wrap=True)
-    console.print(_table(rows.rows), width=None if console.is_terminal else max(console.width, NARROWEST), crop=False)
+    console.print(
+        rows_table(rows.rows), width=None if console.is_terminal else max(console.width, NARROWEST), crop=False
+    )
 
 
-def _table(rows: tuple[Row, ...]) -> Table:
+def print_wide(console: Terminal, table: Table) -> None:
+    """Print a table; into a pipe as wide as it has to be."""
+    console.print(table, width=None if console.is_terminal else max(console.width, NARROWEST), crop=False)
+
+
+def rows_table(rows: tuple[Row, ...]) -> Table:
+    """Of entries, a line each."""
     table = Table(box=None, pad_edge=False)
     table.add_column("entry", justify="right")
     for heading in ("what", "who", "when", "from what was predicted", "in use"):

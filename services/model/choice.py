@@ -52,6 +52,10 @@ class Choice:
         """The skill that was chosen for a task and a robot; empty where none was."""
         return self._kept.skills.get(str(binding), "")
 
+    def chose(self, binding: Binding) -> bool:
+        """Whether any was."""
+        return bool(self.of(binding))
+
     def knows(self, request: int) -> bool:
         """Whether a request has chosen one already."""
         return request in self._kept.requests

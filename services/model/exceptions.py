@@ -8,6 +8,7 @@ SkillError
 ├── SkillOpen        a model process has it open (an EnvironmentFault too)
 ├── ChoiceLost       the file that says which skill is in use cannot be read
 └── ExportUnusable   a file that is no export of a skill, or not as it was written
+    └── NoSkillIn    one that is as it was written, and makes no skill
 """
 
 from __future__ import annotations
@@ -100,3 +101,10 @@ class ExportUnusable(SkillError):
         self.path = path
         self.reason = reason
         super().__init__(f"{path}: {reason}; {remedy}")
+
+
+class NoSkillIn(ExportUnusable):
+    """What an export holds makes no skill, though it is as it was written."""
+
+    def __init__(self, path: Path, why: str) -> None:
+        super().__init__(path, f"what it holds is no skill ({why})", "take another copy of it")

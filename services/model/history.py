@@ -124,8 +124,8 @@ class History:
     def listed(self, before: int) -> HistoryListed:
         """The newest entries, of those before a number where it is not 0."""
         asked = [one for one in reversed(self.entries) if not before or one.version < before]
-        told = tuple(_told(one) for one in asked[:ENTRIES_AT_ONCE])
-        return HistoryListed(self.version, told, len(asked) - len(told))
+        entries = tuple(told(one) for one in asked[:ENTRIES_AT_ONCE])
+        return HistoryListed(self.version, entries, len(asked) - len(entries))
 
     def close(self) -> None:
         """Close the file."""
@@ -141,7 +141,8 @@ def _departure(model: MovementModel | None, demonstration: Demonstration) -> Dep
     return Departure.of(demonstration.trajectory, model.predict(demonstration.situation).trajectory, demonstration.part)
 
 
-def _told(stored: StoredDemonstration) -> Entry:
+def told(stored: StoredDemonstration) -> Entry:
+    """An entry, as whoever asks is told of it."""
     given = stored.demonstration
     whose, departure, turn = given.provenance, stored.departure, stored.turn
     turned = turn is not None and turn.version != stored.version

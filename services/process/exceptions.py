@@ -39,6 +39,7 @@ ServiceError
 │   ├── SkillOpen            one that a model process has open (an EnvironmentFault too)
 │   ├── ChoiceLost           a file that does not say which one is in use
 │   └── ExportUnusable       a file that is no export of a skill, or not as it was written
+│       └── NoSkillIn        one that is as it was written, and makes no skill
 ├── NothingPlanned           way-points or a refinement that make no motion (services.model.planning)
 ├── ViewerError              (services.viewer.exceptions)
 │   ├── WebFilesMissing      the Rerun SDK did not give its web viewer's files (an EnvironmentFault too)

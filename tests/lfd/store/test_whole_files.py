@@ -5,6 +5,7 @@ import pytest
 from lfd.exceptions import BoundElsewhere, StorageError, StorageUnavailable
 from lfd.store.database import DemonstrationStore
 from lfd.store.stored import About, Binding, Purpose
+from lfd.store.whole import Whole
 
 DISHWASHER, TABLE = Binding("dishwasher", "tiago"), Binding("table", "tiago")
 
@@ -30,23 +31,24 @@ def test_a_history_is_restored_bit_by_bit_version_by_version(path, tmp_path, rea
         for y in (0.1, 0.2, 0.3):
             store.add(reach([0.9, y, 0.6]), Purpose.UPDATE, TABLE)
         store.undo(2, author="anna", at_s=3.0)
-        given = store.records(), store.changes()
+        store.describe(About(TABLE, "anna"))
+        given = store.whole()
     with DemonstrationStore(tmp_path / "other.sqlite") as other:
-        other.restore(About(TABLE), *given)
-        assert (other.records(), other.changes()) == given
+        other.restore(given)
+        assert other.whole() == given
         assert [one.version for one in other.active()] == [1, 3]
 
 
 def test_what_is_no_history_leaves_an_empty_file_empty(path, tmp_path, reach):
     with DemonstrationStore(path) as store:
         store.add(reach([0.9, 0.1, 0.6]), Purpose.UPDATE, TABLE)
-        records, changes = store.records(), store.changes()
-    without_a_motion = [records[0]._replace(arrays=records[0].arrays[1:])]
-    never_used: list[object] = []
+        store.describe(About(TABLE))
+        about, records, changes = store.whole()
+    without_a_motion = (records[0]._replace(arrays=records[0].arrays[:-1]),)
     with DemonstrationStore(tmp_path / "other.sqlite") as other:
-        for wrong in ((without_a_motion, changes), (records, never_used), ([], changes), (records * 2, changes)):
+        for wrong in ((without_a_motion, changes), (records, ()), ((), changes), (records * 2, changes)):
             with pytest.raises(StorageError):
-                other.restore(About(TABLE), *wrong)
+                other.restore(Whole(about, *wrong))
             assert (other.about(), other.version, other.history()) == (None, 0, [])
 
 
@@ -61,8 +63,9 @@ def test_a_file_that_another_uses_is_not_settled_and_one_alone_is_a_single_file(
 
 def test_a_copy_is_made_while_the_file_is_in_use_and_holds_what_was_committed(path, tmp_path, reach):
     with DemonstrationStore(path) as store:
+        store.describe(About(TABLE))
         store.add(reach([0.9, 0.1, 0.6]), Purpose.INITIAL, TABLE)
         with DemonstrationStore(path) as second:
             second.copy_to(tmp_path / "copy.sqlite")
         with DemonstrationStore(tmp_path / "copy.sqlite") as copy:
-            assert (copy.records(), copy.changes()) == (store.records(), store.changes())
+            assert copy.whole() == store.whole()

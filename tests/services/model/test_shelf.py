@@ -44,7 +44,7 @@ def cups(shelf):
 
 def held(shelf, name):
     with shelf.read(name) as store:
-        return store.about(), store.records(), store.changes()
+        return store.whole()
 
 
 def test_a_new_skill_is_empty_and_says_what_it_is_for(shelf):
@@ -195,7 +195,7 @@ def test_a_file_of_todays_schema_is_taken_over_in_place_as_a_skill_of_its_scene(
         old.execute("PRAGMA user_version = 6")
     old.close()
     store = shelf.take("table", TABLE, 5.0)
-    assert (store.records(), store.changes()) == before[1:]
+    assert store.whole()[1:] == before[1:]
     assert store.about().binding == TABLE
     store.close()
     assert (shelf.folder / "table.sqlite.schema-6").is_file()

@@ -1,0 +1,1 @@
+"""`retouch skill`: what a robot has learnt, by name."""
