@@ -10,7 +10,8 @@ from protocol.exceptions import MalformedMessage, OversizedMessage, WrongVersion
 from protocol.fitting import fit
 from protocol.messages import Message
 from protocol.queries import QUERIES, Query, Refused
-from protocol.topics import TOPICS, Topic
+from protocol.topic import Topic
+from protocol.topics import TOPICS
 
 M = TypeVar("M", bound=Message)
 Req = TypeVar("Req", bound=msgspec.Struct)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from protocol.exceptions import InvalidName
 from protocol.names import checked_name, is_name
-from protocol.topics import VERSION
+from protocol.topic import VERSION
 
 _WORD = "commander"
 

@@ -14,7 +14,7 @@ import msgspec
 from protocol.exceptions import Misplaced
 from protocol.messages import Message
 from protocol.queries import Query
-from protocol.topics import Topic, publishes, source_key
+from protocol.topic import Topic, publishes, source_key
 
 
 def check_message(topic: Topic[Any], robot: str, message: Message, key: str | None = None) -> None:

@@ -16,7 +16,8 @@ from protocol.commander import EVERYBODY, commander_keys
 from protocol.exceptions import InvalidName
 from protocol.names import checked_name, process_name
 from protocol.queries import QUERIES, REVOKE, Query
-from protocol.topics import TOPICS, VERSION, Topic
+from protocol.topic import VERSION, Topic
+from protocol.topics import TOPICS
 
 ANY = "*"
 """Every robot, or every process, in a key expression."""

@@ -8,7 +8,7 @@ from typing import Generic, TypeVar
 import msgspec
 
 from protocol.names import checked_name
-from protocol.topics import VERSION
+from protocol.topic import VERSION
 
 Req = TypeVar("Req", bound=msgspec.Struct)
 Rep = TypeVar("Rep", bound=msgspec.Struct)

@@ -11,7 +11,7 @@ import msgspec
 
 from protocol.messages import Message, TopicFigures
 from protocol.queries import Query, Refused
-from protocol.topics import Topic
+from protocol.topic import Topic
 from services.bus.server import Server
 from services.bus.subscription import Subscription
 

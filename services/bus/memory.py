@@ -13,7 +13,7 @@ from protocol.exceptions import ProtocolError
 from protocol.messages import Message, TopicFigures
 from protocol.placement import announcement
 from protocol.queries import Query
-from protocol.topics import Topic
+from protocol.topic import Topic
 from services.bus.bus import Failed, Pending
 from services.bus.clocks import Clocks
 from services.bus.identity import new_publisher

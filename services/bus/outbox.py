@@ -12,7 +12,7 @@ import msgspec
 from protocol.codec import encode
 from protocol.exceptions import Misplaced, ProtocolError
 from protocol.messages import Message, TopicFigures
-from protocol.topics import Topic
+from protocol.topic import Topic
 from services.bus.tally import Drops
 
 M = TypeVar("M", bound=Message)

@@ -10,7 +10,7 @@ from protocol.codec import decode
 from protocol.exceptions import ProtocolError
 from protocol.messages import Message, TopicFigures
 from protocol.placement import check_message
-from protocol.topics import QoS, Topic
+from protocol.topic import QoS, Topic
 from services.bus.clocks import Clocks
 from services.bus.freshness import Freshness, Judgement
 from services.bus.identity import same_clock

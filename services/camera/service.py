@@ -1,6 +1,7 @@
 """Publishes what the cameras see, and one's point cloud.
 
-Simulated ones are drawn in a process of their own: drawing can never disturb control.
+Simulated ones are drawn in a process of their own: drawing can never disturb control. One that is real and not there is
+looked for, and the others go on.
 """
 
 from __future__ import annotations
@@ -15,8 +16,8 @@ from services.bus.bus import Bus
 from services.camera.cloud import cloud
 from services.camera.coding import coder
 from services.camera.pacing import Pacing
-from services.camera.seen import Seen, Source
-from services.camera.simulated import DrawnWorld, SimulatedCamera
+from services.camera.seen import Seen
+from services.camera.sources import Sources
 from services.camera.wishes import Wish, Wishes
 from services.process.clock import Clock
 from services.process.config import CameraSection, Configuration
@@ -56,8 +57,7 @@ class CameraService:
         self._coders = {name: coder(self._section) for name in self._names}
         self._wishes = Wishes(bus)
         self._wish = Wish()
-        self._drawn = DrawnWorld(bus, configuration.robot, self._section)
-        self._sources: dict[str, Source] = {name: SimulatedCamera(self._drawn, name) for name in self._names}
+        self._sources = Sources(bus, clock, configuration)
         self._schedule = Schedule()
         self._durations_ns: deque[int] = deque(maxlen=256)
         self._ages_ns: deque[int] = deque(maxlen=256)
@@ -79,7 +79,7 @@ class CameraService:
         self._wish = self._wishes.at(now_ns)
         captured_ns = 0
         for name in turns:
-            seen = self._sources[name].look(now_ns)
+            seen = self._sources.cameras[name].look(now_ns)
             if seen is not None:
                 self._show(name, seen, now_ns)
                 captured_ns = seen.captured_ns
@@ -98,7 +98,7 @@ class CameraService:
             Figure("encode_p50", median(self._codings_ns or (0,)) / 1e9, "s"),
             Figure("picture_size_p50", float(median(self._sizes or (0,))), "B"),
             Figure("picture_age_p50", median(self._ages_ns or (0,)) / 1e9, "s"),
-            Figure("unusable_states", float(self._drawn.unusable), "1"),
+            Figure("unusable_states", float(self._sources.unusable), "1"),
             Figure("sent_share", self._pacing.share, "1"),
         )
         for figures in (self._durations_ns, self._ages_ns, self._codings_ns, self._sizes):
@@ -107,8 +107,8 @@ class CameraService:
         return result
 
     def close(self) -> None:
-        """Give the drawing library's resources back."""
-        self._drawn.close()
+        """Give devices and the drawing library's resources back."""
+        self._sources.close()
 
     def _show(self, camera: str, seen: Seen, now_ns: int) -> None:
         (fx, _, cx), (_, fy, cy), _ = seen.intrinsics.tolist()

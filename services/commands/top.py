@@ -15,7 +15,8 @@ from protocol.codec import decode
 from protocol.exceptions import ProtocolError
 from protocol.messages import Figure, Heartbeat
 from protocol.names import person, process_name, role
-from protocol.topics import HEARTBEAT, VERSION
+from protocol.topic import VERSION
+from protocol.topics import HEARTBEAT
 from services.bus.stages import NAMES, Lasting, Stages, from_figures, merged
 from services.bus.zenoh import Passing, open_session, watch
 from services.certificates.credentials import credentials

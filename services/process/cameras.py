@@ -61,5 +61,30 @@ class Simulated(Mounted, frozen=True, kw_only=True, tag_field="kind", tag="simul
     name: CameraName
 
 
-CameraSource = Simulated
+class Device(Mounted, frozen=True, kw_only=True, tag_field="kind", tag="v4l2"):
+    """A real camera that the kernel knows as a video device; see `Mounted`.
+
+    Attributes:
+        name: of the camera; that of one of the robot's own takes that one's place.
+        device: its path, best by what does not change where others are plugged in, "/dev/v4l/by-id/...", or its number;
+            a film's file or a stream's address stands in for one.
+    """
+
+    name: CameraName
+    device: str
+
+
+class RealSense(Mounted, frozen=True, kw_only=True, tag_field="kind", tag="realsense"):
+    """The depth camera that the vendor's library finds first; see `Mounted`. It needs an OpenCV that has that library.
+
+    Attributes:
+        name: of the camera; that of one of the robot's own takes that one's place.
+    """
+
+    name: CameraName
+
+
+RealCamera = Device | RealSense
+
+CameraSource = Simulated | RealCamera
 """Whatever a camera process can look through."""

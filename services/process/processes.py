@@ -43,7 +43,7 @@ PROCESSES: tuple[Process, ...] = (
         "the process that owns the arm: executes, corrects, judges, keeps safe",
         nice=-10,
     ),
-    Process("camera", "services.camera.service", "the process that draws the head and wrist pictures", nice=5),
+    Process("camera", "services.camera.service", "the process that publishes what the cameras see", nice=5),
     Process("perception", "services.perception.service", "the process that finds the object in the pictures", nice=5),
     Process("model", "services.model.service", "the process that owns the learnt model and its database"),
     Process(

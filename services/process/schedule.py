@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from protocol.topics import Topic
+from protocol.topic import Topic
 
 
 class Schedule:

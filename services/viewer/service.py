@@ -8,15 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from protocol.messages import Figure, Pose, Prediction, Recording
-from protocol.topics import (
-    EXECUTION,
-    OBJECT_POSE,
-    POINT_CLOUD,
-    RECORDING,
-    SCENE_STATE,
-    VERDICT,
-    WORLD_STATE,
-)
+from protocol.topics import EXECUTION, OBJECT_POSE, POINT_CLOUD, RECORDING, SCENE_STATE, VERDICT, WORLD_STATE
 from services.bus.arrays import drawable, vector3
 from services.bus.bus import Bus
 from services.bus.predictions import Predictions

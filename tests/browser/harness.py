@@ -42,7 +42,7 @@ SWING = 0.3  # [rad] of the arm that moves
 
 def described():
     """What the live view shows."""
-    return describe(DISHWASHER.name)
+    return describe(DISHWASHER)
 
 
 def drawing() -> Drawing:

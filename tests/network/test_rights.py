@@ -10,7 +10,8 @@ import zenoh
 from protocol.commander import EVERYBODY, commander_key
 from protocol.queries import QUERIES
 from protocol.rights import Act, rights, subject
-from protocol.topics import HEARTBEAT, TOPICS, VERSION
+from protocol.topic import VERSION
+from protocol.topics import HEARTBEAT, TOPICS
 from services.bus.zenoh import watch
 from tests.protocol.includes import includes
 from tests.system.harness import eventually

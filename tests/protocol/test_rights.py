@@ -8,7 +8,8 @@ from protocol.commander import EVERYBODY, commander_key
 from protocol.exceptions import InvalidName
 from protocol.queries import QUERIES, REVOKE
 from protocol.rights import KINDS, Act, rights, subject
-from protocol.topics import TOPICS, VERSION
+from protocol.topic import VERSION
+from protocol.topics import TOPICS
 from tests.protocol.includes import includes
 
 ROBOTS = ("kitchen", "garage")

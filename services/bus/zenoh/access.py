@@ -7,7 +7,8 @@ from typing import Any
 
 from protocol.queries import QUERIES
 from protocol.rights import Act, Right, Subject, rights
-from protocol.topics import TOPICS, VERSION, QoS
+from protocol.topic import VERSION, QoS
+from protocol.topics import TOPICS
 
 EVERYTHING = ("**", f"retouch/{VERSION}/**")
 """No wildcard reaches behind a version unless it names it."""

@@ -17,7 +17,7 @@ from protocol.messages import Message, TopicFigures
 from protocol.names import checked_name
 from protocol.placement import announcement, check_announced
 from protocol.queries import Query
-from protocol.topics import VERSION, QoS, Topic
+from protocol.topic import VERSION, QoS, Topic
 from services.bus.bus import Failed, Pending
 from services.bus.clocks import Clocks
 from services.bus.identity import new_publisher

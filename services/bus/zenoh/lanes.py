@@ -9,7 +9,7 @@ from __future__ import annotations
 import threading
 from typing import Any
 
-from protocol.topics import QoS, Topic
+from protocol.topic import QoS, Topic
 from services.bus.zenoh.datagrams import Datagrams
 from services.bus.zenoh.session import Session, open_session
 

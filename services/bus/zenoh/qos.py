@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import zenoh
 
-from protocol.topics import QoS
+from protocol.topic import QoS
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,8 @@ from contextlib import contextmanager
 from protocol.codec import decode
 from protocol.exceptions import ProtocolError
 from protocol.messages import Controller, OperatorInput
-from protocol.topics import OPERATOR_INPUT, VERSION
+from protocol.topic import VERSION
+from protocol.topics import OPERATOR_INPUT
 from services.bus.zenoh import Passing, open_session, watch
 from services.certificates.credentials import credentials
 from services.master.devices.profiles import Profiles

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from protocol.messages import Probe
-from protocol.topics import Topic
+from protocol.topic import Topic
 from services.bus.subscription import Subscription
 from services.bus.zenoh import Session, ZenohBus, open_session
 from services.certificates.credentials import Credentials

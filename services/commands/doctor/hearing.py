@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from protocol.codec import decode
 from protocol.exceptions import ProtocolError, WrongVersion
 from protocol.messages import Heartbeat, RobotState
-from protocol.topics import HEARTBEAT, ROBOT_STATE, VERSION
+from protocol.topic import VERSION
+from protocol.topics import HEARTBEAT, ROBOT_STATE
 from services.bus.zenoh import Passing, Session, watch
 from services.process.clock import Clock, utc_ms
 

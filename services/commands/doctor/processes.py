@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from protocol.names import role
-from protocol.topics import VERSION
+from protocol.topic import VERSION
 from services.commands.doctor.case import Case
 from services.commands.doctor.finding import Finding, Verdict, look, ok, wrong
 from services.commands.doctor.hearing import LISTEN_S, Beat, Hearing

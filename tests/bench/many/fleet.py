@@ -15,13 +15,14 @@ import psutil
 
 from protocol import topics
 from protocol.codec import decode
+from protocol.topic import VERSION
 from services.bus.zenoh import open_session, watch
 from tests.system.harness import START_S, Command, eventually, free_endpoint, reachable
 
 SETTLE_S = 2.0
 """After everybody moves, before anything is measured."""
 
-BEATS = f"retouch/{topics.VERSION}/*/{topics.HEARTBEAT.name}/robot"
+BEATS = f"retouch/{VERSION}/*/{topics.HEARTBEAT.name}/robot"
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ import zenoh
 
 sys.path.insert(0, str(Path(__file__).parents[3]))
 
-from protocol.topics import VERSION
+from protocol.topic import VERSION
 from services.bus.zenoh import open_session
 
 START_S = 60.0

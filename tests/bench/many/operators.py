@@ -20,6 +20,7 @@ sys.path.insert(0, str(Path(__file__).parents[3]))
 from protocol import queries, topics
 from protocol.codec import decode
 from protocol.messages import AuthorityRenewal, MasterState, Mode, Phase, Prediction
+from protocol.topic import VERSION
 from services.bus.arrays import motion_to_wire, to_wire
 from services.bus.bus import Failed
 from services.bus.identity import new_number
@@ -54,7 +55,7 @@ class Operator:
         self._epoch, self._lift, self._sent = 0, LIFT_M, 0
         self._newest = None  # state of the robot, as it passed
         self.heard, self.heard_bytes = Counter(), Counter()
-        watch(session, f"retouch/{topics.VERSION}/{robot}/**", self._hear)
+        watch(session, f"retouch/{VERSION}/{robot}/**", self._hear)
 
     def _hear(self, passing):
         name = "/".join(passing.key.split("/")[3:5])

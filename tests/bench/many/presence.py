@@ -10,7 +10,7 @@ import time
 import numpy as np
 import zenoh
 
-from protocol.topics import VERSION
+from protocol.topic import VERSION
 from services.bus.zenoh import connect, open_session
 from services.process.clock import SystemClock
 from tests.bench.support.results import Result

@@ -40,7 +40,7 @@ def test_one_that_is_called_as_one_of_the_robots_own_takes_that_ones_place(tmp_p
         ((SIDE, SIDE), "two of [[camera.cameras]] are called side: give each a name of its own"),
         ((SIDE.replace("side", "live"),), "name"),
         ((SIDE.replace("side", "a/b"),), "name"),
-        ((SIDE.replace("simulated", "film"),), "kind"),
+        ((SIDE.replace("simulated", "film"),), "one of simulated, v4l2, realsense"),
         ((SIDE.replace("position", "place"),), "place"),
     ],
 )

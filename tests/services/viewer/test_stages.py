@@ -12,12 +12,7 @@ from protocol.messages import (
     Pose,
     RobotState,
 )
-from protocol.topics import (
-    AUTHORITY_STATE,
-    MASTER_STATE,
-    OPERATOR_INPUT,
-    ROBOT_STATE,
-)
+from protocol.topics import AUTHORITY_STATE, MASTER_STATE, OPERATOR_INPUT, ROBOT_STATE
 
 pytestmark = pytest.mark.sim
 

@@ -4,6 +4,7 @@ import pytest
 
 from protocol import messages, topics
 from protocol.codec import encode
+from protocol.topic import VERSION
 from services.bus.zenoh import Passing
 from services.commands.doctor.finding import Verdict
 from services.commands.doctor.hearing import Beat, Foreign, Hearing
@@ -64,8 +65,8 @@ def heard(*passing):
     return hearing
 
 
-def passing(message, schema=topics.HEARTBEAT.schema, version=topics.VERSION):
-    key = topics.HEARTBEAT.key("kitchen", message.process).replace(topics.VERSION, version)
+def passing(message, schema=topics.HEARTBEAT.schema, version=VERSION):
+    key = topics.HEARTBEAT.key("kitchen", message.process).replace(VERSION, version)
     return Passing(key, encode(topics.HEARTBEAT, message), schema)
 
 
