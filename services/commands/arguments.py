@@ -49,6 +49,14 @@ def add_skill(parser: ArgumentParser) -> None:
     parser.add_argument("--skill", metavar="NAME", help="the skill in use to begin with; see 'retouch skill --help'")
 
 
+def add_backend(parser: ArgumentParser) -> None:
+    """What moves the robot."""
+    parser.add_argument(
+        "--backend", metavar="KIND", help="what moves the robot: simulated (the default), or franka, say; see README"
+    )
+    parser.add_argument("--host", dest="backend_host", metavar="H", help="name or address at which the arm is reached")
+
+
 def _about_scenes() -> str:
     # Imported here: only who asks for help waits until the scenes are loaded.
     from sim.tasks import SCENES  # noqa: PLC0415

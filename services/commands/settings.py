@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import logging
 from argparse import Namespace
+from typing import Any
 
 import msgspec
 
 from protocol.names import checked_name
 from services.certificates.credentials import check_secured, is_open, present
 from services.commands.sides import placed, reachable
-from services.process.config import Configuration, load
+from services.process.config import Configuration, RobotSection, load
 from services.process.master_devices import Scripted
 from services.process.processes import PROCESSES
 
@@ -30,6 +31,9 @@ _FLAGS = {
 
 _ROBOT_FLAGS = {"task": "scene", "robot_model": "model"}
 """The same, of the robot's section."""
+
+_BACKEND_FLAGS = {"backend": "kind", "backend_host": "host"}
+"""The same, of what moves it."""
 
 _STATION_FLAGS = {"headless": "scripted", "once": "once", "untaught": "untaught", "variant": "variant"}
 """The same, of the station's section."""
@@ -54,7 +58,7 @@ def configuration(arguments: Namespace) -> Configuration:
         changes["connect"] = reachable(given["listen"])
     if given.get("insecure"):
         changes["insecure"] = True
-    robot = {key: given[flag] for flag, key in _ROBOT_FLAGS.items() if flag in given}
+    robot = _robot(given, result.robot)
     if robot:
         changes["robot"] = msgspec.structs.replace(result.robot, **robot)
     if given.get("headless"):
@@ -83,3 +87,10 @@ def configuration(arguments: Namespace) -> Configuration:
     if is_open(result):
         log.warning(OPEN)
     return result
+
+
+def _robot(given: dict[str, Any], section: RobotSection) -> dict[str, Any]:
+    """What the flags change of the robot's section."""
+    changes = {key: given[flag] for flag, key in _ROBOT_FLAGS.items() if flag in given}
+    backend = {key: given[flag] for flag, key in _BACKEND_FLAGS.items() if flag in given}
+    return changes | ({"backend": msgspec.structs.replace(section.backend, **backend)} if backend else {})

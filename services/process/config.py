@@ -10,6 +10,7 @@ import msgspec
 from protocol.messages import Coding, Method
 from protocol.queries import Adapt
 from services.process import endpoint
+from services.process.backend import BackendSection
 from services.process.cameras import MOST_CAMERAS, CameraName, CameraSource
 from services.process.exceptions import BadEndpoint, ConfigurationError
 from services.process.files import write_whole
@@ -47,6 +48,7 @@ class RobotSection(Section, frozen=True):
         velocity_scale: share of the joints' velocity limits that the robot may use.
         self_distance_stop: distance between its own parts at which it stops [m].
         master_gain: of the master's displacement on the reference; its rotation counts as it is.
+        backend: what moves it.
     """
 
     scene: str = "dishwasher"
@@ -58,6 +60,7 @@ class RobotSection(Section, frozen=True):
     velocity_scale: Annotated[float, msgspec.Meta(gt=0.0, le=1.0)] = 0.5
     self_distance_stop: Annotated[float, msgspec.Meta(ge=0.0)] = 0.005
     master_gain: Annotated[float, msgspec.Meta(gt=0.0, le=10.0)] = 1.0
+    backend: BackendSection = BackendSection()
 
     @property
     def model_file(self) -> Path | None:

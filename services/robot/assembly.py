@@ -1,7 +1,11 @@
 """What stands in a scene, put together: backend, kinematics, criteria, starts."""
 
+from services.process.clock import Clock
+from services.process.config import RobotSection
+from services.process.exceptions import UnusableSetting
 from services.robot.arm import Arm
 from services.robot.backends.backend import Backend, Blocked
+from services.robot.backends.hardware import Hardware, driver_of
 from services.robot.backends.particle import ParticleBackend, ParticleKinematics
 from services.robot.mechanism import Mechanism
 from services.robot.starts import StartImpossible, Starts
@@ -72,6 +76,49 @@ def simulated_arm(
     )
 
 
+def hardware_arm(scene: AnyScene, section: RobotSection, kinematics: Mechanism, clock: Clock) -> Arm:
+    """An arm of hardware, connected, that stands where it is.
+
+    Args:
+        scene: that people have set up around it.
+        section: of the configuration; its backend is not the simulated one.
+        kinematics: of the robot.
+        clock: by which it is judged whether it is heard.
+
+    Raises:
+        UnusableSetting: there is no such hardware, or it cannot be that robot.
+        RoomMissing: its maker's library is not installed.
+        RobotNotAnswering: nobody answers at its address.
+    """
+    if not isinstance(scene, ReachingScene):
+        raise UnusableSetting("[robot.backend] kind", f"no hardware stands in the scene {scene.name}: it is simulated")
+    if not section.backend.host:
+        raise UnusableSetting("[robot.backend] host", "nobody knows where the arm is reached: give --host")
+    backend = Hardware(
+        driver_of(section.backend.kind),
+        section.backend.host,
+        scene.manipulator,
+        variant=section.variant or scene.variants[0],
+        yaw=scene.stance.base.yaw if scene.stance.base is not None else 0.0,
+        clock=clock,
+    )
+    starts = Starts(kinematics, scene.start, scene.posture, section.self_distance_stop)
+    backend.connect()
+    return Arm(
+        backend,
+        kinematics,
+        _criteria(scene),
+        starts,
+        velocity_scale=section.velocity_scale,
+        self_distance_stop=section.self_distance_stop,
+        wide_open=scene.manipulator.gripper.opening,
+    )
+
+
+def _criteria(scene: ReachingScene) -> Criteria:
+    return ReachingCriteria(scene.reached_radii, scene.kicked_thresholds, scene.tipping_angle)
+
+
 def _stage(scene: AnyScene, variant: str, description: RobotDescription) -> tuple[Backend, Criteria]:
     """What moves in a scene, and by what it is judged there."""
     match scene:
@@ -79,7 +126,6 @@ def _stage(scene: AnyScene, variant: str, description: RobotDescription) -> tupl
             from services.robot.backends.simulation import Simulation  # noqa: PLC0415 (as above)
             from sim.world.physics import World  # noqa: PLC0415 (as above)
 
-            criteria = ReachingCriteria(scene.reached_radii, scene.kicked_thresholds, scene.tipping_angle)
-            return Simulation(World(scene, variant, description)), criteria
+            return Simulation(World(scene, variant, description)), _criteria(scene)
         case ParticleScene():
             return ParticleBackend(scene, variant), ViaPointCriteria(scene.via_x, scene.tolerance)

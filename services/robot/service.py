@@ -9,12 +9,13 @@ from protocol import topics
 from protocol.messages import Figure
 from services.bus.bus import Bus
 from services.evidence.ledger import Ledger, Unkept, ledger_file
+from services.process.backend import SIMULATED
 from services.process.clock import Clock
 from services.process.config import Configuration
 from services.process.endpoint import parse
 from services.process.lines import one_line
 from services.process.robots import scene_of
-from services.robot.assembly import kinematics_of, simulated_arm
+from services.robot.assembly import hardware_arm, kinematics_of, simulated_arm
 from services.robot.backends.backend import CONTROL_PERIOD
 from services.robot.control import Control
 from services.robot.delays import Delays, quantiles
@@ -34,7 +35,7 @@ log = logging.getLogger(__name__)
 
 
 def build(bus: Bus, clock: Clock, configuration: Configuration, memory: Memory | None = None) -> RobotService:
-    """The service on a simulated world.
+    """The service on a simulated world, or on hardware.
 
     Args:
         bus: to hear, answer and report on.
@@ -47,6 +48,8 @@ def build(bus: Bus, clock: Clock, configuration: Configuration, memory: Memory |
         SimError: there is no such scene or variant, or the robot's description is not installed.
         StartImpossible: the arm cannot reach the scene's start.
         FolderUnusable: there is no folder for the robot's file.
+        UnusableSetting: see `hardware_arm`.
+        EnvironmentFault: the hardware's library is not installed, or it does not answer.
     """
     ledger: Ledger = Unkept()
     if memory is None:
@@ -55,14 +58,17 @@ def build(bus: Bus, clock: Clock, configuration: Configuration, memory: Memory |
     scene = scene_of(section)
     description = described(scene)
     kinematics = TimedKinematics(clock, kinematics_of(scene, description))
-    arm = simulated_arm(
-        scene,
-        section.variant or scene.variants[0],
-        description,
-        kinematics=kinematics,
-        velocity_scale=section.velocity_scale,
-        self_distance_stop=section.self_distance_stop,
-    )
+    if section.backend.kind == SIMULATED:
+        arm = simulated_arm(
+            scene,
+            section.variant or scene.variants[0],
+            description,
+            kinematics=kinematics,
+            velocity_scale=section.velocity_scale,
+            self_distance_stop=section.self_distance_stop,
+        )
+    else:
+        arm = hardware_arm(scene, section, kinematics, clock)
     control = Control(
         arm,
         scene,

@@ -6,6 +6,7 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 
 from services.commands import process
+from services.commands.arguments import add_backend
 from services.commands.robot.check import check, draw, listed
 from services.commands.settings import configuration
 
@@ -31,6 +32,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("what", nargs="?", choices=_WORDS)
     parser.add_argument("which", nargs="?", metavar="NAME|FILE", help="of a robot (default: as configured)")
     process.add_arguments(parser)
+    add_backend(parser)
     parser.add_argument("--out", type=Path, metavar="FOLDER", default=Path(), help="for pictures (default: this one)")
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 
-from services.commands.arguments import add_network, add_scene, add_skill
+from services.commands.arguments import add_backend, add_network, add_scene, add_skill
 from services.commands.settings import configuration
 from services.commands.sides import Side
 from services.commands.up.launch import Launch, launch
@@ -22,6 +22,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.description = _ABOUT
     add_network(parser)
     add_scene(parser)
+    add_backend(parser)
     add_skill(parser)
     parser.add_argument("--headless", action="store_true", help="a scripted operator instead of the page")
     parser.add_argument("--once", action="store_true", help="end when the loop has closed, or the run is ended")

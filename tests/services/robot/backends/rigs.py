@@ -1,8 +1,13 @@
 """Each backend on what it drives, for the tests of what all of them promise."""
 
+import time
+
+from services.process.clock import SystemClock
 from services.robot.assembly import kinematics_of
+from services.robot.backends.hardware import Hardware, driver_of
 from services.robot.backends.particle import ParticleBackend
 from services.robot.backends.simulation import Simulation
+from sim.robots.catalogue import robot
 from sim.robots.description import prepare
 from sim.tasks import PARTICLE, TABLE
 from sim.world.physics import World
@@ -41,3 +46,25 @@ def kinematics_start():
 
 def particle():
     return Rig(ParticleBackend(PARTICLE, PARTICLE.variants[0]))
+
+
+class Franka:
+    """The maker's own driver, against a simulated arm that speaks its protocol: time passes by itself."""
+
+    def __init__(self, arm):
+        self._arm = arm
+        panda = robot("panda")
+        self.backend = Hardware(driver_of("franka"), arm.host, panda, variant="", yaw=0.0, clock=SystemClock())
+        self._due = time.monotonic()
+
+    def period(self):
+        self.backend.elapse()
+        self._due = max(self._due + 0.01, time.monotonic())
+        time.sleep(max(0.0, self._due - time.monotonic()))
+
+    def rest(self, seconds):
+        time.sleep(seconds)
+        self._arm.rest(seconds)
+
+    def close(self):
+        self.backend.close()

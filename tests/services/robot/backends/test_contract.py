@@ -7,20 +7,34 @@ import pytest
 
 from services.robot.backends.backend import CONTROL_PERIOD, SILENCE_S, Jump, NotReady, State
 from tests.services.robot.backends import rigs
+from tests.services.robot.backends.franka_arm import FrankaArm
 
-STEP = 0.001  # [rad, or m] of the last joint in a control period
+JOINT = 1  # that is led
+STEP = 0.001  # [rad, or m] of it in a control period
 STANDING = 0.02  # [rad/s, or m/s]
+
+
+@pytest.fixture(scope="module")
+def franka_arm():
+    arm = FrankaArm()
+    yield arm
+    arm.close()
+
+
+def franka(request):
+    return rigs.Franka(request.getfixturevalue("franka_arm"))
 
 
 @pytest.fixture(
     params=[
-        pytest.param(rigs.simulation, id="simulation", marks=pytest.mark.sim),
-        pytest.param(rigs.particle, id="particle"),
+        pytest.param(lambda request: rigs.simulation(), id="simulation", marks=pytest.mark.sim),
+        pytest.param(lambda request: rigs.particle(), id="particle"),
+        pytest.param(franka, id="franka", marks=[pytest.mark.sim, pytest.mark.system]),
     ]
 )
 def bare(request):
     """A backend that is not connected yet."""
-    rig = request.param()
+    rig = request.param(request)
     yield rig
     rig.close()
 
@@ -32,12 +46,12 @@ def rig(bare):
 
 
 def along(q, distance):
-    """Where the last joint is further on."""
-    return q + distance * np.eye(len(q))[-1]
+    """Where that joint is further on."""
+    return q + distance * np.eye(len(q))[JOINT]
 
 
 def lead(rig, periods):
-    """Lead the last joint on from where it stands; how long the calls took [s], and where it was led to."""
+    """Lead the joint on from where it stands; how long the calls took [s], and where it was led to."""
     q, taken = rig.backend.observe().q, []
     for _ in range(periods):
         q = along(q, STEP)
@@ -86,12 +100,12 @@ def test_it_holds_until_it_is_commanded_then_it_follows_and_says_so(rig):
     assert status.age < 0.1
     measured = rig.backend.observe().q
     assert np.abs(measured - commanded).max() < 0.02
-    assert measured[-1] - before[-1] > 0.03
+    assert measured[JOINT] - before[JOINT] > 0.03
 
 
 def test_a_first_command_that_is_not_where_the_arm_stands_is_refused_and_moves_nothing(rig):
     before = rig.backend.observe().q
-    with pytest.raises(Jump, match=rig.backend.joint_names[-1]):
+    with pytest.raises(Jump, match=rig.backend.joint_names[JOINT]):
         rig.backend.command(along(before, 0.1), np.zeros_like(before), 0.0)
     rig.rest(0.05)
     assert np.abs(rig.backend.observe().q - before).max() < 1e-3

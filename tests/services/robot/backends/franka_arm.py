@@ -1,0 +1,89 @@
+"""A simulated Franka in a process of its own, that speaks the vendor's protocol on loopback; and what is seen there.
+
+As a program: `python franka_arm.py Q1 ... Q7` prints its address, then a hundred times a second the time, its own time
+since its start, the fastest joint's speed and the joints' positions, until it is terminated.
+"""
+
+import logging
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+
+PATIENCE_S = 30.0
+
+
+class FrankaArm:
+    """The process, seen from a test."""
+
+    def __init__(self, q=()):
+        command = [sys.executable, __file__, *map(str, q)]
+        self._process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+        self.host = self._process.stdout.readline().strip()
+        self._rows = []
+        self._reader = threading.Thread(target=self._listen, daemon=True)
+        self._reader.start()
+        self.await_state()
+
+    def await_state(self):
+        until = time.monotonic() + PATIENCE_S
+        while not self._rows:
+            assert self._process.poll() is None, "the simulated Franka has ended"
+            assert time.monotonic() < until
+            time.sleep(0.02)
+
+    @property
+    def seen(self):
+        """What it has printed, a row each: time [s], its own time [s], greatest speed [rad/s], positions [rad]."""
+        return np.array(self._rows)
+
+    def rest(self, seconds):
+        """Wait until so much of its own time has passed, which on a busy machine goes slower than the clock's."""
+        due = self._rows[-1][1] + seconds
+        until = time.monotonic() + PATIENCE_S
+        while self._rows[-1][1] < due:
+            assert time.monotonic() < until
+            time.sleep(0.005)
+
+    def freeze(self):
+        self._process.send_signal(signal.SIGSTOP)
+
+    def thaw(self):
+        self._process.send_signal(signal.SIGCONT)
+
+    def close(self):
+        self._process.kill()
+        self._process.wait()
+        self._reader.join()
+        self._process.stdout.close()
+
+    def _listen(self):
+        for line in self._process.stdout:
+            self._rows.append([float(value) for value in line.split()])
+
+
+def main():
+    from franky_sim import SimulationServer
+    from franky_sim.mujoco_simulator import MujocoSimulator
+
+    logging.disable()
+    q = [float(value) for value in sys.argv[1:]]
+    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(0))
+    with MujocoSimulator(enable_visualization=False) as sim:
+        arm = sim.add_robot(initial_q=q) if q else sim.add_robot()
+        with SimulationServer(sim) as server:
+            server.run_async()
+            sys.stdout.write(f"{arm.hostname}\n")
+            while True:
+                state = arm.inner_state
+                row = (time.monotonic(), sim.data.time, max(map(abs, state.dq)), *state.q)
+                sys.stdout.write(f"{' '.join(map(str, row))}\n")
+                sys.stdout.flush()
+                time.sleep(0.01)
+
+
+if __name__ == "__main__":
+    main()
