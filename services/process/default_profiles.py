@@ -14,9 +14,9 @@ STANDARD_GAMEPAD = Profile(
         roll=Way(plus=5, minus=4),  # bumpers
         pitch=Way(plus=7, minus=6),  # triggers
     ),
-    buttons=Buttons(finish=0, store=2),
+    buttons=Buttons(finish=0, store=2, gripper=3),
 )
-"""Left stick: forward and left; right stick: up and turn; bumpers roll, triggers tilt."""
+"""Left stick: forward and left; right stick: up and turn; bumpers roll, triggers tilt; the gripper far from Finish."""
 
 OTHER_GAMEPAD = Profile("gamepad", ways=Ways(x=Way(axis=1, sign=-1), y=Way(axis=0, sign=-1)))
 """Of a pad whose order no standard tells only the first stick is sure: what comes after it may be a trigger."""

@@ -61,12 +61,14 @@ class Buttons(Section, frozen=True):
         finish: ends the motion, as Space does.
         store: stores a waypoint.
         stop: the emergency stop.
+        gripper: closes the gripper, or opens it where it is closed.
     """
 
     clutch: Index | None = None
     finish: Index | None = None
     store: Index | None = None
     stop: Index | None = None
+    gripper: Index | None = None
 
 
 class Profile(Section, frozen=True):

@@ -7,7 +7,6 @@ import math
 import threading
 from collections.abc import Iterable
 from dataclasses import replace
-from typing import Any
 
 import msgspec
 
@@ -15,7 +14,7 @@ from protocol import messages, topics
 from protocol.keys import STEERING
 from protocol.messages import Figure, OperatorInput
 from services.accounts.policy import page_is_open
-from services.bus.bus import Bus, Pending
+from services.bus.bus import Bus
 from services.bus.identity import new_number
 from services.certificates.credentials import is_open
 from services.process.clock import Clock
@@ -28,6 +27,7 @@ from services.station.device_buttons import DeviceButtons
 from services.station.draw import Draw
 from services.station.ears import Ears, came_s, message, prediction_of, young
 from services.station.frontend import Frontend
+from services.station.gripper import Gripper
 from services.station.handover import GIVE, KEEP, HandOver
 from services.station.history import HistoryReader
 from services.station.live_view.stage import Stage
@@ -35,20 +35,19 @@ from services.station.neighbours import Neighbours
 from services.station.own_path import OwnPath
 from services.station.page.view import PageView
 from services.station.press import REVOKE, STOP, Press
+from services.station.questions import Questions
 from services.station.settings import settings
 from services.station.stop import StopButton
 from services.station.words.table import speech
 from services.station.workflow.action import Action
 from services.station.workflow.settings import Settings
 from services.station.workflow.state import Phase, Workflow
-from services.station.workflow.view import Answer, Ask, View
+from services.station.workflow.view import View
 from services.station.workflow.words import teaching_state
 from services.station.workflow.workflow import advance
 from sim.robots.robot import USUAL_CAMERAS
 
 log = logging.getLogger(__name__)
-
-QUERY_TIMEOUT_S = 5.0
 
 
 def build(bus: Bus, clock: Clock, configuration: Configuration) -> StationService:
@@ -116,8 +115,9 @@ class StationService:
         self._stage = Stage(self._ears)
         self._history = HistoryReader(bus, page.effects) if page is not None else None
         self._buttons = DeviceButtons(self._ears.master, workflow_settings.holder)
+        self._gripper = Gripper(workflow_settings.holder)
         self._workflow = Workflow()
-        self._asked: tuple[int, Pending[Any]] | None = None
+        self._questions = Questions(bus)
         self._schedule = Schedule()
         self._worded: Phase | None = None
         self._words = PageView()
@@ -144,11 +144,12 @@ class StationService:
         if held.operator:
             self._settings = replace(self._settings, operator=held.operator)
         view = self._view(now_ns, pressed, held)
+        self._gripper.hear(pressed, view)
         before = self._workflow.phase
         step = advance(self._workflow, view, self._settings)
         self._workflow = step.state
         if step.ask is not None:
-            self._ask(step.ask)
+            self._questions.ask(step.ask)
         if before is not step.state.phase:
             log.debug("%s -> %s", before.value, step.state.phase.value)
             if step.state.phase is Phase.RESETTING and step.state.placed is None:
@@ -234,27 +235,17 @@ class StationService:
             seen=ears.seen.fresh(now_ns),
             seen_s=came_s(ears.seen.latest()),
             result=message(ears.results.latest()),
-            answer=self._answer(),
+            answer=self._questions.answer(),
             presses=tuple(pressed),
             drawn=self._draw.of(scene),
         )
-
-    def _ask(self, ask: Ask) -> None:
-        self._asked = ask.number, self._bus.ask(ask.query, ask.request, QUERY_TIMEOUT_S)
-
-    def _answer(self) -> Answer | None:
-        """To the question asked last, in every view until another is asked: the workflow knows what it waits for."""
-        if self._asked is None:
-            return None
-        number, pending = self._asked
-        outcome = pending.poll()
-        return Answer(number, outcome) if outcome is not None else None
 
     def _publish(self, held: OperatorInput, now_ns: int) -> None:
         """Who is here and what is held; that s/he is present, where this station holds the authority."""
         operator, holder, epoch = self._settings.operator, self._settings.holder, self._workflow.held_epoch
         blind = self._page is not None and self._ears.blind(now_ns)  # a script looks at no pictures
-        said = msgspec.structs.replace(held, operator=operator, holder=holder, epoch=epoch, blind=blind)
+        who = {"operator": operator, "holder": holder, "epoch": epoch}
+        said = msgspec.structs.replace(held, **who, blind=blind, opening=self._gripper.asked)
         self._bus.publish(topics.OPERATOR_INPUT, said)
         if epoch and held.present:
             renewal = messages.AuthorityRenewal(operator=operator, holder=holder, epoch=epoch)
@@ -281,6 +272,8 @@ class StationService:
             drawing=self._stage.drawing(now_ns, workflow.approach.waypoints),
             master=ears.master.fresh(now_ns),
             recording=message(ears.recording.latest()),
+            wide_open=view.scene.wide_open if view.scene is not None else 0.0,
+            opening=self._gripper.asked,
         )
 
     def _page_view(self, now_ns: int, view: View) -> PageView:

@@ -70,7 +70,7 @@ def coupled(controller: Controller, profile: Profile) -> bool:
 def actions(controller: Controller, profile: Profile) -> tuple[str, ...]:
     """The actions whose buttons are pressed."""
     buttons = profile.buttons
-    named_ = {"finish": buttons.finish, "store": buttons.store, "stop": buttons.stop}
+    named_ = {"finish": buttons.finish, "store": buttons.store, "stop": buttons.stop, "grip": buttons.gripper}
     return tuple(action for action, button in named_.items() if is_pressed(controller, button))
 
 

@@ -21,6 +21,7 @@ _SHEETS = (
     "scene",
     "cameras",
     "timeline",
+    "gripper",
     "methods",
     "guide",
     "actions",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from services.station.page.commanding import commanding
 from services.station.page.controls import actions, emergency_stop
 from services.station.page.devices import devices
+from services.station.page.gripper import gripper
 from services.station.page.health import commander, figures, health
 from services.station.page.history import history
 from services.station.page.methods import methods
@@ -34,6 +35,7 @@ def shared(shown: Shown) -> Values:
         **actions(shown),
         **methods(shown),
         **timeline(shown),
+        **gripper(shown),
         **history(shown),
         **devices(shown),
     }

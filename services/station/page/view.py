@@ -79,6 +79,8 @@ class PageView:
         path: how long each stage takes from this operator's hand to the robot, and back to the eye.
         notice: one line about what went wrong last; empty where nothing did.
         open_network: others can listen in on the robot's network, and command on it.
+        wide_open: of the gripper where it takes part [m]; 0 where it takes none.
+        opening: that was asked of it here, as a share of wide open; None where nothing was.
     """
 
     teaching: TeachingState | None = None
@@ -105,6 +107,8 @@ class PageView:
     path: Stages = field(default_factory=Stages)
     notice: str = ""
     open_network: bool = False
+    wide_open: float = 0.0
+    opening: float | None = None
 
 
 @dataclass(frozen=True)

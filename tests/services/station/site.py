@@ -73,6 +73,7 @@ class Site:
         self.acquire = self.other.serve(queries.ACQUIRE)
         self.reset = self.other.serve(queries.RESET)
         self.applied_latency = -1.0
+        self.robot = RobotState(measured=POSE, reference=POSE, phase=Phase.IDLE)
         self.authority = AuthorityState(holder="", epoch=40, expires_in=0.0)
         self.service = StationService(network.bus(), settings, page, seed=3)
 
@@ -80,8 +81,7 @@ class Site:
         for _ in range(round(seconds * self.service.rate_hz)):
             self.clock.advance(1.0 / self.service.rate_hz)
             applied = {"applied_latency": self.applied_latency, "applied_way": 0.8 * self.applied_latency}
-            robot = RobotState(measured=POSE, reference=POSE, phase=Phase.IDLE, **applied)
-            self.other.publish(topics.ROBOT_STATE, robot)
+            self.other.publish(topics.ROBOT_STATE, msgspec.structs.replace(self.robot, **applied))
             self.other.publish(
                 topics.MODEL_STATE, ModelState(kind="adaptive", version=1, demonstrations=1, updates=0, scene="s")
             )

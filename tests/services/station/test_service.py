@@ -4,7 +4,7 @@ import msgspec
 import pytest
 
 from protocol import queries, topics
-from protocol.messages import AuthorityState, Light, OperatorInput, Person, Role, SafetyState
+from protocol.messages import AuthorityState, Light, Mode, OperatorInput, Person, Phase, Role, SafetyState
 from services.bus.stages import Stages
 from services.station import service
 from services.station.press import Press
@@ -245,6 +245,21 @@ def test_the_workflow_sees_whether_a_key_is_held_that_steers(key, steers, monkey
     Site(page, settings=BY_HAND).run(0.02)
     ((_, view, _),) = seen
     assert view.steering is steers
+
+
+def test_what_is_pressed_of_the_gripper_is_said_in_every_step_and_shown():
+    page = Tab()
+    site = Site(page, settings=BY_HAND)
+    held = site.other.subscribe(topics.OPERATOR_INPUT)
+    site.grant(wide_open=0.08)
+    refining = {"phase": Phase.EXECUTE, "mode": Mode.REFINE, "episode": 1, "opening_reference": 0.08}
+    site.robot = msgspec.structs.replace(site.robot, **refining)
+    site.run(0.1)
+    assert held.latest().message.opening is None
+    page.pressed = [Press("grip")]
+    site.run(0.3)
+    assert held.latest().message.opening == 0.0
+    assert (page.shown.wide_open, page.shown.opening) == (0.08, 0.0)
 
 
 def test_the_page_tells_the_way_from_hand_to_eye_of_who_commands():

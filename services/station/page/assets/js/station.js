@@ -4,6 +4,7 @@ import { Actions } from "/assets/js/actions.js";
 import { Aim } from "/assets/js/aim.js";
 import { Devices } from "/assets/js/devices.js";
 import { Following } from "/assets/js/following.js";
+import { Gripper } from "/assets/js/gripper.js";
 import { Held } from "/assets/js/held.js";
 import { Identity } from "/assets/js/identity.js";
 import { History } from "/assets/js/history.js";
@@ -58,6 +59,7 @@ const timeline = new Timeline(
   (action, argument) => presses.press(action, argument),
   (part) => liveView.mark(part),
 );
+const gripper = new Gripper((action, argument) => presses.press(action, argument));
 const history = new History(liveView, (action, argument) => presses.press(action, argument));
 const link = new Link(tab, { onOpen, onNews, onFrame, onSilence });
 presses.link = link;
@@ -89,6 +91,7 @@ function onNews(news) {
   waypoints.show();
   devices.follow();
   timeline.follow();
+  gripper.follow();
   roundTrip.hear(news.echo);
   liveView.show(news.drawing);
   history.show(news.history.listed);
@@ -150,7 +153,7 @@ function down(event) {
   if (keyboard.steers(code) || isSpace(event)) event.preventDefault?.();
   if (event.repeat) return;
   if (isSpace(event)) actions.ask(document.querySelector('[data-action="finish"]'));
-  if (timeline.shortcut(code)) return;
+  if (timeline.shortcut(code) || gripper.shortcut(code)) return;
   held.press(code, event.timeStamp);
 }
 
