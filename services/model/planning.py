@@ -15,7 +15,7 @@ from lfd.motion.waypoints import LEAST_WAYPOINTS, Passing, passed_at, through_wa
 from protocol.messages import Origin, Waypoint
 from protocol.queries import Plan
 from services.bus.arrays import motion_from_wire
-from services.model.skill import check_duration
+from services.model.skill import check_duration, check_opening
 from services.process.exceptions import ServiceError
 from sim.tasks import AnyScene
 
@@ -55,9 +55,11 @@ def planned(scene: AnyScene, request: Plan) -> Planned:
         NotFinite: they are none.
         OutOfReach: a waypoint, or the motion between, is beyond the robot's reach; says which waypoint.
         OutOfRange: it is too fast or too slow for a robot.
+        OpeningUnfit: it does not say how far the gripper is open where that takes part, or says it where it does not.
     """
     given = _through(scene, request) if request.origin is Origin.WAYPOINTS else Planned(_shown(request))
     check_duration("the motion's duration", given.motion)
+    check_opening(scene, given.motion)
     scene.robot.check("the motion passes", given.motion.positions)
     scene.robot.check("the target at", np.array(request.object_position)[None])
     return given

@@ -110,6 +110,7 @@ def scene_state(scene: AnyScene, variant: str, start: Pose, condition: Array) ->
         variants=scene.variants,
         condition=tuple(condition.tolist()),
         condition_region=((), ()) if scene.has_object else (region.lower, region.upper),
+        wide_open=scene.wide_open,
     )
 
 

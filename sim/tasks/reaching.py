@@ -58,6 +58,11 @@ class ReachingScene(Scene):
         return self.success.gripper
 
     @property
+    def wide_open(self) -> float:
+        """See `Scene.wide_open`."""
+        return self.manipulator.gripper.opening if self.gripper else 0.0
+
+    @property
     def is_drawn(self) -> bool:
         """Somebody drew the ways through it."""
         return bool(self.ways)

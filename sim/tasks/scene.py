@@ -123,6 +123,11 @@ class Scene(ABC):
         return self.name
 
     @property
+    def wide_open(self) -> float:
+        """How far the gripper opens where it takes part [m]; 0 where it takes none."""
+        return 0.0
+
+    @property
     @abstractmethod
     def robot(self) -> Robot:
         """Return what moves in it, as it stands there."""

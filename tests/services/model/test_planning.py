@@ -2,6 +2,7 @@
 
 import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,6 +11,9 @@ from protocol import queries, topics
 from protocol.messages import Origin, Pose, Purpose, Waypoint
 from protocol.queries import Plan, Predicted, Refused
 from services.bus.arrays import from_wire, motion_from_wire, motion_to_wire
+from services.model.planning import planned as planned_in
+from services.model.skill import OpeningUnfit
+from sim.tasks import DISHWASHER
 from tests.services.model.rig import OBJECT, START, positions
 
 UPRIGHT = (1.0, 0.0, 0.0, 0.0)
@@ -40,26 +44,42 @@ def test_a_plan_leads_from_the_start_through_the_waypoints_at_the_phases_that_it
         assert abs(orientations[nearest] @ waypoint.orientation) > 0.999
 
 
+GRASPING = replace(DISHWASHER, success=replace(DISHWASHER.success, grasped=True))
+OPEN_AT_START = Waypoint(START.position, START.orientation, 0.08)
+
+
 def grasping(*openings):
     return tuple(Waypoint(one.position, one.orientation, o) for one, o in zip(WAYPOINTS, openings, strict=True))
 
 
-def test_the_gripper_closes_where_its_waypoint_is_reached_and_the_motion_stands_there(rig):
-    start = Waypoint(START.position, START.orientation, 0.08)
-    planned = plan(rig, waypoints=grasping(0.08, 0.0, 0.0), start=start).prediction
-    path, _, _, opening = motion_from_wire(planned.motion)
-    phases = np.linspace(0.0, 1.0, len(path))
+def through(waypoints, start=OPEN_AT_START, scene=GRASPING):
+    return planned_in(scene, Plan(Origin.WAYPOINTS, OBJECT, "dishwasher", 10.0, start=start, waypoints=waypoints))
+
+
+def test_the_gripper_closes_where_its_waypoint_is_reached_and_the_motion_stands_there():
+    made = through(grasping(0.08, 0.0, 0.0))
+    phases, opening = made.motion.phases, made.motion.opening
     closes = phases[np.argmax(opening < 0.04)]
-    assert closes == pytest.approx(planned.waypoints[1], abs=1.0 / 74)
+    assert closes == pytest.approx(made.waypoints[1], abs=1.0 / 74)
     assert set(opening) == {0.0, 0.08}
     stands = (phases > closes) & (phases < closes + 0.08)
-    np.testing.assert_allclose(path[stands], np.tile(WAYPOINTS[1].position, (stands.sum(), 1)), atol=1e-4)
+    there = np.tile(WAYPOINTS[1].position, (stands.sum(), 1))
+    np.testing.assert_allclose(made.motion.positions[stands], there, atol=1e-4)
 
 
-def test_a_first_waypoint_that_closes_is_reached_open(rig):
-    start = Waypoint(START.position, START.orientation, 0.08)
-    planned = plan(rig, waypoints=grasping(0.0, 0.0, 0.0), start=start).prediction
-    assert motion_from_wire(planned.motion)[3][0] == 0.08
+def test_a_first_waypoint_that_closes_is_reached_open():
+    assert through(grasping(0.0, 0.0, 0.0)).motion.opening[0] == 0.08
+
+
+@pytest.mark.parametrize(
+    ("scene", "openings", "start"),
+    [(GRASPING, (None,) * 3, None), (DISHWASHER, (0.08, 0.08, 0.0), OPEN_AT_START)],
+)
+def test_what_says_nothing_of_a_gripper_that_takes_part_is_no_plan_nor_what_does_of_one_that_does_not(
+    scene, openings, start
+):
+    with pytest.raises(OpeningUnfit):
+        through(grasping(*openings), start, scene)
 
 
 def test_waypoints_of_which_some_have_an_opening_make_no_motion(rig):

@@ -1,5 +1,7 @@
 """The robot's own values as messages."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from services.robot.wire import scene_state
@@ -20,3 +22,11 @@ def test_a_ring_to_pass_through_is_no_thing():
     rings = {box.name for box in PARTICLE.targets(condition)}
     assert rings
     assert {box.name for box in told.boxes if not box.solid} >= rings
+
+
+def test_how_wide_the_gripper_opens_is_said_where_it_takes_part():
+    told = scene_state(DISHWASHER, DISHWASHER.variants[1], DISHWASHER.start, np.zeros(0))
+    assert told.wide_open == DISHWASHER.wide_open == 0.0
+    grasping = replace(DISHWASHER, success=replace(DISHWASHER.success, grasped=True))
+    told = scene_state(grasping, DISHWASHER.variants[1], DISHWASHER.start, np.zeros(0))
+    assert told.wide_open == DISHWASHER.manipulator.gripper.opening > 0.0
