@@ -17,6 +17,7 @@ from services.robot.correction import UNCORRECTED, Correction
 from services.robot.drive import Drive
 from services.robot.episode import Episode, EpisodeOutcome
 from services.robot.execution import Execution
+from services.robot.fingers import Fingers
 from services.robot.mechanism import InverseFailed, Mechanism
 from services.robot.reach import check_reach, shortfall
 from services.robot.refusal import Refusal
@@ -40,6 +41,7 @@ class Arm:
         velocity_scale: share of the joints' speed limits that may be used.
         self_distance_stop: distance between the robot's parts at which it stops [m].
         wide_open: opening of the gripper [m]; 0 where there is none.
+        grips: the gripper takes part in the task: what is told of a motion says how far it was open.
     """
 
     def __init__(
@@ -52,6 +54,7 @@ class Arm:
         velocity_scale: float = 0.5,
         self_distance_stop: float = 0.005,
         wide_open: float = 0.0,
+        grips: bool = False,
     ) -> None:
         self._backend = backend
         self.drive = Drive(backend)
@@ -67,8 +70,9 @@ class Arm:
         self._self_distance_stop = self_distance_stop
         self._episode: Episode | None = None
         self._fault = ""
-        self._opening = wide_open
         self._self_distance = 0.0
+        self._grips = grips
+        self.fingers = Fingers(wide_open, self.drive.observe().opening)
         self._stand()
 
     @property
@@ -109,6 +113,7 @@ class Arm:
             raise StartImpossible(start.position, str(error)) from error
         self.start = start
         self._episode = None
+        self.fingers.tell(self.fingers.wide_open)
         self._stand()
 
     def followed(self, wanted: Correction) -> Correction:
@@ -129,12 +134,13 @@ class Arm:
         """
         self._stand()
         execution = Execution(self.measured, prediction, look_ahead, CONTROL_PERIOD, part)
-        self._episode = Episode(execution, CONTROL_PERIOD)
+        self._episode = Episode(execution, CONTROL_PERIOD, grips=self._grips)
 
     def teleoperate(self) -> None:
         """Begin an episode that the operator's hand leads, from where the arm is."""
         self._stand()
-        self._episode = Episode(Teleoperation(lambda: self.measured, CONTROL_PERIOD), CONTROL_PERIOD)
+        led = Teleoperation(lambda: self.measured, CONTROL_PERIOD)
+        self._episode = Episode(led, CONTROL_PERIOD, grips=self._grips)
 
     def finish(self, cut: Cut, reason: str) -> None:
         """Let the running episode end here; its outcome follows when the arm has settled."""
@@ -142,7 +148,7 @@ class Arm:
             self._episode.cut_short(cut, reason, self.measured)
 
     def stop(self, reason: str = "") -> EpisodeOutcome | None:
-        """Stand still where the arm is measured to be, at once.
+        """Stand still where the arm is measured to be, at once; the gripper keeps what it holds.
 
         Args:
             reason: why the episode did not come to its end, empty where it did.
@@ -152,7 +158,7 @@ class Arm:
         """
         episode, self._episode = self._episode, None
         self._q = self.observation.q
-        return episode.outcome(self._verdict, self.measured, reason) if episode is not None else None
+        return episode.outcome(self._verdict, self.measured, reason, self.fingers.now) if episode is not None else None
 
     def halt(self, reason: str) -> EpisodeOutcome | None:
         """Stop, and command nothing until `recover`; see `stop`."""
@@ -192,7 +198,7 @@ class Arm:
         fault = ""
         try:
             previous_q, clamped = self._decide(episode, wanted, leeway, holding=holding)
-            self.drive.period(self._q, (self._q - previous_q) / CONTROL_PERIOD, self._opening, given)
+            self.drive.period(self._q, (self._q - previous_q) / CONTROL_PERIOD, self.fingers.told, given)
             self._observe()
         except Exception as error:  # noqa: BLE001 (whatever hardware and solvers raise: the arm stands and says so)
             fault = self.drive.fault(error)
@@ -201,13 +207,19 @@ class Arm:
             episode.judged(self._verdict)
             if not (holding or fault):
                 commanded = self._kinematics.forward(self._q)
-                episode.record(self._reference, commanded, self.measured, clamped=bool(clamped))
+                episode.record(
+                    self._reference,
+                    commanded,
+                    self.measured,
+                    self.fingers.now,
+                    clamped=bool(clamped),
+                )
             outcome = self.stop(fault) if fault else self._conclude(episode)
         return Tick(
             observation=self.observation,
             measured=self.measured,
             reference=self._reference,
-            opening_reference=self._opening,
+            opening_reference=self.fingers.told,
             phase=phase_of(episode, holding=holding),
             progress=episode.execution.progress if episode is not None else 0.0,
             correction=episode.execution.correction if episode is not None else UNCORRECTED,
@@ -239,6 +251,7 @@ class Arm:
         if episode.holding:
             self._q, self._reference = self.observation.q, self.measured
         reference = episode.advance(within, self.measured, leeway)
+        self.fingers.tell(episode.execution.opening)
         self._reference, too_fast = safety.clamp_reference(self._reference, reference, CONTROL_PERIOD)
         clamped = [*too_far, *too_fast]
         q, target = self._q, self._reference
@@ -281,6 +294,7 @@ class Arm:
 
     def _observe(self) -> None:
         self.observation = self.drive.observe()
-        self.measured = self._kinematics.forward(self.observation.q)
         seen = self.observation
+        self.fingers.measured = seen.opening
+        self.measured = self._kinematics.forward(seen.q)
         self._verdict: Verdict = self._judge.judge(self.measured, seen.object_pose, seen.touch)

@@ -73,6 +73,7 @@ def simulated_arm(
         velocity_scale=velocity_scale,
         self_distance_stop=self_distance_stop,
         wide_open=scene.manipulator.gripper.opening if isinstance(scene, ReachingScene) else 0.0,
+        grips=isinstance(scene, ReachingScene) and scene.gripper,
     )
 
 

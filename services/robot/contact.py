@@ -12,6 +12,7 @@ that the turn does comes back through the network.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -86,9 +87,9 @@ class ContactPort:
         self._port.hear(master.publisher, master.contact_energy)
         applied = episode.execution.correction
         self._before = applied.offset
-        if wanted is applied or not (self._felt.any() or self._withheld.any()):
+        if wanted.offset is applied.offset or not (self._felt.any() or self._withheld.any()):
             return wanted
-        return Correction(self._let(wanted.offset), wanted.turn)
+        return replace(wanted, offset=self._let(wanted.offset))
 
     def observe(self, contact_force: Array) -> None:
         """A period has passed.

@@ -19,18 +19,17 @@ from services.robot.admission import admit_pace, admit_prediction, admit_reset, 
 from services.robot.arm import Arm
 from services.robot.authority import NOBODY, Lease
 from services.robot.backends.backend import CONTROL_PERIOD
-from services.robot.clutch import Clutch
 from services.robot.contact import ContactPort
 from services.robot.correction import UNCORRECTED, Correction
 from services.robot.episode import EpisodeOutcome
 from services.robot.execution import Execution, look_ahead
+from services.robot.hand import Hand
 from services.robot.hold import Hold
 from services.robot.memory import Memory
 from services.robot.order import Finished, Order
 from services.robot.refusal import Refusal
 from services.robot.safety import Watchdog
 from services.robot.starts import StartImpossible
-from services.robot.teleoperation import Coupling
 from services.robot.tick import Tick
 from sim.tasks import AnyScene
 
@@ -75,11 +74,8 @@ class Control:
         self.finished: Finished | None = None
         self._watchdog = watchdog
         self._hold = Hold()
-        self._clutch = Clutch(CONTROL_PERIOD)
-        self._coupling = Coupling()
+        self._hand = Hand(master_gain, arm)
         self.contact = ContactPort(CONTROL_PERIOD)
-        self._master: int | None = None
-        self.master_gain = master_gain
         self._place: Array = scene.training_positions[0]
 
     def acquire(self, request: AcquireAuthority, process: str, now_ns: int) -> int:
@@ -216,9 +212,13 @@ class Control:
 
     def let_go(self) -> None:
         """The hand was off the master, if only for a moment."""
-        self._clutch.let_go()
+        self._hand.let_go()
         self.contact.let_go()
-        self._coupling.decouple()
+
+    @property
+    def master_gain(self) -> float:
+        """Of the master's displacement on the reference."""
+        return self._hand.gain
 
     def phase(self, tick: Tick) -> Phase:
         """What the robot is doing, the emergency stop before all."""
@@ -255,23 +255,10 @@ class Control:
         episode = self.arm.episode
         if episode is None or self.mode is Mode.AUTONOMOUS or sample is None:
             return UNCORRECTED
-        master = sample.message
-        if not master.engaged or master.publisher != self._master:
+        if self._hand.is_another(sample.message):
             self.let_go()
-        self._master = master.publisher
-        execution = episode.execution
-        if not execution.corrects:
-            self._clutch.rest()
-        if hold_reason:
-            # What the hand did meanwhile is not caught up with at once.
-            self._clutch.let_go()
-            self._coupling.decouple()
-        if hold_reason or not execution.corrects:
-            return execution.correction
-        asked = Correction(self.master_gain * np.array(master.displacement), np.array(master.rotation))
-        if self.mode is Mode.TEACH:
-            return self._coupling.step(asked) if master.engaged else UNCORRECTED
-        return self._clutch.correction(asked, self.arm.followed(asked), execution.correction)
+        leads = self.mode is Mode.TEACH
+        return self._hand.asks(sample.message, episode.execution, leads=leads, holding=bool(hold_reason))
 
     def _end(self, outcome: EpisodeOutcome | None) -> None:
         if outcome is not None and self.order is not None:

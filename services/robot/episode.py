@@ -7,7 +7,7 @@ from lfd.motion.trajectory import Trajectory
 from protocol.messages import Cut
 from services.robot.correction import Correction
 from services.robot.hold import LONG_HOLD_S
-from services.robot.recording import Recording
+from services.robot.recording import NO_GRIPPER, Openings, Recording
 from services.robot.verdict import Verdict
 from sim.pose import Pose
 
@@ -64,6 +64,11 @@ class Course(Protocol):
     @property
     def reference(self) -> Pose:
         """Where the grasping frame should be now."""
+        ...
+
+    @property
+    def opening(self) -> float | None:
+        """How far the gripper should be open now [m]; None where it stays as it is."""
         ...
 
     def is_input(self, wanted: Correction) -> bool:
@@ -123,11 +128,12 @@ class Episode:
     Args:
         execution: that advances.
         period: of the control [s].
+        grips: the gripper takes part, and the account says how far it was open.
     """
 
-    def __init__(self, execution: Course, period: float) -> None:
+    def __init__(self, execution: Course, period: float, *, grips: bool = False) -> None:
         self.execution = execution
-        self.recording = Recording(period)
+        self.recording = Recording(period, grips=grips)
         self.holding = False
         self._period = period
         self._cut: Cut | None = None
@@ -195,27 +201,32 @@ class Episode:
             self._input |= self.execution.is_input(wanted)
         return self.execution.advance(wanted, leeway)
 
-    def record(self, reference: Pose, commanded: Pose, measured: Pose, *, clamped: bool) -> None:
+    def record(
+        self, reference: Pose, commanded: Pose, measured: Pose, openings: Openings = NO_GRIPPER, *, clamped: bool
+    ) -> None:
         """Keep what this period's command was and did."""
         self._clamped += clamped
         if not self.execution.ramping:
-            self.recording.add(self.execution.time, reference, commanded, measured)
+            self.recording.add(self.execution.time, (reference, commanded, measured), openings)
 
     def judged(self, verdict: Verdict) -> None:
         """Remember how far the motion was when something was first touched or kicked over."""
         if self._clear_until is None and (verdict.collision is not None or verdict.kicked_over):
             self._clear_until = self.execution.progress
 
-    def outcome(self, verdict: Verdict, measured: Pose, stopped: str = "") -> EpisodeOutcome:
+    def outcome(
+        self, verdict: Verdict, measured: Pose, stopped: str = "", openings: Openings = NO_GRIPPER
+    ) -> EpisodeOutcome:
         """The account.
 
         Args:
             verdict: at the end.
             measured: pose of the grasping frame now.
             stopped: why the arm was stopped before its end, empty where it was not.
+            openings: of the gripper now.
         """
         cut, reason = (Cut.STOPPED, stopped) if stopped else (self._cut, self._reason)
-        motions = self.recording.motions(self.execution.points, measured)
+        motions = self.recording.motions(self.execution.points, measured, openings)
         progress = self.execution.progress
         return EpisodeOutcome(
             refined=motions.refined,

@@ -121,6 +121,14 @@ class Execution:
         return self._path.pose(self._at)
 
     @property
+    def opening(self) -> float | None:
+        """How far the gripper should be open now [m]; None on the ramp, and where nobody says: it stays as it is."""
+        if self.ramping:
+            return None
+        asked = self.correction.opening
+        return self._path.opening(self._at) if asked is None else asked
+
+    @property
     def reference(self) -> Pose:
         """Where the grasping frame should be now."""
         return self._ramp.pose if self.ramping else self._corrected()
@@ -173,7 +181,9 @@ class Execution:
         self._passage.go_on(self._at, self.correction)
 
     def is_input(self, wanted: Correction) -> bool:
-        """What is wanted is more than a device's noise."""
+        """What is wanted is more than a device's noise, or something of the gripper."""
+        if wanted.opening is not None:
+            return True
         displaced = float(np.linalg.norm(wanted.offset)) > INPUT_THRESHOLD
         return displaced or float(np.linalg.norm(wanted.turn)) > TURN_THRESHOLD
 

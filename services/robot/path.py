@@ -1,4 +1,4 @@
-"""The prediction as the control periods pass it: its pose at any time."""
+"""The prediction as the control periods pass it: its pose and its gripper's opening at any time."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Path:
         self._period = period
         self._times = np.minimum(np.arange(self.end + 1) * period, prediction.duration)
         path = at_phases(prediction, self._times / prediction.duration, Interpolation.CUBIC)
-        self._positions, self._orientations = path.positions, path.orientations
+        self._positions, self._orientations, self._opening = path.positions, path.orientations, path.opening
 
     def time(self, at: float) -> float:
         """Of the prediction [s].
@@ -57,6 +57,10 @@ class Path:
         share = np.asarray((time - before) / (after - before))
         orientation = slerp(self._orientations[tick], self._orientations[tick + 1], share)
         return Pose(self._position(tick, time), orientation)
+
+    def opening(self, at: float) -> float | None:
+        """The gripper's opening at a time in control periods [m]: of the last whole one; None for no part in it."""
+        return None if self._opening is None else float(self._opening[int(at)])
 
     def _position(self, tick: int, time: float) -> Array:
         """On the cubic through the nearest kept points (Lagrange): exact for cubics."""

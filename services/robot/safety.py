@@ -147,7 +147,7 @@ def clamp_correction(wanted: Correction) -> tuple[Correction, tuple[str, ...]]:
     """The operator's correction within its reach, and what was clamped."""
     offset, displaced = clamp_length(wanted.offset, DISPLACEMENT_REACH)
     turn, rotated = clamp_length(wanted.turn, ROTATION_REACH)
-    return Correction(offset, turn), _named(("displacement", displaced), ("rotation", rotated))
+    return Correction(offset, turn, wanted.opening), _named(("displacement", displaced), ("rotation", rotated))
 
 
 def clamp_reference(previous: Pose, wanted: Pose, period: float) -> tuple[Pose, tuple[str, ...]]:

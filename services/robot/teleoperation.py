@@ -81,6 +81,8 @@ class Teleoperation:
         self._period = period
         self._ticks = 0
         self._longest = round(LONGEST_S / period)
+        self.opening: float | None = None
+        """Of the gripper, as the hand asked for it last [m]; None leaves it as it is."""
 
     @property
     def finished(self) -> bool:
@@ -108,8 +110,8 @@ class Teleoperation:
         return min(MOST_POINTS, max(LEAST_POINTS, math.ceil(self.time / SAMPLE_S) + 1))
 
     def is_input(self, wanted: Correction) -> bool:
-        """The hand moves."""
-        return bool(wanted.offset.any() or wanted.turn.any())
+        """The hand moves, or asks something of the gripper."""
+        return bool(wanted.offset.any() or wanted.turn.any()) or wanted.opening is not None
 
     def advance(self, wanted: Correction, leeway: float = 1.0) -> Pose:
         """Go on by one control period.
@@ -124,6 +126,7 @@ class Teleoperation:
         del leeway
         if not self.finished:
             self._ticks += 1
+            self.opening = self.opening if wanted.opening is None else wanted.opening
             self.reference = _leashed(self.reference, wanted.of(self.reference), self._measured())
         return self.reference
 

@@ -1,6 +1,7 @@
 """The particle of the thesis' 2D example in an arm's place: three slides without mass, friction or delay."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,7 +46,7 @@ class ParticleKinematics:
 
     def admitted(self, wanted: Correction) -> Correction:
         """Its displacement along the axes; a point cannot be turned."""
-        return Correction(self._axes * wanted.offset, np.zeros(3))
+        return replace(wanted, offset=self._axes * wanted.offset, turn=np.zeros(3))
 
     def solve_step(self, q: Array, position: Array, orientation: Array, dt: float) -> tuple[Array, Array]:
         """Straight to the position, each slide as fast as it may."""

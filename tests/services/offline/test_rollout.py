@@ -124,5 +124,5 @@ def test_an_object_that_topples_is_kicked_over_though_its_centre_moved_less_than
     pushing = Trajectory(way.positions + np.outer(share, [0.0, 0.08, 0.02]), way.orientations, way.duration)
     verdict = rollout(simulated_arm(reaching, trained, prepare()), pushing, place).verdict
     assert np.all(np.abs(verdict.displacement) < reaching.kicked_thresholds)
-    assert verdict.tilt > np.radians(60.0)
+    assert verdict.tilt > np.radians(45.0)
     assert verdict.kicked_over

@@ -32,7 +32,9 @@ class Operated:
                 self.say(master, **said)
             self.service.step(self.clock.now_ns())
 
-    def say(self, displacement, *, rotation=(0.0, 0.0, 0.0), engaged=True, epoch=None, contact_energy=-1.0):
+    def say(
+        self, displacement, *, rotation=(0.0, 0.0, 0.0), engaged=True, epoch=None, contact_energy=-1.0, opening=None
+    ):
         """One sample of the master."""
         state = messages.MasterState(
             displacement=displacement,
@@ -41,6 +43,7 @@ class Operated:
             holder=self.holder,
             epoch=self.epoch if epoch is None else epoch,
             contact_energy=contact_energy,
+            opening=opening,
         )
         self.operator.publish(topics.MASTER_STATE, state)
 

@@ -65,12 +65,12 @@ class Later(Executor):
 class Site(Operated):
     """See the module."""
 
-    def __init__(self, memory=None, *, ledger=None, master_gain=1.0, kinematics=None, morning=MORNING):
+    def __init__(self, memory=None, *, ledger=None, master_gain=1.0, kinematics=None, morning=MORNING, arm=None):
         self.morning = morning
 
         def build(bus, clock):
             timed = TimedKinematics(clock, kinematics or kinematics_of(PARTICLE, NO_DESCRIPTION))
-            self.arm = simulated_arm(PARTICLE, FREE, NO_DESCRIPTION, kinematics=timed)
+            self.arm = arm or simulated_arm(PARTICLE, FREE, NO_DESCRIPTION, kinematics=timed)
             self.control = Control(
                 self.arm,
                 PARTICLE,
@@ -126,7 +126,7 @@ class Site(Operated):
         return received.message if received else None
 
 
-def straight(duration=1.0, n=75, length=0.4):
+def straight(duration=1.0, n=75, length=0.4, opening=None):
     """A motion along x from the particle's start."""
     positions = np.column_stack([np.linspace(0.0, length, n), np.zeros(n), np.zeros(n)])
-    return motion_to_wire(positions, np.tile(IDENTITY, (n, 1)), duration)
+    return motion_to_wire(positions, np.tile(IDENTITY, (n, 1)), duration, opening)
