@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import logging
-from dataclasses import dataclass
 
 from protocol.messages import Pose, SceneState, WorldState
 from protocol.topics import SCENE_STATE, WORLD_STATE
 from services.bus.arrays import NotFinite, from_wire, quaternion, vector3
 from services.bus.bus import Bus
+from services.camera.calibrated import Calibrated
+from services.camera.optics import Optics
+from services.camera.places import Mounting
 from services.camera.seen import Seen
 from services.process.cameras import Simulated
 from services.process.config import CameraSection, RobotSection
 from services.process.robots import scene_of
-from sim.exceptions import RobotOfItsOwn, UnknownScene, UnknownVariant
+from sim.exceptions import CameraUnfit, RobotOfItsOwn, UnknownScene, UnknownVariant
 from sim.robots.gripper import Mount
 from sim.robots.robot import Camera
 from sim.tasks import AnyScene, described
@@ -68,6 +70,18 @@ class DrawnWorld:
         self._drawn_ns[camera] = world.stamp_ns
         return seen
 
+    def check(self, camera: str, mounting: Mounting) -> None:
+        """Let pass a camera that is fixed to a link that is there; raises CameraUnfit."""
+        try:
+            self._cameras.link(mounting.link)
+        except KeyError:
+            raise CameraUnfit(camera, mounting.link) from None
+
+    def carried(self, mounting: Mounting) -> Pose:
+        """Where what is fixed so was in the state that was drawn last."""
+        at = self._cameras.link(mounting.link)
+        return mounting.on(at.position, at.orientation)
+
     def close(self) -> None:
         """Give the drawing library's resources back."""
         self._cameras.close()
@@ -108,21 +122,39 @@ class DrawnWorld:
         )
 
 
-@dataclass(frozen=True)
 class SimulatedCamera:
-    """See `Source`.
+    """See `Source`. What was measured of it counts, as of a real one.
 
-    Attributes:
+    Args:
         world: that it stands in.
         name: of the camera.
+        known: what was measured of it.
     """
 
-    world: DrawnWorld
-    name: str
+    def __init__(self, world: DrawnWorld, name: str, known: Calibrated) -> None:
+        self._world, self._name, self._known = world, name, known
+        self._optics: Optics | None = None
 
     def look(self, now_ns: int) -> Seen | None:
         """See `Source.look`."""
-        return self.world.look(self.name, now_ns)
+        seen = self._world.look(self._name, now_ns)
+        if seen is None:
+            return None
+        if self._known.optics is not None:
+            seen = self._straightened(seen, self._known.optics)
+        mounting = self._known.mounting
+        return seen if mounting is None else seen._replace(pose=self._world.carried(mounting))
+
+    def _straightened(self, seen: Seen, measured: Optics) -> Seen:
+        height, width, _ = seen.image.shape
+        if self._optics is None:  # a lens is laid out once
+            self._optics = measured.of_size(width, height)
+        optics, depth = self._optics, seen.depth
+        return seen._replace(
+            image=optics.straightened(seen.image),
+            intrinsics=optics.matrix,
+            depth=None if depth is None else lambda: optics.straightened_depth(depth()),
+        )
 
 
 def _camera(said: Simulated) -> Camera:

@@ -7,11 +7,12 @@ from collections.abc import Mapping
 from protocol.messages import Pose
 from protocol.topics import ROBOT_STATE
 from services.bus.bus import Bus
+from services.camera.calibrated import Calibrated, calibrated
 from services.camera.device import DeviceCamera
-from services.camera.places import Carried, Place, Standing, mounting
+from services.camera.places import Carried, Mounting, Place, Standing, mounting
 from services.camera.seen import Source
 from services.camera.simulated import DrawnWorld, SimulatedCamera
-from services.process.cameras import RealCamera, Simulated
+from services.process.cameras import Simulated
 from services.process.clock import Clock
 from services.process.config import Configuration
 from services.process.robots import camera_names, scene_of
@@ -35,6 +36,7 @@ class Sources:
         DescriptionMissing: the robot's meshes are not installed.
         UnknownScene: the configuration names a scene that is not there.
         CameraUnfit: a camera is fixed to a link that is not there.
+        ConfigurationError: what was measured of a camera cannot be used.
     """
 
     def __init__(self, bus: Bus, clock: Clock, configuration: Configuration) -> None:
@@ -42,11 +44,15 @@ class Sources:
         section = configuration.camera
         names = camera_names(configuration)
         real = {one.name: one for one in section.cameras if not isinstance(one, Simulated)}
-        places = self._places(real)
+        known = {name: calibrated(configuration.name, name) for name in names}
+        places = self._places({name: known[name].mounting or mounting(one) for name, one in real.items()})
         self._drawn = DrawnWorld(bus, configuration.robot, section) if set(names) - set(real) else None
+        drawn = self._simulated({name: known[name] for name in names if name not in real})
         size = section.width, section.height
-        self._devices = {name: DeviceCamera(one, places[name], clock, size=size) for name, one in real.items()}
-        drawn = {name: SimulatedCamera(self._drawn, name) for name in names if name not in real and self._drawn}
+        self._devices = {
+            name: DeviceCamera(one, places[name], clock, size=size, optics=known[name].optics)
+            for name, one in real.items()
+        }
         self.cameras: Mapping[str, Source] = {name: self._devices.get(name) or drawn[name] for name in names}
 
     @property
@@ -61,8 +67,16 @@ class Sources:
         if self._drawn is not None:
             self._drawn.close()
 
-    def _places(self, real: Mapping[str, RealCamera]) -> dict[str, Place]:
-        fixed = {name: mounting(one) for name, one in real.items()}
+    def _simulated(self, known: Mapping[str, Calibrated]) -> dict[str, Source]:
+        cameras: dict[str, Source] = {}
+        if self._drawn is not None:
+            for name, one in known.items():
+                if one.mounting is not None:
+                    self._drawn.check(name, one.mounting)
+                cameras[name] = SimulatedCamera(self._drawn, name, one)
+        return cameras
+
+    def _places(self, fixed: Mapping[str, Mounting]) -> dict[str, Place]:
         places: dict[str, Place] = {
             name: Standing(Pose(one.position, one.orientation)) for name, one in fixed.items() if not one.link
         }

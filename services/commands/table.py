@@ -3,7 +3,7 @@
 from services.commands.command import Command
 from services.process.processes import PROCESSES
 
-_MODULES = {"robot": "services.commands.robot.command"}
+_MODULES = {"robot": "services.commands.robot.command", "camera": "services.commands.camera.command"}
 """Of the processes that are more than one process."""
 
 COMMANDS: tuple[Command, ...] = (

@@ -41,6 +41,7 @@ ServiceError
 │   └── ExportUnusable       a file that is no export of a skill, or not as it was written
 │       └── NoSkillIn        one that is as it was written, and makes no skill
 ├── CameraUnusable           a camera's device that is not there (services.camera.exceptions)
+├── CalibrationImpossible    pictures that no camera can be calibrated by (services.camera.exceptions)
 ├── NothingPlanned           way-points or a refinement that make no motion (services.model.planning)
 ├── ViewerError              (services.viewer.exceptions)
 │   ├── WebFilesMissing      the Rerun SDK did not give its web viewer's files (an EnvironmentFault too)

@@ -10,6 +10,7 @@ from sim.robots.catalogue import robot
 from sim.robots.description import source_of
 from sim.robots.robot import USUAL_CAMERAS, Manipulator
 from sim.tasks import SCENES, AnyScene, is_path, scene
+from sim.tasks.reaching import ReachingScene
 
 
 def manipulator(section: RobotSection) -> Manipulator | None:
@@ -78,5 +79,7 @@ def camera_names(configuration: Configuration) -> tuple[str, ...]:
         ConfigurationError: see `manipulator`.
     """
     known = known_scene(configuration.robot)
-    own = USUAL_CAMERAS if known is None else known.robot.camera_names
+    own: tuple[str, ...] = USUAL_CAMERAS
+    if isinstance(known, ReachingScene):
+        own = tuple(camera.name for camera in known.manipulator.cameras)
     return tuple(dict.fromkeys((*own, *(camera.name for camera in configuration.camera.cameras))))

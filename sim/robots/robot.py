@@ -145,11 +145,6 @@ class Robot:
     kind: str
     reach: Region
 
-    @property
-    def camera_names(self) -> tuple[str, ...]:
-        """Of the cameras that it sees with."""
-        return USUAL_CAMERAS
-
     def check(self, what: str, positions: Array) -> None:
         """Let pass positions that the robot may be able to take.
 
@@ -198,11 +193,6 @@ class Manipulator(Robot):
     turn_slack: float = 0.0
     limbs: tuple[str, ...] = ()
     trunk: tuple[str, ...] = ()
-
-    @property
-    def camera_names(self) -> tuple[str, ...]:
-        """See `Robot.camera_names`."""
-        return tuple(camera.name for camera in self.cameras)
 
     @cached_property
     def joint_names(self) -> tuple[str, ...]:

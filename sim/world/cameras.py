@@ -105,6 +105,18 @@ class Cameras:
         mujoco.mju_mat2Quat(orientation, (seen.xmat.reshape(3, 3) @ _OPTICAL).ravel())
         return Pose(seen.xpos.copy(), orientation)
 
+    def link(self, name: str) -> Pose:
+        """Return where a link was in the base frame when a camera was looked through last.
+
+        Args:
+            name: Of the link; empty for the base frame itself.
+
+        Raises:
+            KeyError: There is none.
+        """
+        body = self._data.body(name or "world")
+        return Pose(body.xpos.copy(), body.xquat.copy())
+
     def close(self) -> None:
         """Give the drawing library's resources back."""
         self._canvas.close()

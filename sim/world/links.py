@@ -7,8 +7,8 @@ import mujoco
 from sim.exceptions import CameraUnfit
 from sim.pose import Pose
 from sim.robots.description import RobotDescription
-from sim.robots.robot import Manipulator
 from sim.tasks import AnyScene
+from sim.tasks.reaching import ReachingScene
 from sim.world.assembly import assemble
 
 
@@ -24,8 +24,8 @@ class Links:
         self._model = assemble(scene, description)
         self._data = mujoco.MjData(self._model)
         self._names = frozenset(self._model.joint(number).name for number in range(self._model.njnt))
-        if isinstance(scene.robot, Manipulator):
-            self._put(zip(scene.robot.held_names, scene.robot.stance(scene.name).held, strict=True))
+        if isinstance(scene, ReachingScene):
+            self._put(zip(scene.manipulator.held_names, scene.stance.held, strict=True))
 
     def check(self, camera: str, link: str) -> None:
         """Let pass a link that is there.
@@ -39,6 +39,27 @@ class Links:
         """
         if mujoco.mj_name2id(self._model, mujoco.mjtObj.mjOBJ_BODY, link) < 0:
             raise CameraUnfit(camera, link)
+
+    def carries(self, joint: str, link: str) -> bool:
+        """Say whether a link moves where a joint does.
+
+        Args:
+            joint: Of the robot, by name.
+            link: Its name.
+        """
+        mover = self._model.joint(joint).bodyid[0]
+        body = self._model.body(link).id
+        while body not in (0, mover):
+            body = self._model.body_parentid[body]
+        return bool(body == mover)
+
+    def hand(self, joint: str) -> str:
+        """Return the name of the link that a joint moves.
+
+        Args:
+            joint: Of the robot, by name.
+        """
+        return str(self._model.body(self._model.joint(joint).bodyid[0]).name)
 
     def pose(self, link: str, joints: Mapping[str, float]) -> Pose:
         """Return where a link's frame is in the base frame.
