@@ -5,6 +5,7 @@ SimError
 ├── UnknownVariant          the scene has no variant of that name
 ├── WrongPlace              a place has not as many numbers as the scene's targets have
 ├── TaskUnfit               a task file that cannot be used
+├── NoWay                   a task that nobody drew a way for, and none was found
 ├── UnknownRobot            no robot of that name ships
 ├── RobotOfItsOwn           another robot is to stand in a scene that is about its own
 ├── OutOfReach              a position that the robot cannot take, or a place where no target can be
@@ -51,6 +52,18 @@ class TaskUnfit(SimError):
         self.path = path
         self.reason = reason
         super().__init__(f"task file {path}: {reason}")
+
+
+class NoWay(SimError):
+    """Nobody drew a way through a task, and none was found for a robot."""
+
+    def __init__(self, task: str, robot: str, reason: str) -> None:
+        self.task = task
+        self.robot = robot
+        self.reason = reason
+        super().__init__(
+            f"no way through task {task} was found for {robot}: {reason}; see 'retouch task check', or draw corridors"
+        )
 
 
 class UnknownRobot(SimError):

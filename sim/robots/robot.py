@@ -19,6 +19,9 @@ HEAD_CAMERA, WRIST_CAMERA = USUAL_CAMERAS = "head", "wrist"
 FIELD_OF_VIEW = {HEAD_CAMERA: 36.0, WRIST_CAMERA: 60.0}
 """Of the cameras whose robot says no other [deg], vertical."""
 
+ELSEWHERE = ""
+"""In a robot's stances, how it stands where it has no other."""
+
 PACKAGE = "example-robot-data"
 """Where the robots that ship have their descriptions from."""
 
@@ -174,7 +177,7 @@ class Manipulator(Robot):
         home: Positions of the joints where nothing else is said; away from their limits and from the robot itself.
         cameras: What it sees with.
         base: Where it stands in scenes that it has no stance for.
-        stances: How it stands in a scene, by the scene's name.
+        stances: How it stands in a scene, by the scene's name; `ELSEWHERE` in all others.
         turn_slack: By how much it may leave an orientation that it is asked for [rad]: nothing for an arm that can have
             any, much for one of five joints, whose orientation follows from the position.
         limbs: Shapes that can meet the trunk, by their links, or by link and number, "link_0"; by default all those
@@ -229,7 +232,7 @@ class Manipulator(Robot):
         Args:
             scene: The scene's name.
         """
-        own = self.stances.get(scene, Stance(self.home))
+        own = self.stances.get(scene) or self.stances.get(ELSEWHERE) or Stance(self.home)
         held = own.held or tuple(joint.position for joint in self.held)
         return Stance(own.posture, held, own.base or self.base)
 

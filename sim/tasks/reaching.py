@@ -27,7 +27,7 @@ class ReachingScene(Scene):
         things: Objects; motions are relative to the first.
         success: What it means.
         arrangement: What stands around the robot.
-        ways: That somebody drew, by variant; none where a planner is to find them.
+        ways: That somebody drew, by variant; where there are none they are found, see `sim.planning.ways`.
         bases: Where robots stand in it, by their kind, "" for any other; as the robot says where it says nothing.
         file: That it was read from; None for one that ships.
     """
@@ -94,10 +94,16 @@ class ReachingScene(Scene):
         return (*self.boxes(variant), *meshes, *(thing.box for thing in self.things[1:]))
 
     def routes(self, variant: str, place: Array) -> tuple[Corridor, ...]:
-        """See `Scene.routes`; none where none is drawn."""
-        if not self.is_drawn:
-            return ()
-        return self.ways[variant].corridors(self.start.position, self.start.orientation, place)
+        """See `Scene.routes`; where none is drawn, as they are found."""
+        ways = self.ways or self._found
+        return ways[variant].corridors(self.start.position, self.start.orientation, place)
+
+    @cached_property
+    def _found(self) -> Mapping[str, Way]:
+        # Imported here: physics takes a second, and who has drawn ways needs none.
+        from sim.planning.ways import ways  # noqa: PLC0415
+
+        return ways(self)
 
     @property
     def object_size(self) -> Vector:

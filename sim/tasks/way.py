@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sim.robots.gripper import pitched_down
-from sim.tasks.scene import Array, Corridor, Vector
+from sim.tasks.scene import Array, Corridor, Quaternion, Vector
 
 AXES = ("x", "y", "z")
 
@@ -18,12 +18,14 @@ class Coordinate:
     Attributes:
         fixed: Here, wherever the object is [m].
         way: A share of the way from the start to the point before the object.
+        plus: Beside that [m].
         line: On the straight way there, seen from above, at the way-point's x; the number is the way-point's share of
             the detour beside it.
     """
 
     fixed: float | None = None
     way: float | None = None
+    plus: float = 0.0
     line: float | None = None
 
 
@@ -35,11 +37,18 @@ class Point:
         pitch: Of the gripper below the horizontal [rad].
         coordinates: Along x, y and z; none where it is told from the object.
         offset: From the object's centre [m]; None where it is told by coordinates.
+        orientation: Of the gripper, scalar first, in the pitch's place.
     """
 
     pitch: float
     coordinates: tuple[Coordinate, ...] = ()
     offset: Vector | None = None
+    orientation: Quaternion | None = None
+
+    @property
+    def turned(self) -> Array:
+        """How the gripper is turned there, shape (4,)."""
+        return pitched_down(self.pitch) if self.orientation is None else np.array(self.orientation)
 
 
 @dataclass(frozen=True)
@@ -98,7 +107,7 @@ class Way:
         if self.detour is not None:
             x, y = self.detour.around
             bends = self.detour.bends(self._slope(start, place) * (x - start[0]) + start[1] - y)
-        turns = np.array([orientation, *(pitched_down(point.pitch) for point in self.points)])
+        turns = np.array([orientation, *(point.turned for point in self.points)])
         return tuple(
             Corridor(np.array([start, *(self._position(one, start, place, bend) for one in self.points)]), turns)
             for bend in bends
@@ -118,7 +127,7 @@ class Way:
             if said.fixed is not None:
                 position[axis] = said.fixed
             elif said.way is not None:
-                position[axis] = start[axis] + said.way * ahead[axis]
+                position[axis] = start[axis] + said.way * ahead[axis] + said.plus
             else:
                 straight = start[1] + self._slope(start, place) * (position[0] - start[0])
                 position[axis] = straight + (said.line or 0.0) * bend

@@ -6,6 +6,7 @@ Speeds and positions are the description's. Accelerations and jerks are ours: it
 from sim.region import Region
 from sim.robots.gripper import Mount, two_fingers
 from sim.robots.robot import (
+    ELSEWHERE,
     FIELD_OF_VIEW,
     HEAD_CAMERA,
     Camera,
@@ -40,6 +41,7 @@ ROBOT = Manipulator(
         wrist_camera(),
     ),
     stances={
+        ELSEWHERE: Stance((0.2830, 0.9342, 0.5981, 0.2594, 1.9075, 0.5393, 0.9049, 2.0147), (0.1, -0.80)),
         "dishwasher": Stance((0.3108, 2.0018, -0.4902, 0.2241, 1.4798, 1.8698, 1.2060, 1.9647), (0.06, -0.88)),
         "table": Stance((0.2830, 0.9342, 0.5981, 0.2594, 1.9075, 0.5393, 0.9049, 2.0147), (0.0, -0.78)),
         "post": Stance((0.3472, 0.4551, -0.7562, -0.7061, 1.8930, 1.1598, 1.1843, 0.0924), (0.0, -0.86)),
