@@ -42,6 +42,7 @@ ServiceError
 │       └── NoSkillIn        one that is as it was written, and makes no skill
 ├── CameraUnusable           a camera's device that is not there (services.camera.exceptions)
 ├── CalibrationImpossible    pictures that no camera can be calibrated by (services.camera.exceptions)
+├── OpeningUnfit             a motion that says too much or too little of the gripper (services.model.skill)
 ├── NothingPlanned           way-points or a refinement that make no motion (services.model.planning)
 ├── ViewerError              (services.viewer.exceptions)
 │   ├── WebFilesMissing      the Rerun SDK did not give its web viewer's files (an EnvironmentFault too)
