@@ -39,7 +39,7 @@ from protocol.messages.state import (
     Verdict,
     WorldState,
 )
-from protocol.messages.teaching import Attempt, Light, Outcome, Recording, TeachingState
+from protocol.messages.teaching import Attempt, Light, Outcome, Recording, Showing, ShowStep, TeachingState
 from protocol.messages.values import (
     ITEM_SIZES,
     LONGEST_REASON,
@@ -122,6 +122,8 @@ __all__ = [
     "Role",
     "SafetyState",
     "SceneState",
+    "ShowStep",
+    "Showing",
     "TakeOver",
     "TeachingState",
     "Text",

@@ -40,6 +40,8 @@ class SceneState(Message, frozen=True, kw_only=True):
         condition: the external state that the motion depends on; empty where it is the object relative to the gripper
             at the start.
         condition_region: least and greatest of the conditions that are drawn, where there are any.
+        training_places: where the target stands for first demonstrations: object positions [m], or conditions where the
+            scene has them.
         wide_open: opening of the gripper in a task in which it takes part [m]; 0 where it takes none.
     """
 
@@ -55,6 +57,7 @@ class SceneState(Message, frozen=True, kw_only=True):
     variants: Annotated[tuple[Name, ...], msgspec.Meta(max_length=16)] = ()
     condition: Condition = ()
     condition_region: tuple[Condition, Condition] = ((), ())
+    training_places: Annotated[tuple[Condition, ...], msgspec.Meta(max_length=32)] = ()
     wide_open: Opening = 0.0
 
     def __post_init__(self) -> None:

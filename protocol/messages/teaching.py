@@ -53,6 +53,29 @@ class Attempt(msgspec.Struct, frozen=True):
     number: Count = 0
 
 
+class ShowStep(enum.Enum):
+    """What is next where an empty skill is shown its first motions."""
+
+    PLACE = "place"
+    SHOW = "show"
+    REPLAY = "replay"
+    KEEP = "keep"
+
+
+class Showing(msgspec.Struct, frozen=True):
+    """How far the first motions of an empty skill have been shown.
+
+    Attributes:
+        step: what is done next at this place.
+        place: its number, from 1.
+        places: that are shown.
+    """
+
+    step: ShowStep
+    place: Count
+    places: Count
+
+
 class TeachingState(Message, frozen=True, kw_only=True):
     """Where the teaching workflow (Algorithm 1) stands.
 
@@ -79,6 +102,7 @@ class TeachingState(Message, frozen=True, kw_only=True):
         part: of the next refinement in which corrections count, or of the one that runs.
         confidence: how far the model is to believe what it is taught next (alpha of eq. 18).
         led: the newest motion was led by hand to store waypoints on its way: it is no attempt, and has no verdict.
+        showing: how far the first motions have been shown; None where the skill has them.
     """
 
     phase: Name
@@ -102,6 +126,7 @@ class TeachingState(Message, frozen=True, kw_only=True):
     part: Part = Part()
     confidence: Fraction = 1.0
     led: bool = False
+    showing: Showing | None = None
 
     @property
     def told(self) -> str:

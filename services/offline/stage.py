@@ -115,11 +115,11 @@ class Stage:
                     if not turn.rests:
                         turn.service.step(now)
 
-    def teach(self, arrangement: Reset, refinements_allowed: int, until: Callable[[], bool]) -> None:
+    def teach(self, arrangement: Reset | None, refinements_allowed: int, until: Callable[[], bool]) -> None:
         """Let a station run Algorithm 1 under one arrangement.
 
         Args:
-            arrangement: what every reset asks for.
+            arrangement: what every reset asks for; None leaves that to the station.
             refinements_allowed: attempts at one update; with 0 a failure is only seen.
             until: says that the station has finished.
         """

@@ -111,6 +111,7 @@ def scene_state(scene: AnyScene, variant: str, start: Pose, condition: Array) ->
         condition=tuple(condition.tolist()),
         condition_region=((), ()) if scene.has_object else (region.lower, region.upper),
         wide_open=scene.wide_open,
+        training_places=tuple(tuple(place) for place in scene.training_positions[:32].tolist()),
     )
 
 

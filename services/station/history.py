@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any, Protocol
 
 from protocol import queries
-from protocol.messages import ModelState
-from protocol.queries import Compare, Compared, Effect, HistoryListed, ListHistory, Refused
+from protocol.messages import ModelState, Purpose, Vector3
+from protocol.queries import Compare, Compared, Effect, Entry, HistoryListed, ListHistory, Refused
 from services.bus.bus import Bus, Pending
 from services.station.page.entries import Rows, rows_of
 
@@ -31,8 +31,16 @@ class Wanted(Protocol):
         ...
 
 
+def _is_first(entry: Entry) -> bool:
+    return entry.in_use and entry.purpose is Purpose.INITIAL
+
+
 class HistoryReader:
     """What is known of the model's history.
+
+    Attributes:
+        rows: of all of it.
+        kept_at: where the object stood in the first demonstrations that are in use [m].
 
     Args:
         bus: to the model.
@@ -45,6 +53,7 @@ class HistoryReader:
         self._asked: tuple[int, Pending[Any]] | None = None
         self._next_ns = 0
         self.rows: Rows | None = None
+        self.kept_at: tuple[Vector3, ...] = ()
 
     def step(self, now_ns: int, model: ModelState | None) -> None:
         """Take what has come, and ask for what is missing: one question at a time."""
@@ -66,6 +75,7 @@ class HistoryReader:
         match outcome:
             case HistoryListed():
                 self.rows = rows_of(outcome)
+                self.kept_at = tuple(entry.object_position for entry in outcome.entries if _is_first(entry))
                 self._effects.renew(outcome.version)
             case Compared(version, effect) if effect is not None:
                 self._effects.put(version, entry, effect)

@@ -238,6 +238,7 @@ class StationService:
             answer=self._questions.answer(),
             presses=tuple(pressed),
             drawn=self._draw.of(scene),
+            kept_at=self._history.kept_at if self._history is not None else (),
         )
 
     def _publish(self, held: OperatorInput, now_ns: int) -> None:

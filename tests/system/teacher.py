@@ -90,7 +90,7 @@ class Teacher:
 
         def asked():
             teaching = self._witness.teaching
-            told = teaching is not None and teaching.phase == "deciding" and teaching.actions
+            told = teaching is not None and teaching.phase == "deciding" and teaching.recommended
             if told and len(teaching.attempts) >= attempts:
                 return teaching
             self._go_on()

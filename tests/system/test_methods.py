@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from protocol.messages import Mode
+from protocol.messages import Mode, Showing, ShowStep
 from services.process.config import load
 from sim.tasks import TABLE
 from tests.browser.scripts import UNDRAWN
@@ -37,42 +37,67 @@ def way(teacher):
     return TABLE.corridor(TABLE.variants[-1], teacher.object_seen()).positions
 
 
-def test_waypoints_teach_an_empty_skill(teacher):
+def put(teacher, number):
+    """Have the object put where the page proposes it; what the page says then."""
     asked = teacher.decides()
-    assert "Nothing is learnt yet" in asked.text
-    teacher.choose("waypoints")
-    teacher.take_up()
-    for place in way(teacher)[1:]:
-        teacher.store(place)
-    teacher.done()
-    previewed = teacher.decides()
-    assert len(previewed.waypoints) == len(way(teacher)) - 1
-    assert previewed.recommended == "execute"
+    assert asked.showing == Showing(ShowStep.PLACE, number, 2), asked
+    teacher.press("put")
+    return teacher.decides()
+
+
+def replay(teacher):
+    """See the robot do alone what it was shown, and have it keep that; where the object stood."""
+    before = len(teacher.decides().attempts)
     teacher.press("execute")
-    learnt = teacher.decides(attempts=1)
-    assert learnt.attempts[0].verdict.success
-    assert learnt.updates == 1
+    done = teacher.decides(attempts=before + 1)
+    assert done.attempts[-1].verdict.success
+    assert (done.showing.step, done.recommended) == (ShowStep.KEEP, "teach")
+    teacher.press("teach")
+    return done.attempts[-1].object_position
+
+
+def does_it_alone(teacher):
+    """Whether the loop goes on with a robot that can."""
+    asked = teacher.decides()
+    assert (asked.showing, asked.recommended) == (None, "execute"), asked
     teacher.press("execute")
-    alone = teacher.decides(attempts=2).attempts[-1]
+    alone = teacher.decides(attempts=len(asked.attempts) + 1).attempts[-1]
     assert (alone.mode, alone.operator_input) == (Mode.AUTONOMOUS, False)
-    assert alone.verdict.success
+    return alone.verdict.success
+
+
+def test_waypoints_teach_an_empty_skill_at_two_places(teacher):
+    asked = teacher.decides()
+    assert "learnt nothing" in asked.text
+    teacher.choose("waypoints")
+    places = []
+    for number in (1, 2):
+        put(teacher, number)
+        teacher.take_up()
+        led = way(teacher)[1:]
+        for place in led:
+            teacher.store(place)
+        teacher.done()
+        previewed = teacher.decides()
+        assert len(previewed.waypoints) == len(led)
+        assert previewed.recommended == "execute"
+        places.append(replay(teacher))
+    assert np.linalg.norm(np.subtract(*places)) > 0.1
+    assert does_it_alone(teacher)
 
 
 @pytest.mark.long
-def test_a_demonstration_teaches_an_empty_skill(teacher):
+def test_a_demonstration_teaches_an_empty_skill_at_two_places(teacher):
     teacher.decides()
     teacher.choose("demonstrate")
-    teacher.take_up()
-    for place in np.array(way(teacher))[1:]:
-        teacher.lead_to(place)
-    teacher.done()
-    shown = teacher.decides(attempts=1)
-    assert shown.attempts[0].verdict.success
-    assert shown.updates == 0, "nothing is learnt unasked"
-    assert shown.recommended == "teach"
-    teacher.press("teach")
-    assert teacher.decides(attempts=1).updates == 1
-    teacher.press("execute")
-    alone = teacher.decides(attempts=2).attempts[-1]
-    assert alone.mode is Mode.AUTONOMOUS
-    assert alone.verdict.success
+    for number in (1, 2):
+        put(teacher, number)
+        teacher.take_up()
+        for place in np.array(way(teacher))[1:]:
+            teacher.lead_to(place)
+        teacher.done()
+        shown = teacher.decides()
+        assert shown.attempts[-1].verdict.success
+        assert shown.recommended == "execute", "it is seen before it is kept"
+        replay(teacher)
+    assert does_it_alone(teacher)

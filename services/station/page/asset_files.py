@@ -22,6 +22,7 @@ _SHEETS = (
     "cameras",
     "timeline",
     "gripper",
+    "showing",
     "methods",
     "guide",
     "actions",

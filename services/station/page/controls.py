@@ -40,10 +40,14 @@ BUTTONS = (
     Button("lead", "hand", 2),
     Button("store", "place", 4),
     Button("look", "undo", 1),
+    Button("put", "place", 1),
+    Button("enough", "next", 2, confirmed=True),
+    Button("other_place", "next", 3),
     Button("go_on", "next", 5),
     Button("finish", "flag", 6),
     Button("teach", "check", 3),
     Button("next", "place", 4),
+    Button("repeat", "undo", 5),
     Button("undo", "undo", 5, confirmed=True),
     Button("end", "end", 6, confirmed=True),
     Button("ask", "hand", 1),
@@ -95,6 +99,9 @@ def actions(shown: Shown) -> Values:
     for button in BUTTONS:
         values[f"action-{button.action}@disabled"] = button.action not in allowed
         values[f"action-{button.action}@data-first"] = "yes" if button.action == first else "no"
+    guided = teaching is not None and teaching.showing is not None
+    values["action-teach-label"] = say("action.keep" if guided else "action.teach")
+    values["action-execute-label"] = say("action.replay" if guided else "action.execute")
     values["action-refine-label"] = say("action.show_me" if first == "refine" and _unknown(shown) else "action.refine")
     return values
 

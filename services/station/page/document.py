@@ -15,6 +15,7 @@ from services.station.live_view.files import Files as LiveFiles
 from services.station.page.asset_files import ASSETS, SCRIPT_ADDRESSES, STYLE_ADDRESS
 from services.station.page.controls import BUTTONS, KEYBOARDS, Button, Key
 from services.station.page.devices import PADS
+from services.station.page.guide import STEPS
 from services.station.page.health import FIGURES
 from services.station.page.methods import BASES, METHODS
 from services.station.page.panels import COUNTERS, CRITERIA
@@ -79,6 +80,7 @@ def document(
         "robot_slots": "".join(_robot(slot) for slot in SLOTS),
         "people": "".join(_people(group) for group in GROUPS),
         "roles": "".join(_role(role) for role in Role),
+        "show_steps": "".join(_show_step(number, name) for number, name in enumerate(STEPS, 1)),
         "methods_choices": "".join(_choice("method", one.value, _say(f"method.{one.value}")) for one in METHODS),
         "bases_choices": "".join(_choice("basis", one.value, _say(f"basis.{one.value}")) for one in BASES),
         "pads": "".join(_pad(name) for name in PADS),
@@ -211,6 +213,13 @@ def _key(key: Key) -> str:
         f'<div class="key" data-key="{key.code}" data-cap="{key.cap}"><div class="key-cap">{key.cap}</div>'
         f'<div class="key-axis" data-axis="{key.axis[-1]}">{key.axis}</div>'
         f'<div class="key-direction">{_say(f"direction.{key.direction}")}</div></div>'
+    )
+
+
+def _show_step(number: int, name: str) -> str:
+    return (
+        f'<li class="show-step" data-value="showing-{name}" data-state="later">'
+        f'<span class="show-number">{number}</span>{_say(f"showing.step_{name}")}</li>'
     )
 
 

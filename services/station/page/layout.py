@@ -6,6 +6,7 @@ from services.station.page.commanding import commanding
 from services.station.page.controls import actions, emergency_stop
 from services.station.page.devices import devices
 from services.station.page.gripper import gripper
+from services.station.page.guide import guide
 from services.station.page.health import commander, figures, health
 from services.station.page.history import history
 from services.station.page.methods import methods
@@ -33,6 +34,7 @@ def shared(shown: Shown) -> Values:
         **counters(shown),
         **verdict(shown),
         **actions(shown),
+        **guide(shown),
         **methods(shown),
         **timeline(shown),
         **gripper(shown),

@@ -24,7 +24,7 @@ def methods(shown: Shown) -> Values:
     if teaching is None:
         return {}
     allowed = frozenset(teaching.actions)
-    empty = shown.view.model is not None and shown.view.model.empty
+    empty = teaching.showing is not None or (shown.view.model is not None and shown.view.model.empty)
     returns = teaching.method is Method.REFINE
     return {
         "method": say(f"method.{teaching.method.value}"),

@@ -38,6 +38,10 @@ class Action(Enum):
     EARLIER = "earlier"
     LATER = "later"
     CLEAR = "clear"
+    PUT = "put"
+    OTHER_PLACE = "other_place"
+    REPEAT = "repeat"
+    ENOUGH = "enough"
 
 
 CHANGES = frozenset(

@@ -26,17 +26,21 @@ class Approach:
         waypoints: that were stored, in order.
         basis: what the next refinement starts from.
         previous: what the previous refinement at this place came to; None before the first.
+        shown: what was led by hand, to be learnt or done alone; None where nothing was.
     """
 
     method: Method = Method.REFINE
     waypoints: tuple[Waypoint, ...] = ()
     basis: Origin = Origin.MODEL
     previous: Motion | None = None
+    shown: Motion | None = None
 
     @property
-    def leads_through(self) -> bool:
-        """The waypoints make a motion."""
-        return self.method is Method.WAYPOINTS and len(self.waypoints) >= LEAST_WAYPOINTS
+    def replays(self) -> Origin | None:
+        """Where a motion comes from that the operator has shown, and that the robot can do alone; None before one."""
+        if self.method is Method.WAYPOINTS and len(self.waypoints) >= LEAST_WAYPOINTS:
+            return Origin.WAYPOINTS
+        return Origin.DEMONSTRATION if self.method is Method.DEMONSTRATE and self.shown is not None else None
 
     def chosen(self, method: str) -> Approach:
         """With another method, by its name; as it was where there is no such one."""
@@ -81,8 +85,8 @@ class Approach:
         return replace(self, waypoints=tuple(order))
 
     def cleared(self) -> Approach:
-        """Without any waypoint."""
-        return replace(self, waypoints=())
+        """Without anything that was shown."""
+        return replace(self, waypoints=(), shown=None)
 
     def _index(self, number: str) -> int | None:
         known = number.isascii() and number.isdecimal() and 1 <= int(number) <= len(self.waypoints)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from protocol.messages import Method, Mode, Origin
 from services.station.words.table import say
-from services.station.workflow import editing
+from services.station.workflow import editing, guiding
 from services.station.workflow.action import Action
 from services.station.workflow.approach import Approach
 from services.station.workflow.asking import to
@@ -52,7 +52,8 @@ def _usable(state: Workflow, settings: Settings) -> Approach:
     if settings.basis:
         approach = approach.based(settings.basis)
     corrects = approach.method is Method.REFINE
-    return replace(approach, method=Method.WAYPOINTS) if corrects and state.empty else approach
+    nothing = state.empty or state.guide.open
+    return replace(approach, method=Method.WAYPOINTS) if corrects and nothing else approach
 
 
 def _offered(state: Workflow, view: View) -> frozenset[Action]:
@@ -62,26 +63,36 @@ def _offered(state: Workflow, view: View) -> frozenset[Action]:
     """
     if view.model is None and state.offered:
         return state.offered
+    always = {Action.END} | SETTING | turns(view)
+    offered = always | (guiding.offered(state, view) if state.guide.open else _taught_by(state, view))
+    return frozenset(offered - _TOWARDS | {Action.LOOK}) if is_unseen(state) else frozenset(offered)
+
+
+def _taught_by(state: Workflow, view: View) -> set[Action]:
+    """By the method."""
     approach = state.approach
-    offered = {Action.METHOD, Action.END} | SETTING | turns(view) | editing.offered(state, view)
+    offered = {Action.METHOD} | editing.offered(state, view)
     if not state.empty:
         offered |= {Action.EXECUTE, Action.NEXT}
     if approach.method is not Method.REFINE:
         offered.add(Action.LEAD)
     elif not state.empty:
         offered |= {Action.REFINE, Action.BASIS} if approach.previous is not None else {Action.REFINE}
-    if approach.leads_through:
+    if approach.replays is not None:
         offered.add(Action.EXECUTE)
     if state.taught is not None:
         offered.add(Action.TEACH)
-    if state.unseen:
-        return frozenset(offered - _TOWARDS | {Action.LOOK})
-    return frozenset(offered)
+    return offered
+
+
+def is_unseen(state: Workflow) -> bool:
+    """The target is to be looked for first; a guide that has put it nowhere yet puts it first."""
+    return state.unseen and not (state.guide.open and state.placed is None)
 
 
 def _shown(state: Workflow, view: View, offered: frozenset[Action]) -> Workflow:
     """With another method, basis or waypoints, and what that comes to in the view; nothing moves."""
-    state = editing.heard(state, view)
+    state = guiding.edited(editing.heard(state, view), state)
     approach = state.approach
     if Action.METHOD in view.actions:
         approach = approach.chosen(view.argument(Action.METHOD))
@@ -89,14 +100,13 @@ def _shown(state: Workflow, view: View, offered: frozenset[Action]) -> Workflow:
         based = approach.based(view.argument(Action.BASIS))
         return preview(replace(state, approach=based, event=""), view, based.basis, offered)
     state = replace(state, approach=approach, event="")
-    return preview(state, view, Origin.WAYPOINTS, offered) if approach.leads_through else state
+    return state if approach.replays is None else preview(state, view, approach.replays, offered)
 
 
 def _take(state: Workflow, view: View, settings: Settings, chosen: Action) -> Step:
     match chosen:
         case Action.EXECUTE:
-            origin = Origin.WAYPOINTS if state.approach.leads_through else Origin.MODEL
-            taken = press(state, view, Mode.AUTONOMOUS, origin)
+            taken = press(state, view, Mode.AUTONOMOUS, state.approach.replays or Origin.MODEL)
         case Action.REFINE:
             taken = _refine(state, view, settings)
         case Action.LOOK:
@@ -109,6 +119,8 @@ def _take(state: Workflow, view: View, settings: Settings, chosen: Action) -> St
             taken = press(_elsewhere(state), view, Mode.AUTONOMOUS)
         case Action.UNDO | Action.TAKE_BACK | Action.USE_AGAIN:
             return turn(state, view, chosen)
+        case Action.PUT | Action.OTHER_PLACE | Action.REPEAT | Action.ENOUGH:
+            taken = guiding.take(state, view, chosen)
         case _:
             taken = _end(state, view, say("event.ended_before"))
     return Step(taken)
@@ -141,17 +153,21 @@ def recommended(state: Workflow, settings: Settings) -> Action:
 
     A part of a failed refinement is learnt where a person says so, and is never what is recommended.
     """
+    if is_unseen(state):
+        return Action.LOOK
+    if state.guide.open:
+        return guiding.recommended(state)
     if state.taught is not None and state.taught.whole:
         return Action.TEACH
-    if state.unseen:
-        return Action.LOOK
-    if state.approach.method is not Method.REFINE:
-        return _recommended_offline(state, settings)
+    online = state.approach.method is Method.REFINE
+    return (_recommended_online if online else _recommended_offline)(state, settings)
+
+
+def _recommended_online(state: Workflow, settings: Settings) -> Action:
+    """See what the robot does alone, and correct it while it moves."""
     if state.last is None:
         return Action.REFINE if state.warned else Action.EXECUTE
-    if not state.last.success:
-        return Action.REFINE
-    return _after(settings)
+    return _after(settings) if state.last.success else Action.REFINE
 
 
 def _after(settings: Settings) -> Action:
@@ -165,14 +181,19 @@ def _recommended_offline(state: Workflow, settings: Settings) -> Action:
     if state.last is not None:
         return _after(settings) if state.last.success else Action.LEAD
     learnt = state.updates > 0 and not state.approach.waypoints
-    return Action.EXECUTE if state.approach.leads_through or learnt else Action.LEAD
+    return Action.EXECUTE if state.approach.replays is not None or learnt else Action.LEAD
 
 
 def _lead(state: Workflow, view: View, settings: Settings) -> Workflow:
     """A script leads anew what failed, as often as it may."""
-    if settings.scripted and len(state.attempts) >= settings.refinements_allowed:
+    if not settings.scripted:
+        return lead(state, view)
+    anew = replace(state, approach=state.approach.cleared())
+    if state.guide.open:
+        return guiding.led(anew, view)
+    if len(state.attempts) >= settings.refinements_allowed:
         return _end(state, view, say("event.no_refinement", count=len(state.attempts)))
-    return lead(replace(state, approach=state.approach.cleared()) if settings.scripted else state, view)
+    return lead(anew, view)
 
 
 def _refine(state: Workflow, view: View, settings: Settings) -> Workflow:

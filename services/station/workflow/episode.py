@@ -19,6 +19,7 @@ from services.station.workflow import editing, going
 from services.station.workflow.action import Action
 from services.station.workflow.asking import RETRY_S, ask, not_done, to
 from services.station.workflow.authority import gone, runs
+from services.station.workflow.proposals import proposed
 from services.station.workflow.settings import Settings
 from services.station.workflow.state import WHOLE, Episode, Phase, Place, Workflow
 from services.station.workflow.view import Ask, Step, View
@@ -61,12 +62,18 @@ def resetting(state: Workflow, view: View, settings: Settings) -> Step:
             return Step(state)
         finish = queries.Finish(state.epoch, request=view.number)
         return Step(replace(state, retry_s=view.now_s + RETRY_S), Ask(queries.FINISH, finish, view.number))
-    state = replace(state, placed=state.placed or view.drawn)
+    state = replace(state, placed=state.placed or _next_place(state, view))
     reply = ask(state, view, queries.RESET, lambda intent: _reset(state, view, settings, intent))
     if isinstance(reply, queries.Refused):
         return refused(state, view, settings, queries.RESET, reply)
     moves_on = state.wants is not Action.LOOK
     return reply if isinstance(reply, Step) else Step(to(state, Phase.LOOKING, view, pressed=moves_on))
+
+
+def _next_place(state: Workflow, view: View) -> Place | None:
+    """Where the target is put next: where it is to be shown a motion, else where the dice say."""
+    shows = proposed(view.scene, state.guide, view.kept_at) if state.guide.open and view.scene is not None else None
+    return shows or view.drawn
 
 
 def _reset(state: Workflow, view: View, settings: Settings, intent: int) -> queries.Reset:
@@ -82,19 +89,21 @@ def _reset(state: Workflow, view: View, settings: Settings, intent: int) -> quer
 def looking(state: Workflow, view: View, settings: Settings) -> Step:
     """See where the target stands; without a press the operator is asked then, and nothing has moved."""
     del settings
-    onward = _onward(state)
+    onward, guide = _onward(state), state.guide.looked(put=state.placed is not None)
     if view.scene is not None and view.scene.condition:
         # Nothing to look for: the robot says where it stands, once it has been reset.
         if state.pressed and view.scene_s <= state.since_s:
             return Step(state)
-        return Step(to(state, onward, view, looked=ORIGIN, condition=view.scene.condition, unseen=False))
+        known = {"looked": ORIGIN, "condition": view.scene.condition, "unseen": False}
+        return Step(to(state, onward, view, **known, guide=guide))
     sighting = view.seen
     if sighting is None or not is_seen(state, view):
         patience_s = UNSEEN_AFTER_RESET_S if state.pressed or state.unseen else UNSEEN_S
         if view.now_s - state.since_s < patience_s:
             return Step(state)
         return Step(to(state, Phase.DECIDING, view, pressed=False, unseen=True))
-    return Step(to(state, onward, view, looked=sighting.pose.position, condition=(), unseen=False))
+    known = {"looked": sighting.pose.position, "condition": (), "unseen": False}
+    return Step(to(state, onward, view, **known, guide=guide))
 
 
 def is_seen(state: Workflow, view: View) -> bool:
@@ -200,6 +209,8 @@ def executing(state: Workflow, view: View, settings: Settings) -> Step:
     if ended:
         if not runs(state, view):  # what is known of an attempt before it says nothing of this one
             state = replace(state, last=None, taught=None)
+        if settings.scripted:  # what a script had not shown to its end leads nowhere
+            state = replace(state, approach=state.approach.cleared())
         return Step(to(state, Phase.DECIDING, view, episode=None, event=ended))
     state = editing.heard(going.heard(state, view), view)
     wanted = _wanted(state, view, settings)

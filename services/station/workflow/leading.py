@@ -17,7 +17,7 @@ def lead(state: Workflow, view: View) -> Workflow:
     """The operator asked to lead: from the start, or on from where waypoints were stored last."""
     goes_on = state.mode is Mode.TEACH and state.approach.method is Method.WAYPOINTS and state.approach.waypoints
     if not goes_on:
-        return press(state, view, Mode.TEACH)
+        return press(replace(state, approach=replace(state.approach, shown=None)), view, Mode.TEACH)
     return to(state, Phase.TAKING_UP, view, pressed=True, refusals=0, taught=None, event="")
 
 

@@ -11,6 +11,7 @@ from protocol import queries
 from protocol.messages import Motion, Origin, Purpose
 from services.station.words.predictions import extent
 from services.station.words.table import say
+from services.station.workflow import guiding
 from services.station.workflow.action import Action
 from services.station.workflow.asking import ask, not_done, to
 from services.station.workflow.history import named
@@ -47,8 +48,9 @@ def learning(state: Workflow, view: View, settings: Settings) -> Step:
                 learnt=(*state.learnt, reply.entry),
                 warned=False,
                 part=WHOLE,
-                approach=replace(state.approach, waypoints=(), basis=Origin.MODEL),
+                approach=replace(state.approach.cleared(), basis=Origin.MODEL),
             )
+            learnt = guiding.learnt(learnt, reply, view, settings)
             said = say(f"event.learnt_{taught.method.value}", extent=extent(taught.part))
             event = f"{said} {say('event.listed', what=named(reply))}"
             return Step(to(learnt, Phase.DECIDING, view, owed=None, event=event))
@@ -77,7 +79,7 @@ def _share(text: str, otherwise: float | None) -> float | None:
 
 def _request(taught: Taught, state: Workflow, view: View, settings: Settings, intent: int) -> queries.AddDemonstration:
     return queries.AddDemonstration(
-        Purpose.INITIAL if state.empty else Purpose.UPDATE,
+        Purpose.INITIAL if state.empty or state.guide.open else Purpose.UPDATE,
         learnable(taught.motion, settings.autonomous_s),
         taught.object_position,
         view.scene.name if view.scene is not None else "",

@@ -72,4 +72,4 @@ def _start(scene: SceneState) -> Waypoint:
 def _motion(state: Workflow) -> Motion | None:
     if state.origin is Origin.REFINEMENT:
         return state.approach.previous
-    return state.taught.motion if state.taught is not None and state.origin is Origin.DEMONSTRATION else None
+    return state.approach.shown if state.origin is Origin.DEMONSTRATION else None

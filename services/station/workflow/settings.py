@@ -63,6 +63,11 @@ class Settings:
         place = frozenset({Action.NEXT, Action.END} if self.place else ())
         return method | basis | place | (CHANGES if self.fixed else frozenset())
 
+    @property
+    def guides(self) -> bool:
+        """Whoever operates shows an empty skill its first motions; nobody does where all is set beforehand."""
+        return (self.untaught or not self.scripted) and not self.place and self.arrangement is None
+
     def duration_s(self, mode: Mode) -> float:
         """Of an execution [s]."""
         return self.refine_s if mode is Mode.REFINE else self.autonomous_s

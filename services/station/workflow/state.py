@@ -10,6 +10,7 @@ from protocol.messages import Attempt, Condition, Method, Mode, Motion, Origin, 
 from services.station.workflow.action import Action
 from services.station.workflow.approach import Approach
 from services.station.workflow.closure import Closure
+from services.station.workflow.guide import Guide
 
 WHOLE = Part()
 """All phases of a motion."""
@@ -118,6 +119,19 @@ class Turning:
 
 
 @dataclass(frozen=True)
+class Changed:
+    """What this station has changed of the model, before the model itself has said so on its topic.
+
+    Attributes:
+        version: that it came to.
+        until_s: until then a state of an older one is from before [s].
+    """
+
+    version: int
+    until_s: float
+
+
+@dataclass(frozen=True)
 class Owed:
     """A request of the model's that was left unanswered: it is asked again with the same number, so done once."""
 
@@ -175,6 +189,9 @@ class Workflow:
         looked: where the object was seen [m]; the base frame's origin where there is none.
         condition: that the robot stood in then; empty where it is the object's.
         empty: the model has learnt nothing to predict from, as it said last.
+        changed: what the model was when it last changed by this station's doing, and until when one that is older is
+            not believed [s]; None where that is long ago.
+        guide: how far an empty skill has been shown its first motions.
         unseen: the last look found no target, and none was seen since.
         prediction: the newest.
         warned: the operator was told that little is known at this place; Execute executes all the same.
@@ -223,6 +240,8 @@ class Workflow:
     looked: Vector3 | None = None
     condition: Condition = ()
     empty: bool = False
+    changed: Changed | None = None
+    guide: Guide = field(default_factory=Guide)
     unseen: bool = False
     prediction: messages.Prediction | None = None
     warned: bool = False

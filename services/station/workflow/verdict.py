@@ -58,21 +58,23 @@ def judged(state: Workflow, view: View, settings: Settings) -> Workflow:
         condition=state.condition,
         number=state.attempts[-1].number + 1 if state.attempts else 1,
     )
+    taught = _kept(state, _taught(state, result, outcome, episode, settings))
     known = replace(
         state,
         episode=None,
         attempts=(*state.attempts, attempt)[-ATTEMPTS_KEPT:],
-        closure=state.closure.after(attempt, empty=state.empty),
+        closure=state.closure.after(attempt, empty=state.empty or state.guide.open),
         last=outcome,
         refinements=state.refinements + (result.mode is Mode.REFINE),
-        taught=_kept(state, _taught(state, result, outcome, episode, settings)),
-        approach=_followed(state, result),
+        taught=taught,
+        approach=_followed(state, result, taught),
     )
     if state.phase not in _ATTENDING:
         return known
     if result.mode is Mode.TEACH and known.taught is not None:
         return preview(replace(known, event=""), view, Origin.DEMONSTRATION)
-    learns = known.taught is not None and known.taught.whole and result.completed
+    asked = state.guide.open
+    learns = known.taught is not None and known.taught.whole and result.completed and not asked
     event = " ".join(part for part in (_end(result), _nothing(known, result)) if part)
     return to(known, Phase.LEARNING if learns else Phase.DECIDING, view, pressed=False, event=event)
 
@@ -87,13 +89,15 @@ def _led(state: Workflow, view: View, result: EpisodeResult) -> Workflow:
     if state.phase not in _ATTENDING:
         return state
     event = "" if result.cut is Cut.FINISHED else _end(result)
-    if state.approach.leads_through:
-        return preview(replace(state, event=event), view, Origin.WAYPOINTS)
+    if state.approach.replays is not None:
+        return preview(replace(state, event=event), view, state.approach.replays)
     return to(state, Phase.DECIDING, view, pressed=False, event=event)
 
 
-def _followed(state: Workflow, result: EpisodeResult) -> Approach:
-    """With what a refinement came to, for whoever goes on from there."""
+def _followed(state: Workflow, result: EpisodeResult, taught: Taught | None) -> Approach:
+    """With what a refinement came to, for whoever goes on from there; with what was led, for whoever sees it done."""
+    if result.mode is Mode.TEACH and taught is not None:
+        return replace(state.approach, shown=taught.motion)
     previous = _of_all_phases(result) if result.mode is Mode.REFINE else None
     return state.approach if previous is None else replace(state.approach, previous=previous)
 
@@ -133,7 +137,7 @@ def _taught(
     motion = demonstrated(_shown(result), settings) if led else _shown(result)
     if motion is None:
         return None
-    method = Method.DEMONSTRATE if led else Method.WAYPOINTS
+    method = Method.DEMONSTRATE if led or state.origin is Origin.DEMONSTRATION else Method.WAYPOINTS
     return Taught(motion, state.looked or ORIGIN, state.condition, whole=outcome.success, method=method)
 
 

@@ -59,6 +59,7 @@ class View:
         answer: to the question asked last.
         presses: of the operator since the last step, in order.
         drawn: where the target may stand next, for when a place is needed.
+        kept_at: where the target stood in the first motions that the skill holds [m]; empty where that is not known.
     """
 
     now_s: float
@@ -80,6 +81,7 @@ class View:
     answer: Answer | None = None
     presses: tuple[Press, ...] = ()
     drawn: Place | None = None
+    kept_at: tuple[messages.Vector3, ...] = ()
 
     def without(self, actions: frozenset[Action]) -> View:
         """As if nobody had pressed any of these."""

@@ -10,10 +10,10 @@ from protocol.messages import Phase as RobotPhase
 from services.station.words.heard import heard
 from services.station.words.predictions import certainty, way_taken
 from services.station.words.table import say
-from services.station.workflow import showing
+from services.station.workflow import guiding, showing
 from services.station.workflow.action import Action
 from services.station.workflow.authority import another, missing
-from services.station.workflow.deciding import recommended
+from services.station.workflow.deciding import is_unseen, recommended
 from services.station.workflow.going import elsewhere, paused
 from services.station.workflow.learning import confidence
 from services.station.workflow.planning import is_previewed
@@ -75,6 +75,7 @@ def teaching_state(state: Workflow, view: View, settings: Settings) -> TeachingS
         part=state.episode.part if state.episode is not None else state.part,
         confidence=confidence(state, settings),
         led=state.led,
+        showing=guiding.told(state, view),
     )
 
 
@@ -139,7 +140,7 @@ def _text(state: Workflow, view: View, settings: Settings) -> str:
         case Phase.EXECUTING:
             return _executing(state, view)
         case _ if _decides(state):
-            shows = "" if state.unseen else showing.deciding(state)
+            shows = "" if is_unseen(state) or state.guide.open else showing.deciding(state)
             return shows or _deciding(state, view, settings)
         case Phase.FINISHED:
             return _finished(state)
@@ -175,9 +176,11 @@ def _finished(state: Workflow) -> str:
 def _deciding(state: Workflow, view: View, settings: Settings) -> str:
     """How the last attempt was, and the one thing to do."""
     outcome = f"{outcome_text(state.last, view)} " if state.last else ""
+    if state.guide.open and not is_unseen(state):
+        return f"{outcome}{showing.guided(state, view)}"
     if state.taught is not None:
         return f"{outcome}{say('workflow.teach' if state.taught.whole else _PARTLY[state.taught.method])}"
-    if state.unseen:
+    if is_unseen(state):
         return f"{outcome}{say('workflow.unseen')}"
     if state.last:
         then = recommended(state, settings)
@@ -210,6 +213,8 @@ def _ramping(robot: RobotState) -> str:
 def _watching(state: Workflow) -> str:
     if state.origin is Origin.WAYPOINTS:
         return say("workflow.through")
+    if state.origin is Origin.DEMONSTRATION:
+        return say("showing.replaying")
     way = way_taken(state.prediction.way) if state.prediction is not None else ""
     return say("workflow.alone_way", way=way) if way else say("workflow.alone")
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from services.station.workflow import authority
+from services.station.workflow import authority, guiding
 from services.station.workflow.asking import to
 from services.station.workflow.authority import acquiring, waiting
 from services.station.workflow.deciding import deciding, finished
@@ -31,14 +31,8 @@ from services.station.workflow.watching import watching
 def advance(state: Workflow, view: View, settings: Settings) -> Step:
     """One step of the workflow; what is not the operator's choice is neither heard nor offered."""
     settled = settings.settled
-    step = _advanced(_heard(state, view), view.without(settled), settings)
+    step = _advanced(guiding.heard(state, view, settings), view.without(settled), settings)
     return replace(step, state=replace(step.state, offered=step.state.offered - settled)) if settled else step
-
-
-def _heard(state: Workflow, view: View) -> Workflow:
-    """A model that is not heard for a moment is as empty as it was."""
-    changed = view.model is not None and view.empty is not state.empty
-    return replace(state, empty=view.empty) if changed else state
 
 
 def _advanced(state: Workflow, view: View, settings: Settings) -> Step:

@@ -1,30 +1,46 @@
-"""An empty skill and a scripted operator: the first motion is shown by waypoints, learnt, and then done alone."""
+"""An empty skill and a scripted operator: it is shown at two places, seen alone, kept, and the loop closes."""
 
 import msgspec
+import numpy as np
 import pytest
 
-from protocol.messages import Mode
+from protocol.messages import Method, Mode
 from protocol.topics import TEACHING_STATE
 from services.offline.rehearsal import Plan
-from services.offline.result import Arrangement
 from services.offline.stage import Stage
-from sim.tasks import TABLE
 
 TRIES = 3
 
 
-@pytest.mark.sim
-def test_the_scripted_stylus_teaches_an_empty_skill_by_waypoints_and_the_loop_closes(tmp_path):
-    configuration = Plan("table", "adaptive", (), ()).configuration(tmp_path / "model.sqlite")
-    station = msgspec.structs.replace(configuration.station, untaught=True)
-    stage = Stage(msgspec.structs.replace(configuration, station=station))
+def taught(folder, robot, scene, method):
+    """How it ended, of a robot in a scene."""
+    configuration = Plan(scene, "adaptive", (), ()).configuration(folder / "model.sqlite")
+    station = msgspec.structs.replace(configuration.station, untaught=True, method=method)
+    stands = msgspec.structs.replace(configuration.robot, model=robot)
+    stage = Stage(msgspec.structs.replace(configuration, station=station, robot=stands))
     told = stage.bus().subscribe(TEACHING_STATE)
-    arrangement = Arrangement(TABLE.variants[-1], tuple(TABLE.training_positions[0].tolist())).reset()
     try:
-        stage.teach(arrangement, TRIES, lambda: told.latest() is not None and told.latest().message.finished)
+        stage.teach(None, TRIES, lambda: told.latest() is not None and told.latest().message.finished)
     finally:
         stage.close()
-    ended = told.latest().message
+    return told.latest().message
+
+
+@pytest.mark.sim
+@pytest.mark.parametrize(
+    ("robot", "scene", "method"),
+    [
+        ("ur5", "table", Method.WAYPOINTS),
+        pytest.param("panda", "table", Method.WAYPOINTS, marks=pytest.mark.long),
+        pytest.param("panda", "table", Method.DEMONSTRATE, marks=pytest.mark.long),
+        pytest.param("tiago", "table", Method.DEMONSTRATE, marks=pytest.mark.long),
+        pytest.param("tiago", "dishwasher", Method.WAYPOINTS, marks=pytest.mark.long),
+    ],
+)
+def test_a_script_shows_an_empty_skill_two_places_and_the_loop_closes(tmp_path, robot, scene, method):
+    ended = taught(tmp_path, robot, scene, method)
     assert ended.loop_closed, ended.reason
-    assert ended.updates == 1
-    assert [attempt.mode for attempt in ended.attempts[-2:]] == [Mode.TEACH, Mode.AUTONOMOUS]
+    shown = [one for one in ended.attempts if one.mode is Mode.TEACH and one.verdict.success]
+    first, last = (np.array(one.object_position) for one in (shown[0], shown[-1]))
+    assert np.linalg.norm(first - last) > 0.1
+    assert (ended.attempts[-1].mode, ended.attempts[-1].operator_input) == (Mode.AUTONOMOUS, False)

@@ -30,3 +30,8 @@ def test_how_wide_the_gripper_opens_is_said_where_it_takes_part():
     grasping = replace(DISHWASHER, success=replace(DISHWASHER.success, grasped=True))
     told = scene_state(grasping, DISHWASHER.variants[1], DISHWASHER.start, np.zeros(0))
     assert told.wide_open == DISHWASHER.manipulator.gripper.opening > 0.0
+
+
+def test_where_first_motions_are_shown_is_told():
+    told = scene_state(DISHWASHER, DISHWASHER.variants[1], DISHWASHER.start, np.zeros(0))
+    np.testing.assert_array_equal(told.training_places, DISHWASHER.training_positions)

@@ -126,9 +126,12 @@ class Site:
             self.learnt.remove(entry)
         else:
             self.learnt.append(entry)
-        model = msgspec.structs.replace(self.view.model, version=self.version, updates=len(self.learnt))
+        first = getattr(ask.request, "purpose", None) is messages.Purpose.INITIAL
+        demonstrations, updates = self.view.model.demonstrations + first, len(self.learnt)
+        changes = {"demonstrations": demonstrations} if first else {"updates": updates}
+        model = msgspec.structs.replace(self.view.model, version=self.version, **changes)
         self.sees(model=model)
-        return queries.Learnt(model, entry)
+        return queries.Learnt(model, entry, messages.Purpose.INITIAL if first else messages.Purpose.UPDATE)
 
     def motion_for(self, request):
         """What the model process answers to who wants a motion."""

@@ -81,11 +81,11 @@ def test_no_more_are_stored_than_a_motion_may_have():
 
 @pytest.mark.parametrize("count", range(5))
 def test_so_many_make_a_motion(count):
-    assert stored(*range(count)).leads_through is (count >= LEAST_WAYPOINTS)
+    assert (stored(*range(count)).replays is Origin.WAYPOINTS) is (count >= LEAST_WAYPOINTS)
 
 
 def test_waypoints_lead_by_their_own_method_only():
-    assert not replace(stored(1, 2, 3), method=Method.DEMONSTRATE).leads_through
+    assert replace(stored(1, 2, 3), method=Method.DEMONSTRATE).replays is None
 
 
 @pytest.mark.parametrize("name", ["", "teleport", "WAYPOINTS"])
