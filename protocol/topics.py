@@ -123,6 +123,16 @@ CAMERA_IMAGE = Topic(  # kept: one that others need must not be lost between two
 POINT_CLOUD = Topic(
     "cam/cloud", messages.PointCloud, 5.0, QoS.PICTURE, "camera", 73_728, "surfaces that a camera with depth sees"
 )
+DEPTH = Topic(
+    "cam/depth",
+    messages.DepthPicture,
+    5.0,
+    QoS.PICTURE,
+    "camera",
+    1_048_576,
+    "how far away is what that camera sees",
+    readers=("perception",),
+)
 PICTURE_QUEUE = Topic(
     "cam/queue",
     messages.PictureQueue,
@@ -200,6 +210,7 @@ TOPICS: tuple[Topic[Any], ...] = (
     EPISODE_RESULT,
     CAMERA_IMAGE,
     POINT_CLOUD,
+    DEPTH,
     PICTURE_QUEUE,
     OBJECT_POSE,
     PREDICTION,

@@ -13,6 +13,7 @@ from protocol.messages import (
     CameraImage,
     Coding,
     Controller,
+    DepthPicture,
     Light,
     MasterState,
     Mode,
@@ -32,6 +33,7 @@ from protocol.messages import (
     Verdict,
     WorldState,
 )
+from services.bus.depth import depth_to_wire
 
 reals = st.sampled_from((0.0, -0.0, 1.0, -1.0, 5e-324, 1e-12, 1e9, -1e9, 3.14159, 1e6)) | st.floats(-1e9, 1e9)
 counts = st.sampled_from((0, 1, 7, 2**32, 2**53))
@@ -133,6 +135,16 @@ images = st.builds(
 )
 clouds = st.builds(
     PointCloud, camera=names, data=st.binary(max_size=40) | st.just(b"\x80" * 72_000), captured_ns=counts
+)
+depths = st.builds(
+    DepthPicture,
+    camera=names,
+    width=st.integers(0, 20) | counts,
+    height=st.integers(0, 20) | counts,
+    data=st.binary(max_size=60) | st.just(depth_to_wire(np.ones((12, 16)))),
+    intrinsics=st.tuples(reals, reals, reals, reals),
+    pose=poses,
+    captured_ns=counts,
 )
 masters = st.builds(MasterState, force=vectors, displacement=vectors)
 object_poses = st.builds(ObjectPose, pose=poses, tag=counts, error=reals, rejected=counts, pictures=counts)

@@ -20,6 +20,7 @@ from protocol.messages.camera import (
     POINT_BYTES,
     CameraImage,
     Coding,
+    DepthPicture,
     PictureQueue,
     PointCloud,
 )
@@ -85,6 +86,7 @@ __all__ = [
     "Controller",
     "Count",
     "Cut",
+    "DepthPicture",
     "Duration",
     "EmergencyStop",
     "EpisodeResult",

@@ -89,3 +89,25 @@ class PointCloud(Message, frozen=True, kw_only=True):
     camera: Name
     data: Annotated[bytes, msgspec.Meta(max_length=MOST_POINTS * POINT_BYTES)]
     captured_ns: Count = 0
+
+
+class DepthPicture(Message, frozen=True, kw_only=True):
+    """How far away is what a camera sees.
+
+    Attributes:
+        camera: that sees it.
+        width: [pixel].
+        height: [pixel].
+        data: a PNG file of one channel of 16 bits: along the optical axis [mm]; 0 where it is not known or too far.
+        intrinsics: of the pinhole: fx, fy, cx, cy [pixel].
+        pose: of the optical frame (x right, y down, z forward) in the base frame.
+        captured_ns: stamp of the state that it shows, in the robot's monotonic clock [ns].
+    """
+
+    camera: Name
+    width: Count
+    height: Count
+    data: Annotated[bytes, msgspec.Meta(max_length=1_000_000)]
+    intrinsics: tuple[Real, Real, Real, Real]
+    pose: Pose
+    captured_ns: Count = 0

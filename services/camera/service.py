@@ -1,4 +1,4 @@
-"""Publishes what the cameras see, and one's point cloud.
+"""Publishes what the cameras see, and one's depth and point cloud.
 
 Simulated ones are drawn in a process of their own: drawing can never disturb control. One that is real and not there is
 looked for, and the others go on.
@@ -9,10 +9,11 @@ from __future__ import annotations
 from collections import deque
 from statistics import median
 
-from protocol.messages import CameraImage, Figure, PointCloud
-from protocol.topics import CAMERA_IMAGE, POINT_CLOUD
-from services.bus.arrays import points_to_wire
+from protocol.messages import CameraImage, DepthPicture, Figure, PointCloud
+from protocol.topics import CAMERA_IMAGE, DEPTH, POINT_CLOUD
+from services.bus.arrays import Floats, points_to_wire
 from services.bus.bus import Bus
+from services.bus.depth import depth_to_wire
 from services.camera.cloud import cloud
 from services.camera.coding import coder
 from services.camera.pacing import Pacing
@@ -134,5 +135,22 @@ class CameraService:
         )
         depth = seen.depth if camera == self._section.cloud else None
         if depth is not None and self._schedule.due(POINT_CLOUD, now_ns, self._pacing.share):
-            points = points_to_wire(*cloud(seen.image, depth(), seen.intrinsics, seen.pose))
-            self._bus.publish(POINT_CLOUD, PointCloud(camera=camera, data=points, captured_ns=seen.captured_ns))
+            self._show_depth(camera, seen, depth())
+
+    def _show_depth(self, camera: str, seen: Seen, depth: Floats) -> None:
+        points = points_to_wire(*cloud(seen.image, depth, seen.intrinsics, seen.pose))
+        self._bus.publish(POINT_CLOUD, PointCloud(camera=camera, data=points, captured_ns=seen.captured_ns))
+        (fx, _, cx), (_, fy, cy), _ = seen.intrinsics.tolist()
+        height, width = depth.shape
+        self._bus.publish(
+            DEPTH,
+            DepthPicture(
+                camera=camera,
+                width=width,
+                height=height,
+                data=depth_to_wire(depth),
+                intrinsics=(fx, fy, cx, cy),
+                pose=seen.pose,
+                captured_ns=seen.captured_ns,
+            ),
+        )

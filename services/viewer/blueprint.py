@@ -40,7 +40,11 @@ def blueprint(eye: Eye, cameras: Sequence[str]) -> rrb.Blueprint:
                 row_shares=[1.4, 1],
             ),
             rrb.Vertical(
-                rrb.Grid(*(_camera(name) for name in cameras), grid_columns=2),
+                rrb.Tabs(
+                    rrb.Grid(*(_camera(name) for name in cameras), grid_columns=2, name="Cameras"),
+                    rrb.Spatial2DView(origin=entities.DEPTH, name="Depth", background=palette.BACKGROUND),
+                    active_tab=0,
+                ),
                 rrb.Tabs(
                     _series("Hand", entities.MASTER_DISPLACEMENT),
                     _series("Rotation", entities.MASTER_ROTATION),

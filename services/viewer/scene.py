@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import rerun as rr
 
-from protocol.messages import PointCloud, Pose, Quaternion, SceneState, Vector3
+from protocol.messages import DepthPicture, PointCloud, Pose, Quaternion, SceneState, Vector3
 from services.bus.arrays import points_from_wire, vector3
 from services.viewer import entities, palette
 from services.viewer.kinds import ARROWS
@@ -14,6 +14,7 @@ from services.viewer.run import Run
 _FORCE_SCALE = 0.03  # [m/N]
 _THIN = -0.75  # [points on the screen]: Rerun's sign for not being metres
 _POINT = -1.5  # [points on the screen]
+_DEEP = 4000.0  # [mm] coloured as far away; as far as depth cameras see
 _LEAST_FORCE = 0.05  # [N] below it there is no arrow
 
 
@@ -37,6 +38,12 @@ def log_cloud(run: Run, cloud: PointCloud) -> None:
     """Draw what a camera sees as points."""
     positions, colours = points_from_wire(cloud.data)
     run.log(entities.CLOUD, rr.Points3D(positions, radii=[_POINT], colors=colours))
+
+
+def log_depth(run: Run, depth: DepthPicture) -> None:
+    """Draw how far away is what a camera sees, as a picture."""
+    picture = rr.EncodedDepthImage(depth.data, media_type="image/png", meter=1000.0, depth_range=(0.0, _DEEP))
+    run.log(entities.DEPTH, picture)
 
 
 def log_object_seen(run: Run, pose: Pose, size: Vector3) -> None:

@@ -8,9 +8,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from protocol.messages import Figure, Pose, Prediction, Recording
-from protocol.topics import EXECUTION, OBJECT_POSE, POINT_CLOUD, RECORDING, SCENE_STATE, VERDICT, WORLD_STATE
+from protocol.topics import DEPTH, EXECUTION, OBJECT_POSE, POINT_CLOUD, RECORDING, SCENE_STATE, VERDICT, WORLD_STATE
 from services.bus.arrays import drawable, vector3
 from services.bus.bus import Bus
+from services.bus.depth import depth_from_wire
 from services.bus.predictions import Predictions
 from services.bus.trace import Trace
 from services.process.clock import Clock
@@ -108,6 +109,7 @@ class ViewerService:
         self._execution = bus.subscribe(EXECUTION)
         self._trace = Trace()
         self._cloud = News(bus.subscribe(POINT_CLOUD))
+        self._depth = News(bus.subscribe(DEPTH))
         self._pictures = Pictures(bus, run, cameras)
         self._changes = Changes(_REPEAT_S)
         self._tracing = Changes(_TRACE_S)
@@ -137,9 +139,7 @@ class ViewerService:
         self._log_scene(now_ns)
         self._log_verdict(now_ns)
         self._pictures.draw(now_ns)
-        cloud = self._cloud.take(now_ns)
-        if cloud is not None and self._changes.due("cloud", cloud.data, now_ns):
-            scene.log_cloud(self._run, cloud)
+        self._log_depth(now_ns)
         shown = self._predictions.shown(self._execution.fresh(now_ns))
         self._log_motions(shown, now_ns)
         self._teaching.draw(shown, now_ns)
@@ -158,6 +158,16 @@ class ViewerService:
         """Finish the file and stop serving."""
         self._run.close()
         self._web.close()
+
+    def _log_depth(self, now_ns: int) -> None:
+        cloud, depth = self._cloud.take(now_ns), self._depth.take(now_ns)
+        if cloud is not None and self._changes.due("cloud", cloud.data, now_ns):
+            scene.log_cloud(self._run, cloud)
+        if depth is not None and self._changes.due("depth", depth.data, now_ns):
+            if depth_from_wire(depth) is None:
+                self._unusable += 1
+            else:
+                scene.log_depth(self._run, depth)
 
     def _log_scene(self, now_ns: int) -> None:
         arrangement = self._scene.take(now_ns)

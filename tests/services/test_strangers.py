@@ -142,8 +142,7 @@ def test_every_topic_is_heard_by_somebody_who_is_tried():
     StationService(network.bus(), BY_HAND, None, seed=3)
     build_master(network.bus(), clock, Configuration(master=MasterSection(device=Scripted())))
     heard = {s.topic.name for s in (*network.subscriptions, *Site().network.subscriptions)}
-    drawn = {
-        topic.name for topic in (topics.WORLD_STATE, topics.TEACHING_STATE, topics.HEARTBEAT, topics.PICTURE_QUEUE)
-    }
+    drawing = (topics.WORLD_STATE, topics.TEACHING_STATE, topics.HEARTBEAT, topics.PICTURE_QUEUE, topics.DEPTH)
+    drawn = {topic.name for topic in drawing}
     asked = {topics.PROBE.name, topics.LOAD.name}  # which only who sends them hears
     assert heard >= {topic.name for topic in TOPICS} - drawn - asked

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from protocol.topics import (
     AUTHORITY_STATE,
+    DEPTH,
     MASTER_STATE,
     MODEL_STATE,
     OBJECT_POSE,
@@ -33,6 +34,7 @@ STRANGE = st.one_of(
     st.tuples(st.just(SCENE_STATE), extremes.scenes),
     st.tuples(st.just(HEAD_IMAGE), extremes.images),
     st.tuples(st.just(POINT_CLOUD), extremes.clouds),
+    st.tuples(st.just(DEPTH), extremes.depths),
     st.tuples(st.just(MASTER_STATE), extremes.masters),
     st.tuples(st.just(OBJECT_POSE), extremes.object_poses),
     st.tuples(st.just(VERDICT), extremes.verdicts),

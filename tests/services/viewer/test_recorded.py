@@ -11,6 +11,7 @@ from protocol.messages import (
     AuthorityEvent,
     AuthorityState,
     Controller,
+    DepthPicture,
     ExecutionState,
     Light,
     MasterState,
@@ -32,6 +33,7 @@ from protocol.messages import (
 )
 from protocol.topics import (
     AUTHORITY_STATE,
+    DEPTH,
     EXECUTION,
     MASTER_STATE,
     MODEL_STATE,
@@ -45,6 +47,7 @@ from protocol.topics import (
     VERDICT,
 )
 from services.bus.arrays import motion_to_wire, points_to_wire
+from services.bus.depth import depth_to_wire
 from tests.services.predictions import prediction
 
 pytestmark = pytest.mark.sim
@@ -94,6 +97,14 @@ def test_each_cloud_that_differs_is_recorded_where_its_points_are(record):
     near, far = (PointCloud(camera="head", data=points_to_wire(at, colours)) for at in (here, 2.0 * here))
     read = record([(POINT_CLOUD, near)], [(POINT_CLOUD, near)], [(POINT_CLOUD, far)])
     np.testing.assert_allclose(read.values("/world/cloud", "Points3D:positions"), [here, 2.0 * here], atol=1e-6)
+
+
+def test_a_depth_picture_is_recorded_as_it_came_and_what_is_none_is_not(record):
+    near, far = (depth_to_wire(np.full((12, 16), away)) for away in (1.0, 2.0))
+    none = DepthPicture(camera="head", width=16, height=12, data=b"none", intrinsics=(1.0,) * 4, pose=HERE)
+    ticks = [[(DEPTH, changed(none, data=data))] for data in (near, near, b"none", far)]
+    recorded = [bytes(value[0]) for value in record(*ticks).values("/depth", "EncodedDepthImage:blob")]
+    assert recorded == [near, far]
 
 
 def test_the_waypoints_that_are_stored_bear_their_numbers(record):
