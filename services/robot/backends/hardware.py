@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 log = logging.getLogger(__name__)
 
-LOST_S = 0.1  # [s] of the same reading again and again, after which the arm is not heard any more
+LOST_S = 0.2  # [s] of the same reading again and again, after which the arm is not heard any more
 UP = np.array([0.0, 0.0, 1.0])
 
 

@@ -1,7 +1,7 @@
 """A simulated Franka in a process of its own, that speaks the vendor's protocol on loopback; and what is seen there.
 
-As a program: `python franka_arm.py Q1 ... Q7` prints its address, then a hundred times a second the time, its own time
-since its start, the fastest joint's speed and the joints' positions, until it is terminated.
+As a program: `python franka_arm.py Q1 ... Q7` prints its address, then a hundred times a second its own time since its
+start and the joints' positions, until it is terminated.
 """
 
 import logging
@@ -14,6 +14,8 @@ import time
 import numpy as np
 
 PATIENCE_S = 30.0
+WINDOW_S = 0.05
+STANDING = 0.001  # [rad]
 
 
 class FrankaArm:
@@ -37,14 +39,29 @@ class FrankaArm:
 
     @property
     def seen(self):
-        """What it has printed, a row each: time [s], its own time [s], greatest speed [rad/s], positions [rad]."""
+        """What it has printed, a row each: its own time [s], positions [rad]."""
         return np.array(self._rows)
+
+    @property
+    def now(self):
+        """Its own time [s]."""
+        return self._rows[-1][0]
+
+    def stood_after(self, since):
+        """How long after `since`, in its own time, no joint moved by more than a milliradian in 50 ms any more [s]."""
+        rows = self.seen
+        times, q = rows[:, 0], rows[:, 1:]
+        for i in np.flatnonzero(times >= since):
+            later = q[(times >= times[i]) & (times <= times[i] + WINDOW_S)]
+            if times[-1] >= times[i] + WINDOW_S and np.ptp(later, axis=0).max() < STANDING:
+                return times[i] - since
+        return np.inf
 
     def rest(self, seconds):
         """Wait until so much of its own time has passed, which on a busy machine goes slower than the clock's."""
-        due = self._rows[-1][1] + seconds
+        due = self.now + seconds
         until = time.monotonic() + PATIENCE_S
-        while self._rows[-1][1] < due:
+        while self.now < due:
             assert time.monotonic() < until
             time.sleep(0.005)
 
@@ -79,7 +96,7 @@ def main():
             sys.stdout.write(f"{arm.hostname}\n")
             while True:
                 state = arm.inner_state
-                row = (time.monotonic(), sim.data.time, max(map(abs, state.dq)), *state.q)
+                row = (sim.data.time, *state.q)
                 sys.stdout.write(f"{' '.join(map(str, row))}\n")
                 sys.stdout.flush()
                 time.sleep(0.01)
