@@ -1,5 +1,7 @@
 """The scripted operator teaches a scene offline: steers the arm to targets, with the stylus coupled to it (OffStyl)."""
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -69,7 +71,9 @@ def demonstrate(
         trajectory = steered(scene.corridor(variant, place, start), rng, scene.freedom)
         outcome = rollout(arm, trajectory, place, variant=variant, start=start)
         if outcome.verdict.success:
-            return _demonstration(scene, place, outcome.measured)
+            # What the gripper was told, not what it measured: fingers that hold something would not press on it else.
+            shown = replace(outcome.measured, opening=outcome.commanded.opening)
+            return _demonstration(scene, place, shown)
     raise CommandFailed(f"no motion to a target at {np.round(place, 3).tolist()} succeeded in {TRIES} tries")
 
 

@@ -8,7 +8,7 @@ from sim.person.steering import steer
 from sim.tasks.scene import Corridor, Freedom
 
 DURATION_S = 10.0
-"""Of a demonstration: the thesis' time of an autonomous execution."""
+"""Of a demonstration: the thesis' time of an autonomous execution; what is grasped on the way takes more."""
 
 POINTS = 75
 
@@ -25,4 +25,4 @@ def steered(
         n: points of the motion.
     """
     way = steer(corridor, rng, freedom=freedom)
-    return resample(Trajectory(way.positions, way.orientations, DURATION_S), n)
+    return resample(Trajectory(way.positions, way.orientations, way.longer * DURATION_S, way.opening), n)

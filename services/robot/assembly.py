@@ -113,6 +113,7 @@ def hardware_arm(scene: AnyScene, section: RobotSection, kinematics: Mechanism, 
         velocity_scale=section.velocity_scale,
         self_distance_stop=section.self_distance_stop,
         wide_open=scene.manipulator.gripper.opening,
+        grips=scene.gripper,
     )
 
 

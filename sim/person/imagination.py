@@ -69,4 +69,4 @@ def imagined(
     along = away / np.maximum(far, 1e-9)
     back = np.minimum(np.sum(deviates * along, axis=1, keepdims=True), 0.0)
     evident = np.clip(far / _EVIDENT, 0.0, 1.0)
-    return Corridor(way.positions + deviates - 2.0 * evident * back * along, way.orientations)
+    return way._replace(positions=way.positions + deviates - 2.0 * evident * back * along)

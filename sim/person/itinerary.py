@@ -84,4 +84,5 @@ def _apart(way: Corridor) -> Corridor:
         if nearest >= APART:
             kept.append(number)
     kept.append(len(way.positions) - 1)
-    return Corridor(way.positions[kept], way.orientations[kept])
+    openings = None if way.openings is None else way.openings[kept]
+    return Corridor(way.positions[kept], way.orientations[kept], openings)

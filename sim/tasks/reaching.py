@@ -12,6 +12,7 @@ import numpy as np
 from sim.robots.catalogue import DEFAULT
 from sim.robots.robot import Base, Manipulator, Robot, Stance
 from sim.tasks.arrangement import Arrangement
+from sim.tasks.handling import handled
 from sim.tasks.scene import Array, Box, Corridor, Scene, Vector
 from sim.tasks.success import Success
 from sim.tasks.thing import Thing
@@ -104,6 +105,10 @@ class ReachingScene(Scene):
         from sim.planning.ways import ways  # noqa: PLC0415
 
         return ways(self)
+
+    def completed(self, route: Corridor, place: Array) -> Corridor:
+        """See `Scene.completed`: the object is grasped, and more, where the gripper takes part."""
+        return handled(route, place, self.success, self.wide_open) if self.gripper else route
 
     @property
     def object_size(self) -> Vector:

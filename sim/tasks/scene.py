@@ -60,10 +60,13 @@ class Corridor(NamedTuple):
     Attributes:
         positions: Shape (k, 3) [m].
         orientations: Scalar first, shape (k, 4).
+        openings: Of the gripper when it leaves each of them, shape (k,) [m]; None where it takes no part. Where it
+            changes the grasping frame stands meanwhile.
     """
 
     positions: Array
     orientations: Array
+    openings: Array | None = None
 
 
 class Freedom(NamedTuple):
@@ -184,7 +187,19 @@ class Scene(ABC):
         if len(place) != len(self.region.lower):
             raise WrongPlace(self.name, len(place), len(self.region.lower))
         routes = self.routes(variant, place)
-        return routes if start is None else tuple(_joined(route, start) for route in routes)
+        if start is not None:
+            routes = tuple(_joined(route, start) for route in routes)
+        return tuple(self.completed(route, place) for route in routes)
+
+    def completed(self, route: Corridor, place: Array) -> Corridor:
+        """Return a route that leads to the target, and on from there where the task asks for more.
+
+        Args:
+            route: One of the `routes`.
+            place: Of the target, shape (d,) [m].
+        """
+        del place
+        return route
 
     def corridor(self, variant: str, place: Array, start: Pose | None = None) -> Corridor:
         """Return the shortest of the `corridors`."""

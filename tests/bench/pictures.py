@@ -63,7 +63,7 @@ def corridor(variant, place):
     """The way that a variant of the scene leaves free, as long as a refinement takes."""
     ways = DISHWASHER.corridor(variant, place)
     steps = np.linalg.norm(np.diff(DISHWASHER.corridor(DISHWASHER.variants[0], place).positions, axis=0), axis=1)
-    return from_samples(np.concatenate([[0.0], np.cumsum(steps)]) / np.sum(steps) * DURATION_S, *ways, n=75)
+    return from_samples(np.concatenate([[0.0], np.cumsum(steps)]) / np.sum(steps) * DURATION_S, *ways[:2], n=75)
 
 
 def films(states, width, height):

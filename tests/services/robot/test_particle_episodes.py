@@ -39,7 +39,7 @@ def particle(variant=FREE):
 
 def way(variant, condition, duration=10.0, n=75):
     corridor = PARTICLE.corridor(variant, condition)
-    return from_samples(np.linspace(0.0, duration, len(corridor.positions)), *corridor, n)
+    return from_samples(np.linspace(0.0, duration, len(corridor.positions)), *corridor[:2], n)
 
 
 def straight(y=0.0, n=75):
@@ -102,7 +102,7 @@ def test_any_conditions_can_be_demonstrated_in_any_variant():
 def test_a_motion_from_another_start_leads_to_the_same_via_points(variant):
     arm, condition = particle(variant), np.array([0.1, -0.1])
     start = Pose(np.array([0.0, 0.04, 0.0]), IDENTITY)
-    positions, orientations = PARTICLE.corridor(variant, condition, start)
+    positions, orientations, _ = PARTICLE.corridor(variant, condition, start)
     motion = from_samples(np.linspace(0.0, 10.0, len(positions)), positions, orientations, 75)
     outcome = rollout(arm, motion, condition, start=start)
     np.testing.assert_allclose(outcome.measured.positions[0], start.position, atol=1e-6)
