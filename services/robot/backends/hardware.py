@@ -105,6 +105,7 @@ class Hardware:
         if self._reading is not None and not self._lost:
             self._stand()
             self._driver.close()
+        self._reading = None
         self._gate.close()
 
     def status(self) -> Status:

@@ -48,13 +48,11 @@ def particle():
     return Rig(ParticleBackend(PARTICLE, PARTICLE.variants[0]))
 
 
-class Franka:
-    """The maker's own driver, against a simulated arm that speaks its protocol: time passes by itself."""
+class Real:
+    """Hardware, whose time passes by itself."""
 
-    def __init__(self, arm):
-        self._arm = arm
-        panda = robot("panda")
-        self.backend = Hardware(driver_of("franka"), arm.host, panda, variant="", yaw=0.0, clock=SystemClock())
+    def __init__(self, driver, kind, host="192.0.2.1"):
+        self.backend = Hardware(driver, host, robot(kind), variant="", yaw=0.0, clock=SystemClock())
         self._due = time.monotonic()
 
     def period(self):
@@ -64,7 +62,18 @@ class Franka:
 
     def rest(self, seconds):
         time.sleep(seconds)
-        self._arm.rest(seconds)
 
     def close(self):
         self.backend.close()
+
+
+class Franka(Real):
+    """The maker's own driver, against a simulated arm that speaks its protocol."""
+
+    def __init__(self, arm):
+        self._arm = arm
+        super().__init__(driver_of("franka"), "panda", arm.host)
+
+    def rest(self, seconds):
+        super().rest(seconds)
+        self._arm.rest(seconds)
