@@ -8,7 +8,8 @@ from lfd.store.connection import Connection
 SCHEMA_VERSION = 7
 """1 had no conditions: they were the object relative to the start. 2 knew neither robots nor requests, 3 no authors,
 times and confidences: its motions were stored as far as they were believed. 4 knew whole motions only. 5 took back
-the newest only and for ever, and knew no methods. 6 said nothing of the skill itself."""
+the newest only and for ever, and knew no methods. 6 said nothing of the skill itself, and its
+motions nothing of a gripper."""
 
 APPLICATION_ID = 0x52544348  # "RTCH" in the file's header tells our files from others
 DTYPE = "<f8"

@@ -7,12 +7,12 @@ import pytest
 from harness import confirmed_view
 from states import IN_HAND, states
 
-from protocol.messages import Method, Pose
+from protocol.messages import Method, Waypoint
 
 pytestmark = [pytest.mark.browser, pytest.mark.undrawn]
 
 SEEN_AFTER_MS = 250
-WAYPOINT = Pose((0.5, 0.0, 0.6), (1.0, 0.0, 0.0, 0.0))
+WAYPOINT = Waypoint((0.5, 0.0, 0.6), (1.0, 0.0, 0.0, 0.0))
 LOOKED_AT = """
     window.seen = [];
     new MutationObserver((changes) => {

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from states import states
 
-from protocol.messages import Method, Pose, Recording
+from protocol.messages import Method, Recording, Waypoint
 from services.accounts.file import AccountsFile
 from services.station.page.login.judge import Judge
 from tests.ports import free_port
@@ -121,7 +121,7 @@ def test_the_light_is_seen_in_its_colour_and_no_other_is(viewed, station, name, 
 def test_no_row_is_cut_through_and_nothing_lies_over_legend_or_buttons(viewed, station, size, method):
     viewed.page.set_viewport_size({"width": size[0], "height": size[1]})
     view = STATES["failed"]
-    here = tuple(Pose((0.5 + 0.05 * n, 0.0, 0.6), (1.0, 0.0, 0.0, 0.0)) for n in range(9))
+    here = tuple(Waypoint((0.5 + 0.05 * n, 0.0, 0.6), (1.0, 0.0, 0.0, 0.0)) for n in range(9))
     fault = Recording(
         path="/r", viewer_url="", recording_id="r", fault="Nothing is recorded: " + "the disk is full. " * 6
     )

@@ -5,12 +5,12 @@ from dataclasses import replace
 import msgspec
 import pytest
 
-from protocol.messages import Method, Pose
+from protocol.messages import Method, Waypoint
 from services.station.press import Press
 
 pytestmark = [pytest.mark.browser, pytest.mark.undrawn]
 
-WAYPOINTS = tuple(Pose((0.5 + 0.1 * i, 0.0, 0.6), (1.0, 0.0, 0.0, 0.0)) for i in range(3))
+WAYPOINTS = tuple(Waypoint((0.5 + 0.1 * i, 0.0, 0.6), (1.0, 0.0, 0.0, 0.0)) for i in range(3))
 EDITS = ("store", "delete", "earlier", "later", "clear", "method")
 
 
@@ -57,3 +57,16 @@ def test_all_are_taken_away_only_when_that_is_confirmed(storing, presses):
 
 def test_while_it_moves_there_is_no_list(tab):
     assert not tab.shows(".waypoints-panel")
+
+
+def test_where_the_gripper_takes_part_a_waypoint_says_how_far_it_is_open(tab, station):
+    feed = station[1]
+    stored = tuple(
+        Waypoint(one.position, one.orientation, opening)
+        for one, opening in zip(WAYPOINTS, (0.08, 0.0, 0.0), strict=True)
+    )
+    feed.view = replace(feed.view, teaching=msgspec.structs.replace(feed.view.teaching, waypoints=stored))
+    tab.wait(".waypoint:nth-child(3)", state="attached")
+    rows = [row.strip() for row in tab.page.locator(".waypoint-place").all_text_contents()]
+    assert rows == ["1: 50, 0, 60 cm, 80 mm", "2: 60, 0, 60 cm, 0 mm", "3: 70, 0, 60 cm, 0 mm"]
+    assert tab.page.locator(".waypoint-place").first.get_attribute("title").endswith("open by 80 mm")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from protocol.messages import Method, Origin, Pose, TeachingState
+from protocol.messages import Method, Origin, TeachingState, Waypoint
 from services.station.page.values import Values
 from services.station.page.view import Shown
 from services.station.words.table import say
@@ -51,8 +51,10 @@ def _chosen(kind: str, names: list[str], chosen: str, *, open_: bool) -> dict[st
     return values
 
 
-def _place(waypoint: Pose) -> str:
-    return " ".join(f"{100.0 * value:.0f}" for value in waypoint.position)
+def _place(waypoint: Waypoint) -> str:
+    """Where it is [cm] and, where the gripper takes part, how far that is open from there on [mm]."""
+    opening = () if waypoint.opening is None else (1e3 * waypoint.opening,)
+    return " ".join(f"{value:.0f}" for value in (*(100.0 * value for value in waypoint.position), *opening))
 
 
 def _count(teaching: TeachingState) -> str:

@@ -3,9 +3,11 @@
 import pytest
 from views import POSE, shown, teaching
 
-from protocol.messages import Method, ModelState, Origin
+from protocol.messages import Method, ModelState, Origin, Waypoint
 from services.station.page.methods import EDITS, METHODS, methods
 from services.station.words.table import speech
+
+HERE = Waypoint(POSE.position, POSE.orientation)
 
 
 def test_before_the_workflow_is_heard_nothing_is_said():
@@ -28,8 +30,14 @@ def test_a_basis_is_there_where_there_is_something_to_choose():
     assert (values["methods@data-based"], values["basis-refinement@aria-pressed"]) == ("yes", "true")
 
 
+def test_where_the_gripper_takes_part_a_waypoint_is_told_with_its_opening_in_millimetres():
+    stored = tuple(Waypoint(POSE.position, POSE.orientation, opening) for opening in (0.08, 0.0))
+    values = methods(shown(teaching=teaching(method=Method.WAYPOINTS, waypoints=stored)))
+    assert values["waypoints@data-places"] == "0 0 0 80;0 0 0 0"
+
+
 def test_waypoints_are_told_in_centimetres_with_what_can_be_done():
-    values = methods(shown(teaching=teaching(method=Method.WAYPOINTS, waypoints=(POSE, POSE), actions=EDITS)))
+    values = methods(shown(teaching=teaching(method=Method.WAYPOINTS, waypoints=(HERE, HERE), actions=EDITS)))
     assert values["waypoints@data-places"] == "0 0 0;0 0 0"
     assert values["waypoints@data-edits"].split() == list(EDITS)
     assert values["waypoints-count"].endswith("2")

@@ -33,10 +33,11 @@ export class Waypoints {
   }
 }
 
-function rowOf([x, y, z], number) {
+function rowOf([x, y, z, opening], number) {
   const row = Object.assign(document.createElement("li"), { className: "waypoint" });
   const place = Object.assign(document.createElement("span"), { className: "waypoint-place" });
-  place.textContent = say("waypoint.place", { number, x, y, z });
+  place.textContent = say(opening === undefined ? "waypoint.place" : "waypoint.grasp", { number, x, y, z, opening });
+  if (opening !== undefined) place.title = say("waypoint.grasp_of", { number, opening });
   row.append(place, ...EDITS.map((edit) => buttonOf(edit, number)));
   return row;
 }
