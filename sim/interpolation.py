@@ -58,6 +58,16 @@ def numbers_at(points: Array, shares: Array) -> Array:
     return np.interp(shares, covered_shares(through(points, fine)), fine)
 
 
+def shares_of(points: Array) -> Array:
+    """Return at which shares of the length of the line `through` points they lie, shape (n,): see `numbers_at`.
+
+    Args:
+        points: Shape (n, d), n at least 2.
+    """
+    fine = np.linspace(0.0, len(points) - 1.0, _FINENESS * (len(points) - 1) + 1)
+    return covered_shares(through(points, fine))[::_FINENESS]
+
+
 def minimum_jerk(time: Array) -> Array:
     """The share of the way covered by a minimum-jerk movement at each share of its time, both from 0 to 1."""
     return time**3 * (10.0 + time * (-15.0 + 6.0 * time))

@@ -86,11 +86,17 @@ class Hand:
         self._rotation: Vector | None = None
         self._clutched = False
         self._itinerary: Itinerary | None = None
+        self._opening: float | None = None
 
     @property
     def clutched(self) -> bool:
         """The stylus is where the robot is: from here on the robot may follow it."""
         return self._clutched
+
+    @property
+    def opening(self) -> float | None:
+        """What is asked of the gripper [m]; None where it is left to the robot."""
+        return self._opening
 
     @property
     def rotation(self) -> Vector | None:
@@ -121,7 +127,7 @@ class Hand:
 
     def release(self) -> None:
         """Let go."""
-        self._correction = self._itinerary = None
+        self._correction = self._itinerary = self._opening = None
         self._target = self._rotation = None
         self._clutched = False
 
@@ -162,6 +168,7 @@ class Hand:
         self._wrist.move(then.stylus.rotation + turned, still, dt)
         self._target, self._rotation = _vector(self._arm.position), _vector(self._wrist.position)
         led = np.subtract(seen.stylus.rotation, then.stylus.rotation)
+        self._opening = itinerary.opening
         return itinerary.arrived(time, np.concatenate([away - (here - stood), turned - led]))
 
     def force(self, stylus: StylusState) -> Vector:
@@ -213,6 +220,7 @@ class Hand:
             place = correction.pose(seen.progress)
             away = place.position - seen.robot.position
             turned = rotation_to(seen.robot.orientation, place.orientation)
+        self._opening = correction.opening(ahead)
         return _Aim(correction.displacement(ahead), away), _Aim(correction.rotation(ahead), turned)
 
 

@@ -15,21 +15,35 @@ from sim.tasks.scene import Corridor
 Array = NDArray[np.float64]
 
 
+_IN_TIME = 0.06  # of a motion's progress by which the gripper may move earlier or later than it is meant to
+_THERE = 0.05  # of the way between two way-points, before the second, at which the robot is seen to be there
+
+
 @dataclass(frozen=True, eq=False)
 class Intention:
-    """A displacement and a rotation for every progress of a prediction.
+    """A displacement and a rotation for every progress of a prediction, and what the gripper is to do.
 
     Attributes:
         positions: What the robot would do, at equal steps of progress, shape (n, 3) [m].
         orientations: The same, shape (n, 4).
         displacements: From it to where the operator wants the robot, shape (n, 3) [m].
         rotations: From it to how the operator wants it turned, rotation vectors in base axes, shape (n, 3) [rad].
+        openings: That they want of the gripper, shape (n,) [m], not a number where they leave it to the robot; None
+            where they leave all of it.
     """
 
     positions: Array
     orientations: Array
     displacements: Array
     rotations: Array
+    openings: Array | None = None
+
+    def opening(self, progress: float) -> float | None:
+        """The opening wanted at a progress from 0 to 1 [m]; None where it is left to the robot."""
+        if self.openings is None:
+            return None
+        wanted = float(self.openings[int(min(max(progress, 0.0), 1.0) * (len(self.openings) - 1))])
+        return None if np.isnan(wanted) else wanted
 
     def displacement(self, progress: float) -> Array:
         """The displacement wanted at a progress from 0 to 1, shape (3,) [m]."""
@@ -52,7 +66,13 @@ class Intention:
 
 
 def plan(
-    positions: Array, orientations: Array, safe: Corridor, known: Sequence[Corridor], exaggeration: float = 1.0
+    positions: Array,
+    orientations: Array,
+    safe: Corridor,
+    known: Sequence[Corridor],
+    exaggeration: float = 1.0,
+    *,
+    opening: Array | None = None,
 ) -> Intention:
     """Plan the correction that leads a prediction along a safe way.
 
@@ -67,6 +87,7 @@ def plan(
             interpolated like positions.
         known: Ways that the robot may have learnt.
         exaggeration: Of the correction; 1 is natural.
+        opening: Of the predicted gripper, shape (n,) [m]; None where it takes no part.
     """
     recognised = min(known, key=lambda way: departure(way, positions))
     numbers = numbers_at(recognised.positions, covered_shares(positions))
@@ -77,7 +98,25 @@ def plan(
         orientations,
         exaggeration * (through(safe.positions, numbers) - positions),
         exaggeration * rotation_to(orientations, turned),
+        None if opening is None or safe.openings is None else _grasping(opening, safe.openings, numbers),
     )
+
+
+def _grasping(predicted: Array, meant: Array, numbers: Array) -> Array | None:
+    """What the gripper is asked for, from when on it would not do by itself what it is meant to; None for nothing.
+
+    Args:
+        predicted: Its opening, shape (n,) [m].
+        meant: When it leaves each way-point, shape (k,) [m].
+        numbers: Of the way-points where the robot will be, shape (n,).
+    """
+    wanted = meant[np.minimum((numbers + _THERE).astype(int), len(meant) - 1)]
+    closes = 0.5 * float(meant.max())
+    due, comes = (np.flatnonzero(np.diff(one > closes)) for one in (wanted, predicted))
+    if len(due) == len(comes) and np.all(np.abs(due - comes) <= _IN_TIME * len(predicted)):
+        return None
+    wrong = np.flatnonzero((wanted > closes) != (predicted > closes))
+    return np.where(np.arange(len(wanted)) < wrong[0], np.nan, wanted) if len(wrong) else None
 
 
 def plan_at_equal_progress(

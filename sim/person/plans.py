@@ -43,7 +43,14 @@ class Outlook:
         return imagined(chosen(ways, foreseen, rng), foreseen, scatter, rng, self.scene.freedom)
 
     def correction(
-        self, positions: Array, orientations: Array, scatter: float, rng: np.random.Generator, exaggeration: float = 1.0
+        self,
+        positions: Array,
+        orientations: Array,
+        scatter: float,
+        rng: np.random.Generator,
+        exaggeration: float = 1.0,
+        *,
+        opening: Array | None = None,
     ) -> Intention:
         """The correction that leads a prediction along the way that they mean.
 
@@ -53,6 +60,7 @@ class Outlook:
             scatter: Of the person, see `deviation` [m].
             rng: Of the choice and of this time's deviation.
             exaggeration: Of the correction; 1 is natural.
+            opening: Of the predicted gripper, shape (n,) [m]; None where it takes no part.
         """
         meant = self.way(positions, scatter, rng)
         if not self.scene.freedom.tempo:
@@ -60,4 +68,4 @@ class Outlook:
         known = [
             way for variant in self.scene.variants for way in self.scene.corridors(variant, self.place, self.start)
         ]
-        return plan(positions, orientations, meant, known, exaggeration)
+        return plan(positions, orientations, meant, known, exaggeration, opening=opening)

@@ -106,6 +106,7 @@ class ScriptedMaster:
             force=rendered.feedback,
             engaged=self._hand.clutched,
             actions=self._held(moment.now_ns),
+            opening=self._opening,
             contact_energy=self._feedback.contact.energy_in,
         )
 
@@ -158,8 +159,16 @@ class ScriptedMaster:
             self._hand.take_up(self._itinerary, stylus, scene.eye)
         elif motion is not None:
             given = (motion.positions, motion.orientations, settings.scatter, self._rng)
-            self._hand.grip(outlook.correction(*given, settings.exaggeration), stylus, scene.eye)
+            meant = outlook.correction(*given, settings.exaggeration, opening=motion.opening)
+            self._hand.grip(meant, stylus, scene.eye)
         return led or motion is not None
+
+    @property
+    def _opening(self) -> float | None:
+        """That the hand asks of the gripper, as a share of wide open."""
+        received, asked = self._scene.latest(), self._hand.opening
+        wide = 0.0 if received is None else received.message.wide_open
+        return None if asked is None or wide <= 0.0 else min(1.0, asked / wide)
 
     def _scene_named(self, name: str) -> AnyScene:
         """As the robot tells it; looked up once."""

@@ -46,7 +46,7 @@ def even(way):
     lengths = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(way.positions, axis=0), axis=1))])
     shares = np.linspace(0.0, lengths[-1], POINTS)
     positions, orientations = (
-        np.column_stack([np.interp(shares, lengths, column) for column in part.T]) for part in way
+        np.column_stack([np.interp(shares, lengths, column) for column in part.T]) for part in way[:2]
     )
     return positions, orientations / np.linalg.norm(orientations, axis=1, keepdims=True)
 
