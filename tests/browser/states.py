@@ -6,9 +6,13 @@ import msgspec
 from harness import working_view
 
 from protocol import messages
-from protocol.messages import Light, Phase, SafetyState
+from protocol.messages import Light, Method, Phase, SafetyState, Showing, ShowStep
+from protocol.queries import HistoryListed
+from services.station.page.entries import rows_of
 
 SENTENCES = {
+    "untaught": "I have learnt nothing yet: show me. First put the object 86 cm ahead and 6 cm right, or take another"
+    " place.",
     "ready": "Ready. Watch what the robot does alone.",
     "alone": "The robot moves alone.",
     "failed": "The robot touched something, missed the target by 84 mm. Correct it.",
@@ -20,6 +24,8 @@ SENTENCES = {
     "stopped": "Emergency stop by anna: release it to go on.",
     "finished": "Finished: the robot has learnt from the correction. Press Next object to begin again.",
 }
+NOTHING = rows_of(HistoryListed(0, (), 0))
+TO_PUT = ("end", "method", "other_place", "put")
 IN_HAND = ("end", "execute", "next", "refine", "undo")
 
 
@@ -30,6 +36,7 @@ def states():
     reached = {"reached": True, "kicked_over": False, "collision": False, "missed": 0.006}
     taught = (*IN_HAND, "teach")
     return {
+        "untaught": _untaught(_view("untaught", "deciding", Light.GREEN, TO_PUT, "put", progress=0.0, episode=0)),
         "ready": _view("ready", "deciding", Light.GREEN, IN_HAND, "execute", episode=0),
         "alone": _view("alone", "executing", Light.RED, ("finish",), phase=Phase.EXECUTE),
         "failed": _view("failed", "deciding", Light.GREEN, IN_HAND, "refine", progress=1.0, verdict=missed | touched),
@@ -55,6 +62,20 @@ def _view(name, phase_name, light, actions, recommended="", *, phase=Phase.IDLE,
         robot=msgspec.structs.replace(view.robot, phase=phase, progress=progress, episode=episode),
         verdict=msgspec.structs.replace(view.verdict, **judged),
     )
+
+
+def _untaught(view):
+    """Before anything was shown, learnt or judged."""
+    empty = msgspec.structs.replace(view.model, version=0, demonstrations=0, updates=0)
+    shown = msgspec.structs.replace(
+        view.teaching,
+        method=Method.WAYPOINTS,
+        showing=Showing(ShowStep.PLACE, 1, 2),
+        refinements=0,
+        updates=0,
+    )
+    drawing = msgspec.structs.replace(view.drawing, prediction=None, way=())
+    return replace(view, teaching=shown, model=empty, prediction=None, history=NOTHING, drawing=drawing)
 
 
 def _of_bert(view):

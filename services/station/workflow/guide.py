@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from protocol.messages import ModelState
+
 
 @dataclass(frozen=True)
 class Guide:
     """See the module.
 
     Attributes:
+        skill: that it is about, by its name.
         open: the skill is to be shown a motion, or another one.
         kept: first motions that the skill holds.
         passed: places that the operator did not want, since the last motion was kept.
@@ -18,6 +21,7 @@ class Guide:
         enough: the operator goes on with the motions that there are.
     """
 
+    skill: str = ""
     open: bool = False
     kept: int = 0
     passed: int = 0
@@ -25,19 +29,19 @@ class Guide:
     tries: int = 0
     enough: bool = False
 
-    def holding(self, demonstrations: int, updates: int, places: int) -> Guide:
+    def holding(self, model: ModelState, places: int) -> Guide:
         """As the skill is now.
 
         Args:
-            demonstrations: first ones that it holds.
-            updates: that it has learnt since.
+            model: what it holds.
             places: that are shown.
         """
-        enough = self.enough and demonstrations > 0
-        opens = demonstrations < places and not updates and not enough
-        if opens and self.open and demonstrations <= self.kept:
-            return replace(self, kept=demonstrations, enough=enough)
-        return Guide(open=opens, kept=demonstrations, enough=enough)
+        kept, same = model.demonstrations, model.skill == self.skill
+        enough = same and self.enough and kept > 0
+        opens = kept < places and not model.updates and not enough
+        if opens and self.open and same and kept <= self.kept:
+            return replace(self, kept=kept, enough=enough)
+        return Guide(skill=model.skill, open=opens, kept=kept, enough=enough)
 
     def looked(self, *, put: bool) -> Guide:
         """Once the target was seen, and whether it had been put there."""

@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 from protocol.messages import Method, Mode, ModelState, Showing, ShowStep
-from protocol.queries import Learnt
 from services.station.words.table import say
 from services.station.workflow import editing
 from services.station.workflow.action import Action
 from services.station.workflow.approach import Approach
 from services.station.workflow.asking import to
 from services.station.workflow.episode import look
-from services.station.workflow.guide import Guide
 from services.station.workflow.leading import lead
 from services.station.workflow.proposals import places
 from services.station.workflow.settings import Settings
@@ -33,20 +31,22 @@ def heard(state: Workflow, view: View, settings: Settings) -> Workflow:
     return _holding(state, view.model, view, settings)
 
 
-def learnt(state: Workflow, reply: Learnt, view: View, settings: Settings) -> Workflow:
-    """With what the model holds now that it was told something; what was kept is shown at another place next."""
-    changed = Changed(reply.state.version, view.now_s + STALE_S)
-    return _holding(replace(state, changed=changed), reply.state, view, settings)
+def told_by(state: Workflow, model: ModelState, view: View, settings: Settings) -> Workflow:
+    """With what the model has answered that it holds now; what was kept is shown at another place next."""
+    changed = Changed(model.skill, model.version, view.now_s + STALE_S)
+    return _holding(replace(state, changed=changed), model, view, settings)
 
 
 def _is_older(state: Workflow, model: ModelState, view: View) -> bool:
     changed = state.changed
-    return changed is not None and model.version < changed.version and view.now_s < changed.until_s
+    if changed is None or view.now_s >= changed.until_s:
+        return False
+    return model.skill != changed.skill or model.version < changed.version
 
 
 def _holding(state: Workflow, model: ModelState, view: View, settings: Settings) -> Workflow:
     shown_at = places(view.scene) if view.scene is not None and settings.guides else 0
-    guide = state.guide.holding(model.demonstrations, model.updates, shown_at)
+    guide = state.guide.holding(model, shown_at)
     if guide == state.guide:
         return state if model.empty is state.empty else replace(state, empty=model.empty)
     known = replace(state, empty=model.empty, guide=guide)
@@ -117,7 +117,7 @@ def take(state: Workflow, view: View, chosen: Action) -> Workflow:
         case Action.REPEAT:
             return _shown_anew(state)
         case _:
-            closed = Guide(kept=guide.kept, enough=True)
+            closed = replace(guide, open=False, enough=True)
             return replace(state, guide=closed, approach=Approach(), event="")
 
 

@@ -50,7 +50,7 @@ def learning(state: Workflow, view: View, settings: Settings) -> Step:
                 part=WHOLE,
                 approach=replace(state.approach.cleared(), basis=Origin.MODEL),
             )
-            learnt = guiding.learnt(learnt, reply, view, settings)
+            learnt = guiding.told_by(learnt, reply.state, view, settings)
             said = say(f"event.learnt_{taught.method.value}", extent=extent(taught.part))
             event = f"{said} {say('event.listed', what=named(reply))}"
             return Step(to(learnt, Phase.DECIDING, view, owed=None, event=event))

@@ -123,10 +123,12 @@ class Changed:
     """What this station has changed of the model, before the model itself has said so on its topic.
 
     Attributes:
+        skill: that it holds since.
         version: that it came to.
         until_s: until then a state of an older one is from before [s].
     """
 
+    skill: str
     version: int
     until_s: float
 

@@ -9,58 +9,9 @@ from protocol import queries
 from protocol.messages import Method, Mode, Origin, Purpose, Showing, ShowStep
 from services.station.workflow.action import Action
 from services.station.workflow.state import Phase
-from tests.services.station.workflow.person import EMPTY, FINISHED, MOVING, Teaching, shown_way
-from tests.services.station.workflow.site import BY_HAND, COLLIDED, MISSED, REACHED, SCRIPTED, UNANSWERED, Site
-
-TRAINING = ((0.67, 0.04, 0.71), (0.67, 0.22, 0.71), (0.83, 0.04, 0.71), (0.83, 0.22, 0.71))
-FIRST, SECOND = TRAINING[0], TRAINING[3]
-METHODS = (Method.WAYPOINTS, Method.DEMONSTRATE)
-
-
-class Guided(Teaching):
-    """A person before an empty skill; what is executed without a verdict of its own succeeds."""
-
-    def __init__(self, method=Method.WAYPOINTS, model=EMPTY, training=TRAINING, settings=BY_HAND):
-        Site.__init__(self, settings)
-        self.sees(model=model, scene=msgspec.structs.replace(self.view.scene, training_places=training))
-        self.run_to(Phase.DECIDING)
-        self.choose(method)
-
-    @property
-    def at_step(self):
-        return self.told.showing.step if self.told.showing is not None else None
-
-    def put(self):
-        self.press(Action.PUT, Phase.RESETTING)
-        self.decide()
-
-    def show(self, outcome=REACHED):
-        self.put()
-        self.lead()
-        if self.state.approach.method is Method.WAYPOINTS:
-            self.store(0.5, 0.6, 0.7)
-        self.finish(outcome, commanded=shown_way())
-
-    def replay(self, outcome=REACHED):
-        self.press(Action.EXECUTE, Phase.EXECUTING)
-        self.executed(outcome)
-        self.decide()
-
-    def keep(self):
-        self.press(Action.TEACH, Phase.LEARNING)
-        self.decide()
-
-    def teach(self):
-        self.show()
-        self.replay()
-        self.keep()
-
-    def placed(self):
-        return [request.object_position for request in self.requests(queries.RESET)]
-
-
-def holding(demonstrations, updates=0, version=9):
-    return msgspec.structs.replace(EMPTY, demonstrations=demonstrations, updates=updates, version=version)
+from tests.services.station.workflow.guided import FIRST, METHODS, SECOND, TRAINING, Guided, holding
+from tests.services.station.workflow.person import EMPTY, MOVING, Teaching, shown_way
+from tests.services.station.workflow.site import BY_HAND, COLLIDED, MISSED, REACHED, UNANSWERED
 
 
 def test_an_empty_skill_asks_to_be_shown_and_moves_nothing_by_itself():
@@ -218,6 +169,18 @@ def test_a_first_motion_that_is_taken_back_is_shown_again():
     assert site.told.showing == Showing(ShowStep.PLACE, 2, 2)
 
 
+def test_another_skill_that_is_empty_begins_anew():
+    site = Guided()
+    site.put()
+    assert site.at_step is ShowStep.SHOW
+    site.sees(model=msgspec.structs.replace(EMPTY, skill="pour"))
+    site.decide()
+    assert site.told.showing == Showing(ShowStep.PLACE, 1, 2)
+    site.sees(model=msgspec.structs.replace(holding(2), skill="wipe", version=1))
+    site.decide()
+    assert site.told.showing is None
+
+
 @pytest.mark.parametrize(
     ("model", "training"),
     [(holding(2), TRAINING), (holding(1, updates=1), TRAINING), (holding(1), TRAINING[:1])],
@@ -241,45 +204,6 @@ def test_first_motions_that_somebody_else_teaches_end_it():
     site.sees(model=holding(4))
     site.decide()
     assert (site.told.showing, site.told.method) == (None, Method.REFINE)
-
-
-@pytest.mark.parametrize("method", METHODS)
-def test_a_script_goes_through_both_places(method):
-    site = Site(replace(SCRIPTED, untaught=True, method=method))
-    site.sees(model=EMPTY, scene=msgspec.structs.replace(site.view.scene, training_places=TRAINING))
-    for _ in range(400):
-        site.step()
-        if site.state.phase is Phase.EXECUTING and site.state.mode is Mode.TEACH:
-            _by_hand(site)
-        elif site.state.phase is Phase.EXECUTING:
-            site.end(REACHED)
-        if site.state.phase is Phase.FINISHED:
-            break
-    assert [one.purpose for one in site.requests(queries.ADD_DEMONSTRATION)] == [Purpose.INITIAL] * 2
-    assert site.state.closure.closed, site.state.reason
-
-
-def _by_hand(site):
-    """As a hand does that shows it all: three waypoints, or the way."""
-    site.step()
-    for _ in range(3 * (site.state.approach.method is Method.WAYPOINTS)):
-        site.step(Action.STORE)
-    site.step(Action.FINISH)
-    site.step()
-    site.end(REACHED, operator_input=True, commanded=shown_way(), **FINISHED)
-
-
-def test_a_script_that_never_gets_there_tries_every_place_and_says_so():
-    site = Site(replace(SCRIPTED, untaught=True))
-    site.sees(model=EMPTY, scene=msgspec.structs.replace(site.view.scene, training_places=TRAINING))
-    for _ in range(2000):
-        site.step()
-        if site.state.phase is Phase.EXECUTING and site.state.episode.number:
-            site.end(MISSED)
-        if site.state.phase is Phase.FINISHED:
-            break
-    assert site.state.reason == "no first motion could be shown at any place"
-    assert {one.object_position for one in site.requests(queries.RESET)} == {*TRAINING}
 
 
 def test_a_demonstration_of_a_skill_that_can_already_is_seen_alone_as_well():
