@@ -10,7 +10,7 @@ from tests.ports import free_port
 
 pytestmark = [pytest.mark.browser, pytest.mark.undrawn]
 
-CAMERAS = ("head", "wrist", "side", "above")
+CAMERAS = ("head", "wrist", "side", "above", "left", "right")
 
 
 def overlap(one, other):
@@ -41,5 +41,7 @@ def test_each_camera_shows_its_picture_in_a_place_of_its_own_and_any_becomes_lar
         tab.wait(f".scene[data-main={large}]")
         boxes = {name: tab.page.locator(f"[data-stage={name}]").bounding_box() for name in ("live", *CAMERAS)}
         assert boxes.pop(large)["width"] > 2 * max(box["width"] for box in boxes.values())
+        scene = tab.page.locator(".scene").bounding_box()
+        assert all(scene["y"] < box["y"] for box in boxes.values())
         assert not any(overlap(*pair) for pair in itertools.combinations(boxes.values(), 2))
     assert not tab.faults

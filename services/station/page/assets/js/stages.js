@@ -24,6 +24,7 @@ function show(scene, view) {
   scene.dataset.main = view;
   const stages = [...scene.querySelectorAll(".stage")];
   const insets = stages.filter(({ dataset }) => dataset.stage !== view);
+  scene.style.setProperty("--insets", insets.length);
   for (const stage of stages) {
     const place = insets.indexOf(stage);
     stage.dataset.place = place < 0 ? "main" : SIDES[place % 2];
