@@ -178,6 +178,7 @@ class ModelService:
         self._skills.choose(request)
         self._comparisons = Comparisons(self._history, self._scene)
         self._newest = None
+        self._bus.publish(topics.MODEL_STATE, self._state)
         return Learnt(self._state)
 
     def _predicted(self, request: Predict) -> Predicted | Refused:

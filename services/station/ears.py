@@ -150,5 +150,7 @@ def prediction_of(
     prediction: messages.Prediction | None, model: messages.ModelState | None
 ) -> messages.Prediction | None:
     """The prediction while it is the model's: what has been learnt or taken back since makes another one."""
-    current = prediction is not None and model is not None and prediction.model_version == model.version
+    if prediction is None or model is None:
+        return None
+    current = (prediction.model_version, prediction.skill) == (model.version, model.skill)
     return prediction if current else None

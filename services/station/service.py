@@ -268,6 +268,7 @@ class StationService:
             model=view.model,
             prediction=prediction_of(workflow.prediction, view.model),
             history=self._history.rows if self._history is not None else None,
+            skills=self._history.skills.listed if self._history is not None else None,
             execution=view.execution,
             spoilt=self._stage.spoilt(now_ns),
             drawing=self._stage.drawing(now_ns, workflow.approach.waypoints),

@@ -28,6 +28,7 @@ _SHEETS = (
     "actions",
     "verdict",
     "history",
+    "skills",
     "pad",
     "devices",
     "stop",

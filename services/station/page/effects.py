@@ -79,7 +79,7 @@ class Effects:
         self._known: OrderedDict[int, bytes] = OrderedDict()
 
     def renew(self, version: int) -> None:
-        """The model has become another one: what is known of the old one is nothing to show."""
+        """The model, or the skill, has become another one: what is known of the old one is nothing to show."""
         with self._lock:
             if version != self._version:
                 self._version = version

@@ -47,11 +47,13 @@ class Rows(msgspec.Struct, frozen=True):
         version: of the model.
         rows: the newest first.
         older: how many there are beyond them.
+        edition: another one whenever the model or the skill has become another one.
     """
 
     version: int
     rows: tuple[Row, ...]
     older: int
+    edition: int = 0
 
     @property
     def newest(self) -> str:
@@ -64,9 +66,9 @@ class Rows(msgspec.Struct, frozen=True):
         return sum(row.in_use for row in self.rows)
 
 
-def rows_of(listed: HistoryListed) -> Rows:
+def rows_of(listed: HistoryListed, edition: int = 0) -> Rows:
     """What the model lists, for people."""
-    return Rows(listed.version, tuple(_row(entry) for entry in listed.entries), listed.older)
+    return Rows(listed.version, tuple(_row(entry) for entry in listed.entries), listed.older, edition)
 
 
 def _row(entry: Entry) -> Row:

@@ -14,6 +14,7 @@ from services.station.page.panels import counters, scene, traffic_light, verdict
 from services.station.page.people import people
 from services.station.page.robots import robots
 from services.station.page.seating import seating
+from services.station.page.skills import skills
 from services.station.page.standing import Standing
 from services.station.page.timeline import timeline
 from services.station.page.values import Values
@@ -39,6 +40,7 @@ def shared(shown: Shown) -> Values:
         **timeline(shown),
         **gripper(shown),
         **history(shown),
+        **skills(shown),
         **devices(shown),
     }
 

@@ -25,6 +25,7 @@ from protocol.messages import (
     Vector3,
     Verdict,
 )
+from protocol.queries import SkillsListed
 from services.bus.picture_stream import Group
 from services.bus.stages import Stages
 from services.process.clock import Clock
@@ -67,6 +68,7 @@ class PageView:
         robot_age_s: age of the robot's state [s]; infinite where there is none.
         prediction: of the model as it is now.
         history: of the model.
+        skills: of the robot.
         execution: of the motion under way; None where there is none.
         spoilt: shares of the motion that is shown at which something was touched or kicked over.
         drawing: what the live view shows.
@@ -95,6 +97,7 @@ class PageView:
     model: ModelState | None = None
     prediction: Prediction | None = None
     history: Rows | None = None
+    skills: SkillsListed | None = None
     object_pose: ObjectPose | None = None
     execution: ExecutionState | None = None
     spoilt: tuple[float, ...] = ()

@@ -42,6 +42,8 @@ class Action(Enum):
     OTHER_PLACE = "other_place"
     REPEAT = "repeat"
     ENOUGH = "enough"
+    SKILL = "skill"
+    NEW_SKILL = "new_skill"
 
 
 CHANGES = frozenset(
@@ -57,6 +59,8 @@ CHANGES = frozenset(
         Action.UNDO,
         Action.TAKE_BACK,
         Action.USE_AGAIN,
+        Action.SKILL,
+        Action.NEW_SKILL,
     }
 )
-"""Of how a motion goes on, of what of it counts and how much, and of what was learnt."""
+"""Of how a motion goes on, of what of it counts and how much, of what was learnt, and into which skill."""

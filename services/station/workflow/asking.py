@@ -22,7 +22,7 @@ from services.station.workflow.view import Ask, Step, View
 
 RETRY_S = 0.5
 
-_OWING = frozenset({Phase.LEARNING, Phase.TURNING})
+_OWING = frozenset({Phase.LEARNING, Phase.TURNING, Phase.CHOOSING})
 
 
 def to(state: Workflow, phase: Phase, view: View, **changes: Any) -> Workflow:

@@ -10,6 +10,7 @@ from services.station.workflow import editing, guiding
 from services.station.workflow.action import Action
 from services.station.workflow.approach import Approach
 from services.station.workflow.asking import to
+from services.station.workflow.choosing import choices, choose
 from services.station.workflow.closure import Closure
 from services.station.workflow.editing import EDITING
 from services.station.workflow.episode import is_seen, look, press
@@ -63,7 +64,7 @@ def _offered(state: Workflow, view: View) -> frozenset[Action]:
     """
     if view.model is None and state.offered:
         return state.offered
-    always = {Action.END} | SETTING | turns(view)
+    always = {Action.END} | SETTING | turns(view) | choices(view)
     offered = always | (guiding.offered(state, view) if state.guide.open else _taught_by(state, view))
     return frozenset(offered - _TOWARDS | {Action.LOOK}) if is_unseen(state) else frozenset(offered)
 
@@ -121,6 +122,8 @@ def _take(state: Workflow, view: View, settings: Settings, chosen: Action) -> St
             return turn(state, view, chosen)
         case Action.PUT | Action.OTHER_PLACE | Action.REPEAT | Action.ENOUGH:
             taken = guiding.take(state, view, chosen)
+        case Action.SKILL | Action.NEW_SKILL:
+            return choose(state, view, chosen)
         case _:
             taken = _end(state, view, say("event.ended_before"))
     return Step(taken)

@@ -34,7 +34,8 @@ def turn(state: Workflow, view: View, chosen: Action) -> Step:
     argument = view.argument(chosen)
     if chosen is not Action.UNDO and not (argument.isascii() and argument.isdecimal()):
         return Step(state)
-    turning = Turning(int(argument) if chosen is not Action.UNDO else 0, _TURNS[chosen])
+    skill = view.model.skill if view.model is not None else ""
+    turning = Turning(int(argument) if chosen is not Action.UNDO else 0, _TURNS[chosen], skill)
     return Step(to(state, Phase.TURNING, view, taught=None, turning=turning))
 
 
@@ -46,7 +47,9 @@ def turning(state: Workflow, view: View, settings: Settings) -> Step:
         state,
         view,
         query,
-        lambda intent: query.request(entry=wanted.entry, operator=settings.operator, request=intent),
+        lambda intent: query.request(
+            entry=wanted.entry, operator=settings.operator, skill=wanted.skill, request=intent
+        ),
     )
     match reply:
         case Step():

@@ -88,6 +88,7 @@ def _request(taught: Taught, state: Workflow, view: View, settings: Settings, in
         alpha=confidence(state, settings),
         part=taught.part,
         method=taught.method,
+        skill=state.prediction.skill if state.prediction is not None else "",
         request=intent,
     )
 

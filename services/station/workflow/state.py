@@ -31,6 +31,7 @@ class Phase(Enum):
     EXECUTING = "executing"
     LEARNING = "learning"
     TURNING = "turning"
+    CHOOSING = "choosing"
     DECIDING = "deciding"
     STOPPED = "stopped"
     RELEASING = "releasing"
@@ -112,10 +113,25 @@ class Turning:
     Attributes:
         entry: by its id; 0 for the newest update.
         in_use: to be used again, or to be taken back.
+        skill: whose history that is.
     """
 
     entry: int = 0
     in_use: bool = False
+    skill: str = ""
+
+
+@dataclass(frozen=True)
+class Choosing:
+    """Which skill the operator wants to use.
+
+    Attributes:
+        name: of the skill.
+        new: it is to be made.
+    """
+
+    name: str = ""
+    new: bool = False
 
 
 @dataclass(frozen=True)
@@ -179,6 +195,7 @@ class Workflow:
         episode: that the robot was told to run and whose result has not come; None where there is none.
         owed: to the model.
         turning: what is or was last done with an entry of the model's history.
+        choosing: the skill that is or was last chosen.
         confidence: how far the model is to believe what it is taught next; None for what the settings say.
         approach: how the operator teaches at this place.
         led: the newest motion was led by hand to store waypoints on its way: it is no attempt, and has no verdict.
@@ -230,6 +247,7 @@ class Workflow:
     episode: Episode | None = None
     owed: Owed | None = None
     turning: Turning = Turning()
+    choosing: Choosing = Choosing()
     confidence: float | None = None
     approach: Approach = field(default_factory=Approach)
     led: bool = False

@@ -13,6 +13,7 @@ from dataclasses import replace
 from services.station.workflow import authority, guiding
 from services.station.workflow.asking import to
 from services.station.workflow.authority import acquiring, waiting
+from services.station.workflow.choosing import choosing
 from services.station.workflow.deciding import deciding, finished
 from services.station.workflow.episode import executing, looking, predicting, resetting, starting
 from services.station.workflow.going import SETTING, set_for_next
@@ -71,6 +72,7 @@ _PHASES: dict[Phase, Callable[[Workflow, View, Settings], Step]] = {
     Phase.EXECUTING: executing,
     Phase.LEARNING: learning,
     Phase.TURNING: turning,
+    Phase.CHOOSING: choosing,
     Phase.DECIDING: deciding,
     Phase.STOPPED: stopped,
     Phase.RELEASING: releasing,

@@ -21,7 +21,7 @@ class Reading:
         self.network = MemoryNetwork(self.clock)
         self.effects = Effects()
         self.reader = HistoryReader(self.network.bus(), self.effects)
-        self.version = 4
+        self.version, self.skill = 4, "cups"
         if there:
             self.start()
 
@@ -31,7 +31,8 @@ class Reading:
 
     def step(self, seconds=0.01):
         self.clock.advance(seconds)
-        state = ModelState(kind="adaptive", version=self.version, demonstrations=1, updates=0, scene="s")
+        held = {"demonstrations": 1, "updates": 0, "scene": "s", "skill": self.skill}
+        state = ModelState(kind="adaptive", version=self.version, **held)
         self.reader.step(self.clock.now_ns(), state)
 
     def settle(self, reply=EFFECT):
@@ -94,3 +95,11 @@ def test_where_the_model_does_not_answer_it_is_asked_again_but_not_at_once():
 def test_without_a_model_nothing_is_asked(reading):
     reading.reader.step(reading.clock.now_ns(), None)
     assert reading.history.take() == []
+
+
+def test_another_skill_of_the_same_version_has_another_history(reading):
+    reading.settle()
+    edition = reading.reader.rows.edition
+    reading.skill = "plates"
+    assert reading.settle() == 1
+    assert reading.reader.rows.edition != edition

@@ -9,7 +9,7 @@ from views import POSE, SEATED, shown, teaching
 from protocol.keys import PUSH_KEYS, TURN_KEYS
 from protocol.messages import MOST_WAYPOINTS, Light, SafetyState
 from services.bus.arrays import motion_to_wire
-from services.station.page import history, methods
+from services.station.page import history, methods, skills
 from services.station.page.controls import BUTTONS, KEYBOARDS, actions, emergency_stop
 from services.station.page.timeline import CONTROLS
 from services.station.workflow.action import Action
@@ -51,7 +51,7 @@ def test_a_release_of_before_the_robot_was_started_says_so():
 
 
 def test_every_action_of_the_workflow_has_a_button():
-    elsewhere = {Action.RELEASE_STOP.value, *CONTROLS, *history.CONTROLS, *methods.CONTROLS}
+    elsewhere = {Action.RELEASE_STOP.value, *CONTROLS, *history.CONTROLS, *methods.CONTROLS, *skills.CONTROLS}
     assert {action.value for action in Action} <= {button.action for button in BUTTONS} | elsewhere
 
 

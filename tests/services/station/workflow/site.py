@@ -108,6 +108,8 @@ class Site:
                 return self.motion_for(ask.request)
             case queries.ADD_DEMONSTRATION | queries.UNDO | queries.REDO:
                 return self.change(ask)
+            case queries.CHOOSE_SKILL:
+                return self.choose(ask.request)
             case queries.EXECUTE | queries.TELEOPERATE:
                 episode = self.view.robot.episode + 1
                 self.robot(phase=EXECUTE, mode=getattr(ask.request, "mode", Mode.TEACH), episode=episode)
@@ -132,6 +134,14 @@ class Site:
         model = msgspec.structs.replace(self.view.model, version=self.version, **changes)
         self.sees(model=model)
         return queries.Learnt(model, entry, messages.Purpose.INITIAL if first else messages.Purpose.UPDATE)
+
+    def choose(self, request):
+        """As the model does what uses another skill: that has learnt nothing where it is new."""
+        self.version, self.learnt = (0, []) if request.new else (7, [7])
+        held = {"skill": request.name, "version": self.version, "updates": len(self.learnt)}
+        model = msgspec.structs.replace(self.view.model, demonstrations=len(self.learnt), **held)
+        self.sees(model=model)
+        return queries.Learnt(model)
 
     def motion_for(self, request):
         """What the model process answers to who wants a motion."""

@@ -19,7 +19,7 @@ from tests.services.station.workflow.site import (
     Site,
 )
 
-HISTORY = {Action.TAKE_BACK, Action.USE_AGAIN}
+HISTORY = {Action.TAKE_BACK, Action.USE_AGAIN, Action.SKILL, Action.NEW_SKILL}
 MOVING = {"cmd/reset", "cmd/execute", "cmd/resume"}
 
 

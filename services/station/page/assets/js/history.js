@@ -44,8 +44,8 @@ export class History {
     this.slider.disabled = !allowed.includes("confidence");
   }
 
-  arrange({ version, rows }) {
-    this.effects.renew(version);
+  arrange({ edition, rows }) {
+    this.effects.renew(edition);
     const before = this.rows;
     this.rows = new Map(rows.map((row) => [row.id, before.get(row.id) ?? newRow(row.id)]));
     rows.forEach((row) => fill(this.rows.get(row.id), row));

@@ -18,6 +18,7 @@ import { Presses } from "/assets/js/presses.js";
 import { Reasons } from "/assets/js/reasons.js";
 import { showRobots } from "/assets/js/robots.js";
 import { RoundTrip } from "/assets/js/round_trip.js";
+import { Skills } from "/assets/js/skills.js";
 import { swapOnPress } from "/assets/js/stages.js";
 import { Tab } from "/assets/js/tab.js";
 import { Timeline } from "/assets/js/timeline.js";
@@ -61,6 +62,7 @@ const timeline = new Timeline(
 );
 const gripper = new Gripper((action, argument) => presses.press(action, argument));
 const history = new History(liveView, (action, argument) => presses.press(action, argument));
+const skills = new Skills((action, argument) => presses.press(action, argument));
 const link = new Link(tab, { onOpen, onNews, onFrame, onSilence });
 presses.link = link;
 const identity = new Identity(tab, link);
@@ -95,6 +97,7 @@ function onNews(news) {
   roundTrip.hear(news.echo);
   liveView.show(news.drawing);
   history.show(news.history.listed);
+  skills.show();
   showInspection();
   showRobots(tab);
   document.body.dataset.link = news.armed ? "armed" : "view-only";
