@@ -14,7 +14,7 @@ from typing import Any
 import cv2
 import msgspec
 import numpy as np
-from lessons import history
+from lessons import history, skills
 
 from lfd.motion.rotations import rotate
 from protocol import messages
@@ -122,7 +122,9 @@ def working_view() -> PageView:
         safety=messages.SafetyState(emergency_stop=False),
         authority=messages.AuthorityState(holder="station", epoch=4, expires_in=0.9),
         authority_is_mine=True,
-        model=messages.ModelState(kind="adaptive", version=7, demonstrations=12, updates=1, scene="dishwasher"),
+        model=messages.ModelState(
+            kind="adaptive", version=7, demonstrations=12, updates=1, scene="dishwasher", skill="dishwasher"
+        ),
         prediction=messages.Prediction(
             motion=motion_to_wire([[0.5, 0.0, 0.4], [0.8, 0.1, 0.5]], [[1.0, 0.0, 0.0, 0.0]] * 2, 10.0),
             deviations=to_wire([[0.01] * 3] * 2),
@@ -130,8 +132,10 @@ def working_view() -> PageView:
             object_position=OBJECT.position,
             known=0.6,
             way=messages.Way(1, 2, 0.8),
+            skill="dishwasher",
         ),
         history=history(),
+        skills=skills(),
         object_pose=messages.ObjectPose(pose=OBJECT, tag=582, error=0.0021, pictures=9),
         drawing=drawing(),
         force=(0.0, 0.0, 2.5),

@@ -3,7 +3,7 @@
 import numpy as np
 
 from protocol.messages import Method, Part, Purpose
-from protocol.queries import Effect, Entry, Field, HistoryListed
+from protocol.queries import Effect, Entry, Field, HistoryListed, SkillEntry, SkillsListed
 from services.bus.arrays import motion_to_wire, to_wire
 from services.station.page.entries import rows_of
 
@@ -13,7 +13,26 @@ PLACE = (0.845, 0.02, 0.553)
 
 def history(version=VERSION, taken_back=(2,)):
     """Four entries, one of them taken back, as a station is told them."""
-    return rows_of(HistoryListed(version, tuple(_entry(number, number not in taken_back) for number in (6, 5, 2, 1))))
+    entries = tuple(_entry(number, number not in taken_back) for number in (6, 5, 2, 1))
+    return rows_of(HistoryListed(version, entries), edition=version)
+
+
+def skills():
+    """Four skills: one in use, one that can be, and two that do not fit."""
+
+    def entry(name, task, robot, misfit="", notes=""):
+        held = {"version": VERSION, "demonstrations": 12, "updates": 1}
+        return SkillEntry(name=name, task=task, robot_kind=robot, misfit=misfit, notes=notes, **held)
+
+    return SkillsListed(
+        "dishwasher",
+        (
+            entry("cups-of-anna", "dishwasher", "tiago", notes="the blue ones, from the left"),
+            entry("dishwasher", "dishwasher", "tiago"),
+            entry("dishwasher-panda", "dishwasher", "panda", misfit="another robot"),
+            entry("torn", "", "", misfit="the file is damaged; restore it from a copy"),
+        ),
+    )
 
 
 def effect(most=0.04):

@@ -55,4 +55,4 @@ def _row(entry: SkillEntry) -> Row:
     learnt = say("skills.learnt", shown=entry.demonstrations, corrected=entry.updates)
     is_elsewhere = entry.misfit and entry.task
     why = say("skills.elsewhere") if is_elsewhere else heard(entry.misfit)
-    return Row(entry.name, f"{place}. {learnt}", why, entry.notes)
+    return Row(entry.name, f"{place}. {learnt}" if entry.task else "", why, entry.notes)

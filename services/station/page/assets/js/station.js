@@ -76,6 +76,7 @@ document.addEventListener("click", clicked);
 swapOnPress();
 new WholeRows(document.querySelector(".entries"), ".entry");
 new WholeRows(document.querySelector(".waypoints"), ".waypoint");
+new WholeRows(document.querySelector(".skills-list"), ".skills-row");
 new Tour();
 
 function onOpen() {
