@@ -65,5 +65,5 @@ def choosing(state: Workflow, view: View, settings: Settings) -> Step:
                 approach=Approach(state.approach.method),
             )
             said = say("event.made_skill" if wanted.new else "event.chose_skill", skill=reply.state.skill)
-            known = guiding.learnt(other, reply, view, settings)
+            known = guiding.told_by(other, reply.state, view, settings)
             return Step(to(known, Phase.DECIDING, view, owed=None, event=said))
