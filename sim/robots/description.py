@@ -129,6 +129,7 @@ def _build(source: Path, robot: Manipulator, base: Base, scratch: Path, target: 
     _drop_friction(root)
     if not base.is_origin:
         _put_on_stand(root, base)
+    _shape_palm(root, robot)
     materials = [material.attrib["name"] for material in root.iter("material") if material.find("color") is not None]
     root.extend(ET.fromstring(f"<gripper>{gripper.gripper_urdf(robot.gripper, materials)}</gripper>"))
     inertia.give_where_needed(root)
@@ -161,6 +162,14 @@ def _narrow_limits(root: ET.Element, robot: Manipulator) -> None:
         for key, value in (("lower", said.lower), ("upper", said.upper), ("velocity", said.speed)):
             if value is not None:
                 limit.attrib[key] = repr(value)
+
+
+def _shape_palm(root: ET.Element, robot: Manipulator) -> None:
+    if robot.gripper.palm:
+        (link,) = (one for one in root.iterfind("link") if one.attrib["name"] == robot.gripper.mount.link)
+        for shape in link.findall("collision"):
+            link.remove(shape)
+        link.extend(gripper.palm_urdf(robot.gripper))
 
 
 def _drop_friction(root: ET.Element) -> None:

@@ -5,11 +5,14 @@ which is where the wrist camera sits.
 """
 
 import math
+import xml.etree.ElementTree as ET
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+
+from sim.rotations import rotated, turned
 
 Vector = tuple[float, float, float]
 
@@ -102,6 +105,8 @@ class Gripper:
         fingers: That open and close it together; it is rigid, wide open, where there are none.
         speed: Of the opening, as it changes where nothing is in the way [m/s].
         jaw: Link that does not move and that a finger closes upon; empty where fingers close upon one another.
+        palm: Boxes that stand for the shapes of the mount's link where something is touched: a convex hull of a palm
+            with a jaw would fill the mouth.
         camera: Of the wrist camera, in its frame [m].
         made: It is made of the blocks; else the description has it, and they only tell how large it is.
     """
@@ -115,6 +120,7 @@ class Gripper:
     fingers: tuple[Finger, ...] = ()
     speed: float = 0.1
     jaw: str = ""
+    palm: tuple[Block, ...] = ()
 
     @property
     def finger_names(self) -> tuple[str, ...]:
@@ -205,6 +211,25 @@ def _finger_urdf(link: str, block: Block, way: float) -> str:
         f'<origin xyz="{x} {y - outwards * way} {z}"/><axis xyz="0 {outwards} 0"/>'
         f'<limit lower="0" upper="{way}" velocity="1" effort="0"/></joint>'
     )
+
+
+def palm_urdf(gripper: Gripper) -> list[ET.Element]:
+    """Return the palm's boxes as collision elements of the mount's link."""
+    orientation = np.array([1.0, 0.0, 0.0, 0.0])
+    for axis, angle in zip(np.eye(3), gripper.mount.rpy, strict=True):
+        orientation = rotated(orientation, angle * axis)
+    shapes = []
+    for block in gripper.palm:
+        centre = np.array(gripper.mount.position) + turned(orientation, np.array(block.centre))
+        shape = ET.Element("collision")
+        ET.SubElement(shape, "origin", {"xyz": _words(centre.tolist()), "rpy": _words(gripper.mount.rpy)})
+        ET.SubElement(ET.SubElement(shape, "geometry"), "box", {"size": _words(block.size)})
+        shapes.append(shape)
+    return shapes
+
+
+def _words(values: Iterable[float]) -> str:
+    return " ".join(map(repr, values))
 
 
 def frame_urdf(name: str, mount: Mount) -> str:

@@ -31,6 +31,10 @@ _JAWS = Gripper(
     # The jaw turns: between its tip and the other one's it is open in proportion to the angle, within 3 mm.
     fingers=(Finger("gripper", -0.17, 0.8, effort=1.5, armature=0.005),),
     jaw="gripper_link",
+    palm=(
+        Block("palm", (0.017, -0.0055 + _MIDDLE, 0.0), (0.038, 0.065, 0.052)),
+        Block("jaw", (0.066, 0.015 + _MIDDLE, 0.0), (0.076, 0.023, 0.018)),
+    ),
 )
 
 ROBOT = Manipulator(

@@ -29,6 +29,7 @@ class Hand:
     kinematics: Kinematics
     q: np.ndarray
     opening: float
+    place: np.ndarray
 
     @property
     def thing(self) -> np.ndarray:
@@ -44,7 +45,7 @@ class Hand:
 
     def go(self, offset: tuple[float, float, float], seconds: float) -> None:
         """To a place, from where the thing was first, smoothly."""
-        goal = self.kinematics.solve(PLACE + offset, POINTING, [self.q], np.random.default_rng(0))
+        goal = self.kinematics.solve(self.place + offset, POINTING, [self.q], np.random.default_rng(0))
         start, n = self.q, round(seconds / CONTROL_PERIOD)
         shares = np.linspace(0.0, 1.0, n + 1)
         way = start + (shares**3 * (10.0 - 15.0 * shares + 6.0 * shares**2))[:, None] * (goal - start)
@@ -53,16 +54,16 @@ class Hand:
         self.q = goal
 
 
-def hand_of(name: str, beside: float = 0.0) -> Hand:
+def hand_of(name: str, beside: float = 0.0, where: np.ndarray = PLACE, start: tuple = (0.0, 0.0, 0.01)) -> Hand:
     place = scene("table", robot(name))
     assert isinstance(place, ReachingScene)
     description = described(place)
     world = World(place, "clear", description)
     kinematics = Kinematics(description.urdf, place.posture, place.manipulator)
-    around = PLACE + np.array([0.0, beside, 0.01])
+    around = where + start + np.array([0.0, beside, 0.0])
     q = kinematics.solve(around, POINTING, [place.posture], np.random.default_rng(0))
-    world.reset(PLACE, q=q)
-    return Hand(world, kinematics, q, place.manipulator.gripper.opening)
+    world.reset(where, q=q)
+    return Hand(world, kinematics, q, place.manipulator.gripper.opening, where)
 
 
 @EACH
@@ -80,6 +81,21 @@ def test_a_thing_is_lifted_and_carried_for_twenty_seconds(name: str) -> None:
     assert seen.opening == pytest.approx(0.05, abs=2e-3)
     assert seen.object_position[2] > PLACE[2] + 0.15
     np.testing.assert_allclose(hand.thing, held, atol=3e-3)
+
+
+def test_a_jaw_that_turns_lifts_a_thing_though_it_creeps_towards_the_tip() -> None:
+    near = np.array([0.64, 0.06, 0.71])
+    hand = hand_of("so101", where=near, start=(-0.10, 0.0, 0.05))
+    hand.go((0.0, 0.0, 0.01), 2.0)
+    hand.opening = 0.0
+    hand.wait(1.5)
+    held = hand.thing
+    hand.go((0.0, 0.0, 0.06), 2.0)
+    hand.wait(5.0)
+    seen = hand.world.observe()
+    assert seen.grasped
+    assert seen.object_position[2] > near[2] + 0.04
+    np.testing.assert_allclose(hand.thing, held, atol=0.01)
 
 
 def test_what_is_let_go_falls() -> None:
