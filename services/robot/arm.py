@@ -288,13 +288,13 @@ class Arm:
         self._q = self.observation.q
         self._fault = ""
         self._self_distance = self._kinematics.self_distance(self._q)
-        self._judge = self._criteria.begin(self.observation)
+        self._judge, self._began = self._criteria.begin(self.observation), self.observation.time
         self._observe()
         self._reference = self.measured
 
     def _observe(self) -> None:
-        self.observation = self.drive.observe()
-        seen = self.observation
+        self.observation = seen = self.drive.observe()
         self.fingers.measured = seen.opening
         self.measured = self._kinematics.forward(seen.q)
-        self._verdict: Verdict = self._judge.judge(self.measured, seen.object_pose, seen.touch)
+        told, time = (self.measured, seen.object_pose, seen.touch), seen.time - self._began
+        self._verdict: Verdict = self._judge.judge(*told, grasped=seen.grasped, time=time)

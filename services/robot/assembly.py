@@ -118,7 +118,7 @@ def hardware_arm(scene: AnyScene, section: RobotSection, kinematics: Mechanism, 
 
 
 def _criteria(scene: ReachingScene) -> Criteria:
-    return ReachingCriteria(scene.reached_radii, scene.kicked_thresholds, scene.tipping_angle)
+    return ReachingCriteria(scene.reached_radii, scene.kicked_thresholds, scene.tipping_angle, scene.success)
 
 
 def _stage(scene: AnyScene, variant: str, description: RobotDescription) -> tuple[Backend, Criteria]:

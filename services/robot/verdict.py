@@ -1,6 +1,7 @@
 """The success criteria, and those of Appendix E: object reached, not kicked over, no collision."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 from lfd.motion.rotations import conjugate, rotate
 from services.robot.backends.backend import Observation, Touch
 from sim.pose import Pose
+from sim.tasks.success import Success
 
 Array = NDArray[np.float64]
 
@@ -30,6 +32,7 @@ class Verdict:
         tilt: of the object's upright axis from the vertical [rad].
         missed: distance from the grasping frame to the object's centre, or the greatest one at a via-point; negative
             where nobody has seen the object [m].
+        unmet: what else the task asks for and is not so: "not grasped", "not lifted", "not placed", "too late".
     """
 
     reached: bool
@@ -39,23 +42,34 @@ class Verdict:
     displacement: Array
     tilt: float = 0.0
     missed: float = 0.0
+    unmet: tuple[str, ...] = ()
 
     @property
     def success(self) -> bool:
-        """All three criteria are met."""
+        """All criteria are met; what else a task asks for is a part of reaching its target."""
         return self.reached and not self.kicked_over and self.collision is None
 
 
 class Judge(Protocol):
     """Judges an episode period by period; a collision stays until the next one begins."""
 
-    def judge(self, grasping: Pose, object_pose: Pose | None, touch: Touch | None) -> Verdict:
+    def judge(
+        self,
+        grasping: Pose,
+        object_pose: Pose | None,
+        touch: Touch | None,
+        *,
+        grasped: bool = False,
+        time: float = 0.0,
+    ) -> Verdict:
         """The verdict now.
 
         Args:
             grasping: pose of the grasping frame.
             object_pose: of the object's centre, its z axis upright; None where nobody has seen it yet.
             touch: of robot and environment in this period.
+            grasped: the gripper holds the object.
+            time: since the episode's beginning [s].
         """
         ...
 
@@ -76,11 +90,13 @@ class ReachingCriteria:
         radii: of the ellipsoid fixed to the grasping frame, along its axes, shape (3,) [m].
         thresholds: displacement along each base axis beyond which the object counts as kicked over, shape (3,) [m].
         tipping_angle: tilt beyond which it does too, wherever its centre is: it does not stand up again [rad].
+        goals: what else has to be so: of a task in which the gripper takes part, and of time.
     """
 
     radii: Array
     thresholds: Array
     tipping_angle: float
+    goals: Success | None = None
 
     def begin(self, seen: Observation) -> "ReachingJudge":
         """See `Criteria.begin`."""
@@ -98,9 +114,18 @@ class ReachingJudge:
     def __init__(self, criteria: ReachingCriteria, object_position: Array | None) -> None:
         self._criteria = criteria
         self._initial = object_position
+        self._held = False
         self._collision: Touch | None = None
 
-    def judge(self, grasping: Pose, object_pose: Pose | None, touch: Touch | None) -> Verdict:
+    def judge(
+        self,
+        grasping: Pose,
+        object_pose: Pose | None,
+        touch: Touch | None,
+        *,
+        grasped: bool = False,
+        time: float = 0.0,
+    ) -> Verdict:
         """See `Judge.judge`."""
         self._collision = self._collision or touch
         if object_pose is None:
@@ -116,15 +141,35 @@ class ReachingJudge:
         criteria = self._criteria
         value = ellipsoid_value(grasping, object_pose.position, criteria.radii)
         displacement, tilt = object_pose.position - initial, tilt_of(object_pose.orientation)
+        goals = criteria.goals
+        self._held = self._held or (grasped and goals is not None and goals.gripper)
+        # What was held is where it was carried to; it may still have fallen.
+        moved = not self._held and bool(np.any(np.abs(displacement) > criteria.thresholds))
+        up = float(displacement[2])
+        unmet = () if goals is None else tuple(self._unmet(goals, object_pose.position, up, grasped, time))
+        put_down = goals is not None and goals.placed is not None
         return Verdict(
-            reached=value <= 1.0,
-            kicked_over=bool(np.any(np.abs(displacement) > criteria.thresholds)) or tilt > criteria.tipping_angle,
+            reached=not unmet and (value <= 1.0 or put_down),
+            kicked_over=moved or tilt > criteria.tipping_angle,
             collision=self._collision,
             ellipsoid_value=value,
             displacement=displacement,
             tilt=tilt,
             missed=float(np.linalg.norm(object_pose.position - grasping.position)),
+            unmet=unmet,
         )
+
+    def _unmet(self, goals: Success, position: Array, up: float, grasped: bool, time: float) -> Iterator[str]:
+        """What the task asks for beside reaching its object, and is not so now."""
+        if goals.grasped and not grasped:
+            yield "not grasped"
+        if goals.placed is not None:
+            if grasped or not self._held or not goals.placed.contains(position):
+                yield "not placed"
+        elif goals.lifted is not None and not (grasped and up >= goals.lifted):
+            yield "not lifted"
+        if goals.time is not None and time > goals.time:
+            yield "too late"
 
 
 def tilt_of(orientation: Array) -> float:

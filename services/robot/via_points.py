@@ -48,9 +48,17 @@ class ViaPointJudge:
         self._before: Array | None = None
         self._collision: Touch | None = None
 
-    def judge(self, grasping: Pose, object_pose: Pose | None, touch: Touch | None) -> Verdict:
+    def judge(
+        self,
+        grasping: Pose,
+        object_pose: Pose | None,
+        touch: Touch | None,
+        *,
+        grasped: bool = False,
+        time: float = 0.0,
+    ) -> Verdict:
         """See `Judge.judge`; a via-point that lies ahead counts as missed by as much as it would be now."""
-        del object_pose
+        del object_pose, grasped, time
         self._collision = self._collision or touch
         self._follow(grasping.position)
         ahead = np.isnan(self._passed_at)

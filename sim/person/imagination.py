@@ -26,6 +26,13 @@ def departure(way: Corridor, positions: Array) -> float:
     return float(np.sqrt(np.mean(np.sum(apart**2, axis=1))))
 
 
+def _aims(way: Corridor, shares: Array) -> tuple[float, ...]:
+    """The shares of a way, before its end, at which the hand stands while the gripper moves."""
+    if way.openings is None:
+        return ()
+    return tuple(shares[1:][np.diff(way.openings) != 0.0].tolist())
+
+
 def chosen(ways: Sequence[Corridor], positions: Array, rng: np.random.Generator) -> Corridor:
     """Choose the way that changes the motion least; where two change it alike, chance decides.
 
@@ -63,7 +70,8 @@ def imagined(
     even = np.linspace(0.0, 1.0, len(way.positions))
     shares = covered_shares(way.positions) if freedom.tempo else even
     numbers = numbers_at(motion, shares) if freedom.tempo else (len(motion) - 1) * shares
-    deviates = freedom.axes * deviation(shares, scatter, rng, freedom.targets)
+    aims = (*freedom.targets, *_aims(way, shares))
+    deviates = freedom.axes * deviation(shares, scatter, rng, aims)
     away = way.positions - through(motion, numbers)
     far = np.linalg.norm(away, axis=1, keepdims=True)
     along = away / np.maximum(far, 1e-9)

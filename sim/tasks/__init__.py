@@ -16,7 +16,7 @@ AnyScene = ReachingScene | ParticleScene
 """What scenes differ in is told apart by their kind."""
 
 _THESIS = ("dishwasher", "table", "post")
-"""Those that the thesis' analyses are made in; the first is the default."""
+"""The first is the default."""
 
 _FILES = {path.stem: path for path in sorted(Path(__file__).parent.glob(f"*{SUFFIX}"))}
 
@@ -25,7 +25,10 @@ REACHING: dict[str, ReachingScene] = {
 }
 """Those in which an arm reaches for an object, by name."""
 
-DISHWASHER, TABLE, POST = (REACHING[name] for name in _THESIS)
+THESIS: dict[str, ReachingScene] = {name: REACHING[name] for name in _THESIS}
+"""Those that the thesis' analyses are made in: their ways are drawn."""
+
+DISHWASHER, TABLE, POST = THESIS.values()
 
 SCENES: dict[str, AnyScene] = {**REACHING, PARTICLE.name: PARTICLE}
 

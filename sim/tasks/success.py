@@ -17,7 +17,7 @@ class Success:
             (thesis, Appendix E) [m]; of an object that is to be lifted or placed only while no finger holds it.
         tilt: Of the object beyond which it does too [rad]; as far as it can be tilted and fall back where it is None.
         may_touch: Boxes and meshes that the robot may touch, by name.
-        force: Of a touch, beyond which it counts as a collision all the same [N]; no limit where it is None.
+        force: Of a touch of these, beyond which it counts as a collision all the same [N]; no limit where it is None.
         time: Within which it has to be done [s]; no limit where it is None.
         grasped: The gripper holds the object at the end.
         lifted: By at least so much, from where it stood [m]; None where it need not be.
@@ -33,6 +33,10 @@ class Success:
     grasped: bool = False
     lifted: float | None = None
     placed: Region | None = None
+
+    def allows(self, thing: str, force: float) -> bool:
+        """Say whether the robot may touch a thing so hard [N]."""
+        return thing in self.may_touch and (self.force is None or force <= self.force)
 
     @property
     def gripper(self) -> bool:

@@ -23,6 +23,7 @@ class Simulation:
         self._gate = Gate(self.joint_names, lambda: world.observe().q)
         self._periods = 0
         self._opening = world.scene.manipulator.gripper.opening
+        self._allowed = world.scene.success
         self._stand()
 
     @property
@@ -80,6 +81,7 @@ class Simulation:
             raise Blocked(*touch.between)
         self._gate.hold()
         self._opening = world.scene.manipulator.gripper.opening
+        self._allowed = world.scene.success
         self._stand()
 
     def command(self, q: Array, qd: Array, opening: float) -> None:
@@ -97,7 +99,8 @@ class Simulation:
     def observe(self) -> Observation:
         """Sensors and truth, which are one in simulation."""
         seen = self._world.observe()
-        strongest = max(seen.contacts, key=lambda contact: contact.force, default=None)
+        counts = (one for one in seen.contacts if not self._allowed.allows(one.environment_geom, one.force))
+        strongest = max(counts, key=lambda contact: contact.force, default=None)
         touch = None
         if strongest is not None:
             between = (strongest.robot_geom, strongest.environment_geom)

@@ -13,7 +13,7 @@ from services.robot.correction import UNCORRECTED, Correction
 from services.robot.starts import StartImpossible
 from sim.pose import Pose
 from sim.robots.description import prepare
-from sim.tasks import REACHING, scene
+from sim.tasks import THESIS, scene
 
 pytestmark = pytest.mark.sim
 
@@ -113,7 +113,7 @@ def test_the_same_rollout_twice_is_the_same(arm):
     np.testing.assert_array_equal(first.measured.positions, second.measured.positions)
 
 
-@pytest.mark.parametrize("reaching", REACHING.values(), ids=REACHING)
+@pytest.mark.parametrize("reaching", THESIS.values(), ids=THESIS)
 def test_an_object_that_topples_is_kicked_over_though_its_centre_moved_less_than_is_allowed(
     reaching,
 ):

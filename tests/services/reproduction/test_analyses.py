@@ -26,7 +26,8 @@ from services.reproduction.models import BY_NAME, DEFAULT, THESIS
 from services.reproduction.operator import Operator
 from services.reproduction.scripted import demonstrate, object_grid, reaches
 from services.reproduction.teaching import Question, answered
-from sim.tasks import REACHING, TABLE
+from sim.tasks import TABLE
+from sim.tasks import THESIS as SCENES
 from sim.tasks.particle import PARTICLE
 
 seeds = st.integers(0, 10_000)
@@ -92,7 +93,7 @@ def test_table_d1_comes_out():
     np.testing.assert_array_equal(accumulated(EXAMPLE_X, EXAMPLE_Y), TABLE_D1)
 
 
-@pytest.mark.parametrize("scene", REACHING.values(), ids=REACHING)
+@pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 def test_a_scripted_motion_goes_from_its_start_to_the_object(scene):
     rng = np.random.default_rng(1)
     for position in object_grid(scene, 2):

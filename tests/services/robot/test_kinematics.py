@@ -4,11 +4,11 @@ import pytest
 from services.robot.kinematics import Kinematics
 from services.robot.mechanism import Unreachable
 from sim.robots.description import RobotDescription, prepare
-from sim.tasks import REACHING, scene
+from sim.tasks import THESIS, scene
 from sim.tasks.reaching import ReachingScene
 
 pytestmark = pytest.mark.sim
-SCENE = pytest.mark.parametrize("place", REACHING.values(), ids=REACHING)
+SCENE = pytest.mark.parametrize("place", THESIS.values(), ids=THESIS)
 DT = 0.01  # [s]
 
 

@@ -7,10 +7,10 @@ from services.robot.kinematics import Kinematics
 from services.robot.starts import StartImpossible, Starts
 from sim.pose import Pose
 from sim.robots.description import prepare
-from sim.tasks import REACHING
+from sim.tasks import THESIS
 
 pytestmark = pytest.mark.sim
-SCENE = pytest.mark.parametrize("place", REACHING.values(), ids=REACHING)
+SCENE = pytest.mark.parametrize("place", THESIS.values(), ids=THESIS)
 
 
 def starts(place, self_distance=0.005):
@@ -39,7 +39,7 @@ def test_a_start_has_the_same_joint_positions_whatever_was_asked_before(place):
 
 
 def test_what_is_out_of_reach_or_too_close_to_the_robot_is_refused_with_its_place():
-    place = REACHING["table"]
+    place = THESIS["table"]
     with pytest.raises(StartImpossible, match=r"at \(2\.600, -0\.330, 0\.740\) m: the robot does not reach") as refused:
         starts(place).joints(Pose(place.start.position + np.array([2.0, 0.0, 0.0]), place.start.orientation))
     np.testing.assert_allclose(refused.value.position, [2.6, -0.33, 0.74])

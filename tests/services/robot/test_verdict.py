@@ -7,6 +7,8 @@ from lfd.motion.rotations import exp_map, multiply, rotate
 from services.robot.backends.backend import Touch
 from services.robot.verdict import ReachingCriteria, ReachingJudge, ellipsoid_value, tilt_of
 from sim.pose import Pose
+from sim.region import Region
+from sim.tasks.success import Success
 
 RADII = np.array([0.05, 0.065, 0.05])
 CRITERIA = ReachingCriteria(RADII, np.array([0.15, 0.1, 0.05]), tipping_angle=0.4)
@@ -88,3 +90,49 @@ def test_what_nobody_has_seen_is_not_reached_and_is_judged_from_where_it_is_seen
     assert seen.success
     np.testing.assert_array_equal(seen.displacement, 0.0)
     assert judge.judge(UPRIGHT, standing(place + np.array([0.2, 0.0, 0.0])), None).kicked_over
+
+
+HELD = ReachingCriteria(RADII, np.full(3, 0.1), 0.4, Success((0.05,) * 3, (0.1,) * 3, grasped=True, lifted=0.05))
+REGION = Region((0.2, -0.1, -0.01), (0.4, 0.1, 0.03))
+PUT = ReachingCriteria(RADII, np.full(3, 0.1), 0.4, Success((0.05,) * 3, (0.1,) * 3, placed=REGION))
+
+
+def at(*position):
+    return Pose(np.array(position), UPRIGHT.orientation)
+
+
+def test_an_object_is_lifted_when_it_is_held_so_far_above_where_it_stood():
+    judge = ReachingJudge(HELD, np.zeros(3))
+    assert judge.judge(at(0.0, 0.0, 0.0), at(0.0, 0.0, 0.0), None).unmet == ("not grasped", "not lifted")
+    assert judge.judge(at(0.0, 0.0, 0.0), at(0.0, 0.0, 0.0), None, grasped=True).unmet == ("not lifted",)
+    lifted = judge.judge(at(0.0, 0.0, 0.12), at(0.0, 0.0, 0.12), None, grasped=True)
+    assert lifted.success
+    assert not lifted.kicked_over, "further than one that is not held may move"
+    dropped = judge.judge(at(0.0, 0.0, 0.12), at(0.0, 0.0, 0.0), None)
+    assert (dropped.success, dropped.unmet) == (False, ("not grasped", "not lifted"))
+
+
+def test_what_was_never_held_is_kicked_over_by_being_moved():
+    assert ReachingJudge(HELD, np.zeros(3)).judge(at(0.0, 0.0, 0.0), at(0.11, 0.0, 0.0), None).kicked_over
+
+
+def test_an_object_is_placed_when_it_was_carried_there_and_let_go_of_wherever_the_hand_is_then():
+    judge = ReachingJudge(PUT, np.zeros(3))
+    assert judge.judge(at(0.3, 0.0, 0.0), at(0.3, 0.0, 0.0), None).unmet == ("not placed",), "nobody carried it"
+    assert judge.judge(at(0.3, 0.0, 0.0), at(0.3, 0.0, 0.0), None, grasped=True).unmet == ("not placed",)
+    assert judge.judge(at(0.0, 0.0, 0.4), at(0.3, 0.0, 0.0), None).success
+    assert not judge.judge(at(0.0, 0.0, 0.4), at(0.5, 0.0, 0.0), None).success
+
+
+def test_what_takes_longer_than_it_may_is_no_success():
+    criteria = ReachingCriteria(RADII, np.full(3, 0.1), 0.4, Success((0.05,) * 3, (0.1,) * 3, time=8.0))
+    judge = ReachingJudge(criteria, np.zeros(3))
+    assert judge.judge(UPRIGHT, UPRIGHT, None, time=8.0).success
+    assert judge.judge(UPRIGHT, UPRIGHT, None, time=8.1).unmet == ("too late",)
+
+
+def test_some_things_may_be_touched_but_not_too_hard():
+    success = Success((0.05,) * 3, (0.1,) * 3, may_touch=("rack",), force=20.0)
+    assert success.allows("rack", 20.0)
+    assert not success.allows("rack", 21.0)
+    assert not success.allows("table", 1.0)

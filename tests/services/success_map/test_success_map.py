@@ -27,9 +27,10 @@ from services.success_map.conditions import (
 )
 from services.success_map.figure import figure
 from services.success_map.work import Tried, conditions
-from sim.tasks import DISHWASHER, PARTICLE, SCENES, TABLE
+from sim.tasks import DISHWASHER, PARTICLE, TABLE, THESIS
 from tests.services.success_map.swift import shown_swiftly, swift
 
+SCENES = {**THESIS, PARTICLE.name: PARTICLE}
 SCENE = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 HOME = tuple(DISHWASHER.training_positions[0].tolist())
 

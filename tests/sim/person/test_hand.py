@@ -8,7 +8,7 @@ from sim.person.intention import plan
 from sim.person.stylus import Stylus, StylusState
 from sim.pose import Pose
 from sim.rotations import rotated, rotation_to
-from sim.tasks import DISHWASHER, REACHING
+from sim.tasks import DISHWASHER, THESIS
 
 FEEDBACK = 50.0  # [N/m] of equation (14)
 FEEDBACK_DAMPING = 2.0  # [N s/m]
@@ -21,7 +21,7 @@ OBJECT = {
 
 
 def ways(name):
-    scene = REACHING[name]
+    scene = THESIS[name]
     return [scene.corridor(variant, OBJECT[name]) for variant in scene.variants]
 
 
@@ -123,7 +123,7 @@ def test_the_hand_is_an_impedance_and_nothing_when_off():
     assert hand.rotation is None
 
 
-@pytest.mark.parametrize("name", REACHING)
+@pytest.mark.parametrize("name", THESIS)
 def test_the_way_that_is_safe_is_left_alone(name):
     _, safe = ways(name)
     correction = plan(*predicted(safe), safe, ways(name))
@@ -131,7 +131,7 @@ def test_the_way_that_is_safe_is_left_alone(name):
     assert np.max(np.abs(correction.rotations)) < 1e-3
 
 
-@pytest.mark.parametrize("name", REACHING)
+@pytest.mark.parametrize("name", THESIS)
 def test_a_recognised_way_is_moved_way_point_by_way_point(name):
     learnt, safe = ways(name)
     positions, orientations = predicted(learnt)
@@ -164,7 +164,7 @@ def test_exaggeration_multiplies_the_correction():
 
 
 @pytest.mark.sim
-@pytest.mark.parametrize("name", REACHING)
+@pytest.mark.parametrize("name", THESIS)
 def test_the_robot_ends_up_on_the_safe_way_and_at_the_object(name):
     """A prediction that goes wrong by more than 0.1 m, and ends 0.03 m beside the object and rolled, is put right."""
     learnt, safe = ways(name)

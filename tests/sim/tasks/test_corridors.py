@@ -9,13 +9,13 @@ from services.robot.kinematics import Kinematics
 from services.robot.starts import Starts
 from sim.pose import Pose
 from sim.robots.description import RobotDescription
-from sim.tasks import REACHING
+from sim.tasks import THESIS
 from sim.tasks.reaching import ReachingScene
 from sim.tasks.scene import Corridor
 from sim.world.physics import CONTROL_PERIOD, World
 
 pytestmark = pytest.mark.sim
-SCENE = pytest.mark.parametrize("place", REACHING.values(), ids=REACHING)
+SCENE = pytest.mark.parametrize("place", THESIS.values(), ids=THESIS)
 
 DURATION = 5.0  # [s]
 MARGIN = 0.03  # [m]
@@ -72,7 +72,7 @@ def _objects(place: ReachingScene) -> list[np.ndarray]:
     return [lower, upper, (lower + upper) / 2, place.region.sample(np.random.default_rng(3))]
 
 
-@pytest.fixture(scope="module", params=REACHING.values(), ids=REACHING)
+@pytest.fixture(scope="module", params=THESIS.values(), ids=THESIS)
 def stage(request: pytest.FixtureRequest, description: RobotDescription) -> tuple[World, Kinematics]:
     place: ReachingScene = request.param
     return World(place, place.variants[0], description), Kinematics(description.urdf, place.posture)

@@ -4,12 +4,12 @@ import pytest
 from sim.exceptions import UnknownScene, UnknownVariant, WrongPlace
 from sim.pose import Pose
 from sim.robots.gripper import pitched_down
-from sim.tasks import REACHING, SCENES, scene
+from sim.tasks import REACHING, SCENES, THESIS, scene
 from sim.tasks.reaching import ReachingScene
 from sim.tasks.scene import Scene
 
 SCENE = pytest.mark.parametrize("place", SCENES.values(), ids=SCENES)
-REACHING_SCENE = pytest.mark.parametrize("place", REACHING.values(), ids=REACHING)
+REACHING_SCENE = pytest.mark.parametrize("place", THESIS.values(), ids=THESIS)
 
 
 def corners(place: ReachingScene) -> list[np.ndarray]:

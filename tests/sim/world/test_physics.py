@@ -8,13 +8,13 @@ from scipy.spatial.transform import Rotation
 from sim.exceptions import UnknownVariant
 from sim.robots.catalogue import DEFAULT
 from sim.robots.description import RobotDescription
-from sim.tasks import REACHING, scene
+from sim.tasks import THESIS, scene
 from sim.tasks.reaching import ReachingScene
 from sim.world.contacts import Contact, collisions
 from sim.world.physics import CONTROL_PERIOD, World
 
 pytestmark = pytest.mark.sim
-SCENE = pytest.mark.parametrize("place", REACHING.values(), ids=REACHING)
+SCENE = pytest.mark.parametrize("place", THESIS.values(), ids=THESIS)
 REST = np.zeros(len(DEFAULT.joint_names))
 OPEN = DEFAULT.gripper.opening
 
