@@ -115,9 +115,9 @@ class MasterState(Message, frozen=True, kw_only=True):
             `lfd.passivity`; negative where the device renders none, and then no contact limits the correction.
         capture: from when the page read what was held there to the first sample that follows it, of the newest change
             [s]; negative where that is not known.
-        opening: that the operator asks of the gripper, as a share of wide open; None leaves it to the motion. Once
-            asked it stays so through whatever is lost meanwhile, focus, tab or link, as an object must not be dropped
-            for that; only a new episode begins with None.
+        opening: that the operator asks of the gripper, as a share of wide open; None leaves it as it is, and to the
+            motion. Once asked it stays so through whatever is lost meanwhile, focus, tab or link, as an object must
+            not be dropped for that, and counts until the motion itself comes to it; a new episode begins with None.
     """
 
     displacement: Vector3 = (0.0, 0.0, 0.0)

@@ -151,18 +151,16 @@ class MasterService:
         self._device.close()
 
     def _hear_opening(self, sample: Sample | None, moment: Moment) -> None:
-        """What was asked of the gripper stays so until the episode ends, whatever is lost: it may hold something."""
+        """What was asked of the gripper stays so as long as whoever asked is not heard: it may hold something."""
         robot = moment.robot
         if robot is None:
             return
         before, self._episode = self._episode, (robot.publisher, robot.episode)
         if before != self._episode or not robot.phase.running:
             self._opening = None
-        if robot.phase.running and moment.commands:
+        if robot.phase.running and moment.commands and moment.operator is not None:
             by_hand = sample.opening if sample is not None else None
-            by_page = moment.operator.opening if moment.operator is not None else None
-            asked = by_hand if by_hand is not None else by_page
-            self._opening = self._opening if asked is None else asked
+            self._opening = by_hand if by_hand is not None else moment.operator.opening
 
     def _state(self, sample: Sample, sitting: Sitting, now_ns: int) -> MasterState:
         operator = sitting.operator if sitting.commands else None

@@ -25,6 +25,7 @@ does not leave the ball that the master's reach spans, far from where rotation v
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +35,7 @@ from lfd.motion.rotations import conjugate, log_map, multiply, slerp
 from lfd.motion.trajectory import Trajectory
 from services.robot.correction import UNCORRECTED, Correction
 from services.robot.easing import Easing, eased
+from services.robot.grasp import Grasp
 from services.robot.pace import Pace
 from services.robot.passage import Passage
 from services.robot.path import Path
@@ -82,6 +84,7 @@ class Execution:
         self.correction: Correction = UNCORRECTED
         self.pace = Pace(period)
         self._easing = Easing(period)
+        self._grasp = Grasp()
         self._ramp = Ramp(measured, self.nominal, period)
 
     @property
@@ -125,8 +128,8 @@ class Execution:
         """How far the gripper should be open now [m]; None on the ramp, and where nobody says: it stays as it is."""
         if self.ramping:
             return None
-        asked = self.correction.opening
-        return self._path.opening(self._at) if asked is None else asked
+        kept = self.correction.opening
+        return self._path.opening(self._at) if kept is None else kept
 
     @property
     def reference(self) -> Pose:
@@ -172,17 +175,21 @@ class Execution:
     def _go_on(self, step: float, wanted: Correction, following: float) -> None:
         """By a step, in which the correction follows for another one [control periods]."""
         first, last = self.part
-        asked = wanted if first <= self.progress <= last else UNCORRECTED
+        counts = first <= self.progress <= last
+        asked = wanted if counts else UNCORRECTED
         gain = -math.expm1(-following * self._period / self.look_ahead) if self.look_ahead > 0.0 else 1.0
+        before = self._path.opening(self._at)
         self._at += step
         if self._path.is_over(self._at):
             self._at = float(self._path.end)
-        self.correction = self.correction.towards(asked, gain)
+        own = before, self._path.opening(self._at)
+        grasp = self._grasp.asked(wanted.opening, self.correction.opening, own, counts=counts)
+        self.correction = replace(self.correction.towards(asked, gain), opening=grasp)
         self._passage.go_on(self._at, self.correction)
 
     def is_input(self, wanted: Correction) -> bool:
         """What is wanted is more than a device's noise, or something of the gripper."""
-        if wanted.opening is not None:
+        if wanted.opening is not None and self.corrects:
             return True
         displaced = float(np.linalg.norm(wanted.offset)) > INPUT_THRESHOLD
         return displaced or float(np.linalg.norm(wanted.turn)) > TURN_THRESHOLD

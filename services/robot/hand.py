@@ -54,10 +54,10 @@ class Hand:
         if holding:
             # What the hand did meanwhile is not caught up with at once.
             self.let_go()
-        if holding or not course.corrects:
-            return course.correction
-        asked = Correction(self.gain * np.array(master.displacement), np.array(master.rotation))
         opening = None if master.opening is None else master.opening * self._arm.fingers.wide_open
+        if holding or not course.corrects:
+            return replace(course.correction, opening=opening)
+        asked = Correction(self.gain * np.array(master.displacement), np.array(master.rotation))
         if leads:
             return replace(self._coupling.step(asked) if master.engaged else UNCORRECTED, opening=opening)
         return replace(self._clutch.correction(asked, self._arm.followed(asked), course.correction), opening=opening)

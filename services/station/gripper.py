@@ -1,7 +1,8 @@
 """What the operator asks of the gripper: closed or open by a press, or as far as a slider says.
 
-It is asked while a motion runs that the operator may correct or leads alone, and stays asked until that episode ends:
-nobody lets go of a thing because a page lost its focus. A new episode begins with nothing asked.
+It is asked while a motion runs that the operator may correct or leads alone, and stays asked whatever is lost: nobody
+lets go of a thing because a page lost its focus. It is over where the robot does otherwise: where the motion has come
+to it and gone on, or where it never counted, outside the part that is corrected. A new episode begins with nothing.
 """
 
 from __future__ import annotations
@@ -17,6 +18,11 @@ GRIP, OPENING = "grip", "opening"
 
 _LED = (Mode.REFINE, Mode.TEACH)
 _HALF = 0.5
+_FOLLOWED_S = 0.5
+"""Within that a robot that follows tells its gripper what was asked."""
+
+_SAME = 0.02
+"""Shares of wide open that differ by less are one."""
 
 
 class Gripper:
@@ -33,6 +39,7 @@ class Gripper:
         self.asked: float | None = None
         self._holder = holder
         self._episode: tuple[int, int] | None = None
+        self._pressed_s = 0.0
 
     def hear(self, presses: list[Press], view: View) -> None:
         """Take up what was pressed in one step."""
@@ -43,6 +50,9 @@ class Gripper:
         wide = view.scene.wide_open if view.scene is not None else 0.0
         if before != self._episode or not robot.phase.running or not wide:
             self.asked = None
+        elif self.asked is not None and view.now_s - self._pressed_s > _FOLLOWED_S:
+            followed = abs(robot.opening_reference / wide - self.asked) < _SAME
+            self.asked = self.asked if followed else None
         mine = view.authority is not None and view.authority.holder == self._holder
         if not (wide and mine and may_be_asked(robot)):
             return
@@ -51,6 +61,8 @@ class Gripper:
                 self.asked = 0.0 if self._stands(robot, wide) > _HALF else 1.0
             elif press.action == OPENING:
                 self.asked = _share(press.argument, self.asked)
+            if press.action in (GRIP, OPENING):
+                self._pressed_s = view.now_s
 
     def _stands(self, robot: RobotState, wide: float) -> float:
         return self.asked if self.asked is not None else robot.opening_reference / wide

@@ -23,9 +23,9 @@ def test_until_something_is_asked_it_is_left_to_the_motion(desk):
 @pytest.mark.parametrize(
     "lost",
     [
-        {"focused": False, "opening": None},
+        {"focused": False, "opening": 0.25},
         {"page": False},
-        {"authority": None},
+        {"authority": None, "opening": 0.25},
         {"authority": AuthorityState(holder="station-b", epoch=8, expires_in=1.0)},
     ],
     ids=["focus", "link", "robot's word", "authority"],
@@ -33,6 +33,11 @@ def test_until_something_is_asked_it_is_left_to_the_motion(desk):
 def test_what_was_asked_stays_asked_through_whatever_is_lost(desk, lost):
     assert desk.run(0.1, opening=0.25).opening == 0.25
     assert desk.run(1.0, **lost).opening == 0.25
+
+
+def test_what_the_station_asks_no_more_is_not_said_any_more(desk):
+    desk.run(0.1, opening=0.25)
+    assert desk.run(0.1).opening is None
 
 
 def test_the_newest_that_was_asked_counts(desk):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from protocol import queries
-from protocol.messages import Mode
+from protocol.messages import Mode, Phase
 from services.bus.arrays import from_wire
 from services.robot.arm import Arm
 from services.robot.assembly import kinematics_of
@@ -105,13 +105,39 @@ def test_the_operator_keeps_the_gripper_open_longer_than_the_motion():
     assert site.state.opening_reference == pytest.approx(0.25 * WIDE)
 
 
+def passing(site, progress, **asked):
+    while site.state.progress < progress:
+        site.run(0.01, master=NOWHERE, **asked)
+    return site.state.opening_reference
+
+
 def test_what_an_operator_asks_outside_the_part_that_is_corrected_does_not_count():
     site = site_with_a_gripper()
     site.execute(Mode.REFINE, closing(at=0.8))
-    site.arm.episode.execution.part = (0.0, 0.3)
-    while site.state.progress < 0.4:
-        site.run(0.01, master=NOWHERE, opening=0.0)
-    assert site.state.opening_reference == WIDE
+    site.arm.episode.execution.part = (0.2, 0.4)
+    assert passing(site, 0.1) == WIDE
+    assert passing(site, 0.3, opening=0.0) == WIDE
+    assert passing(site, 0.6, opening=0.0) == WIDE
+
+
+def test_what_was_closed_in_the_part_that_is_corrected_is_not_dropped_behind_it():
+    site = site_with_a_gripper()
+    site.execute(Mode.REFINE, closing(at=0.8))
+    site.arm.episode.execution.part = (0.2, 0.4)
+    assert passing(site, 0.25) == WIDE
+    assert passing(site, 0.3, opening=0.0) == 0.0
+    assert passing(site, 0.7, opening=0.0) == 0.0
+
+
+def test_what_was_asked_through_a_hold_is_no_new_wish_after_it_and_the_motion_opens_where_it_did():
+    shares = np.linspace(0.0, 1.0, N)
+    place = straight(2.0, N, opening=np.where((shares < 0.5) | (shares > 0.8), WIDE, 0.0))
+    site = executing(site_with_a_gripper(), place, mode=Mode.REFINE)
+    assert passing(site, 0.3, opening=0.0) == 0.0
+    assert passing(site, 0.6, opening=0.0) == 0.0
+    site.run(0.4, renew=False)
+    assert site.state.phase is Phase.HOLD
+    assert passing(site, 0.9, opening=0.0) == WIDE
 
 
 def test_nobody_asks_anything_of_the_gripper_of_an_autonomous_motion():

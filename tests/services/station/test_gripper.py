@@ -36,6 +36,10 @@ def gripper(view):
     return one
 
 
+def later(view, seconds=1.0):
+    return replace(view, now_s=view.now_s + seconds)
+
+
 def asked(gripper, view, *presses):
     gripper.hear([Press(action, argument) for action, argument in presses], view)
     return gripper.asked
@@ -91,6 +95,15 @@ def test_what_was_asked_stays_asked_through_whatever_is_lost(gripper, view, lost
     }
     assert asked(gripper, there[lost]) == 0.0
     assert asked(gripper, view) == 0.0
+
+
+def test_what_the_robot_does_stays_asked_and_what_it_does_not_is_over(gripper, view):
+    asked(gripper, view, (GRIP, ""))
+    assert asked(gripper, later(view, 0.1)) == 0.0, "the robot has not been heard to follow yet"
+    closed = robot(view, opening_reference=0.0, opening=0.04)
+    assert asked(gripper, later(closed)) == 0.0
+    assert asked(gripper, later(view, 2.0)) is None, "its motion has gone on, and opens the gripper"
+    assert asked(gripper, later(view, 2.1), (GRIP, "")) == 0.0
 
 
 @pytest.mark.parametrize("after", [{"episode": 2}, {"publisher": 2}, {"phase": Phase.IDLE}, {"phase": Phase.STOPPED}])
