@@ -22,7 +22,7 @@ from services.camera.sources import Sources
 from services.camera.wishes import Wish, Wishes
 from services.process.clock import Clock
 from services.process.config import CameraSection, Configuration
-from services.process.robots import camera_names
+from services.process.robots import camera_names, check_camera
 from services.process.runner import Service
 from services.process.schedule import Schedule
 
@@ -36,8 +36,9 @@ def build(bus: Bus, clock: Clock, configuration: Configuration) -> Service:
         UnknownScene: the configuration names a scene that is not there.
         CameraUnfit: a camera is fixed to a link that is not there.
         RoomMissing: the library for the codec is not installed.
-        UnusableSetting: the codec cannot code pictures of this size.
+        UnusableSetting: the codec cannot code pictures of this size, or the camera whose depth is meant is not there.
     """
+    check_camera("[camera] cloud", configuration.camera.cloud, configuration)
     return CameraService(bus, clock, configuration)
 
 

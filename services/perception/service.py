@@ -21,7 +21,7 @@ from services.perception.placement import Matrix, placement, quaternion_from_rot
 from services.perception.tags import Picture, TagFinder, Tagged, candidates, choose, decode
 from services.process.clock import Clock
 from services.process.config import Configuration, PerceptionSection
-from services.process.robots import known_scene
+from services.process.robots import check_camera, known_scene
 from services.process.runner import Service
 from services.process.schedule import Schedule
 from services.video.decoder import Decoder
@@ -34,7 +34,12 @@ _LARGEST_ERROR = 1e9  # [m] as large as a message's number may be
 
 
 def build(bus: Bus, clock: Clock, configuration: Configuration) -> Service:
-    """The perception process."""
+    """The perception process.
+
+    Raises:
+        UnusableSetting: the camera by which it is to see is not there.
+    """
+    check_camera("[perception] camera", configuration.perception.camera, configuration)
     # Threads for pictures this small cost more than they give, and take the other processes' cores.
     cv2.setNumThreads(1)
     known = known_scene(configuration.robot)

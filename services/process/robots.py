@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from services.process.config import Configuration, RobotSection
+from services.process.exceptions import UnusableSetting
 from services.process.robot_file import load_robot
 from sim.exceptions import UnknownScene
 from sim.robots import faults
@@ -83,3 +84,19 @@ def camera_names(configuration: Configuration) -> tuple[str, ...]:
     if isinstance(known, ReachingScene):
         own = tuple(camera.name for camera in known.manipulator.cameras)
     return tuple(dict.fromkeys((*own, *(camera.name for camera in configuration.camera.cameras))))
+
+
+def check_camera(setting: str, name: str, configuration: Configuration) -> None:
+    """Let a camera pass that is there.
+
+    Args:
+        setting: that names it, as an error does.
+        name: of the camera.
+        configuration: of the whole system.
+
+    Raises:
+        UnusableSetting: it is not.
+    """
+    known = camera_names(configuration)
+    if name not in known:
+        raise UnusableSetting(setting, f"there is no camera {name}: name one of {', '.join(known)}")

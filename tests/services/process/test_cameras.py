@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 
 from lfd.motion.rotations import rotate
+from services.bus.memory import MemoryNetwork
 from services.process.cameras import Simulated
+from services.process.clock import ManualClock
 from services.process.config import load
-from services.process.exceptions import ConfigurationError
+from services.process.exceptions import ConfigurationError, UnusableSetting
 from services.process.robots import camera_names
 
 SIDE = '{kind = "simulated", name = "side", position = [0.9, -1.1, 1.1], look_at = [0.8, 0.0, 0.6]}'
@@ -64,3 +66,21 @@ def test_a_camera_looks_at_what_it_is_to_look_at_with_its_picture_upright(place)
 def test_a_camera_that_looks_straight_down_has_forward_up_in_its_picture():
     right, down, forward = axes(Simulated(name="above", position=(0.0, 0.0, 2.0), look_at=(0.0, 0.0, 0.0)))
     np.testing.assert_allclose(np.array([right, down, forward]), [[0, -1, 0], [-1, 0, 0], [0, 0, -1]], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("room", "section", "said"),
+    [
+        ("services.camera.service", "[camera]\ncloud", "[camera] cloud"),
+        ("services.perception.service", "[perception]\ncamera", "[perception] camera"),
+    ],
+)
+def test_a_setting_that_names_no_camera_is_one_line(tmp_path, room, section, said):
+    path = tmp_path / "retouch.toml"
+    path.write_text(f'{section} = "nose"\n')
+    build = pytest.importorskip(room).build
+    clock = ManualClock()
+    with pytest.raises(UnusableSetting) as caught:
+        build(MemoryNetwork(clock).bus(), clock, load(path))
+    assert str(caught.value).startswith(said)
+    assert "there is no camera nose: name one of head, wrist" in str(caught.value)
