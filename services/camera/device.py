@@ -13,7 +13,7 @@ from services.bus.arrays import Floats
 from services.camera.capture import Frames, Open, Shot, open_device
 from services.camera.exceptions import CameraUnusable
 from services.camera.optics import Optics, pinhole
-from services.camera.places import Place
+from services.camera.places import Joints, Place
 from services.camera.seen import Seen
 from services.process.cameras import RealCamera
 from services.process.clock import Clock
@@ -30,6 +30,7 @@ CLOSE_S = 0.5
 class _Came(NamedTuple):
     shot: Shot
     at_ns: int
+    joints: Joints
 
 
 class DeviceCamera:
@@ -66,9 +67,10 @@ class DeviceCamera:
         self._thread.start()
 
     def look(self, now_ns: int) -> Seen | None:
-        """See `Source.look`; nothing is seen either while nobody knows where the camera is."""
-        came, pose = self._came, self._place.pose(now_ns)
-        if came is None or pose is None or came.at_ns == self._seen_ns:
+        """See `Source.look`; nothing is seen either of when nobody knew where the camera was."""
+        del now_ns
+        came = self._came
+        if came is None or came.at_ns == self._seen_ns:
             return None
         self._seen_ns = came.at_ns
         height, width, _ = came.shot.image.shape
@@ -78,7 +80,7 @@ class DeviceCamera:
         return Seen(
             image=optics.straightened(image),
             intrinsics=optics.matrix,
-            pose=pose,
+            pose=self._place.pose(came.joints),
             captured_ns=came.at_ns,
             depth=None if depth is None else lambda: _known(optics.straightened_depth(_resized(depth, self._size))),
         )
@@ -113,7 +115,10 @@ class DeviceCamera:
                 shot = frames.read()
                 if shot is None:
                     return
-                self._came = _Came(shot, self._clock.now_ns())
+                at_ns = self._clock.now_ns()
+                joints = self._place.joints(at_ns)
+                if joints is not None:
+                    self._came = _Came(shot, at_ns, joints)
                 self._stop.wait(frames.period_s)
         finally:
             frames.close()

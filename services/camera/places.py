@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -33,11 +34,22 @@ class Mounting(NamedTuple):
         return Pose(vector3(at), quaternion(multiply(orientation, np.array(self.orientation))))
 
 
+Joints = Mapping[str, float]
+"""Positions of a robot's joints, by name [rad, m]."""
+
+
 class Place(Protocol):
     """Where a camera is."""
 
-    def pose(self, now_ns: int) -> Pose | None:
-        """Now, in the base frame; None where that is not known."""
+    def joints(self, now_ns: int) -> Joints | None:
+        """Of the robot now, as far as the camera's place depends on them; None where they are not known.
+
+        Safe to use from any thread: they are read when a picture comes, whenever it is looked at.
+        """
+        ...
+
+    def pose(self, joints: Joints) -> Pose:
+        """In the base frame, while the joints are so."""
         ...
 
 
@@ -46,9 +58,14 @@ class Standing(NamedTuple):
 
     at: Pose
 
-    def pose(self, now_ns: int) -> Pose:
-        """See `Place.pose`."""
+    def joints(self, now_ns: int) -> Joints:
+        """See `Place.joints`."""
         del now_ns
+        return {}
+
+    def pose(self, joints: Joints) -> Pose:
+        """See `Place.pose`."""
+        del joints
         return self.at
 
 
@@ -59,12 +76,14 @@ class Carried(NamedTuple):
     links: Links
     robot: Subscription[RobotState]
 
-    def pose(self, now_ns: int) -> Pose | None:
-        """See `Place.pose`; nobody knows it while the robot is not heard."""
+    def joints(self, now_ns: int) -> Joints | None:
+        """See `Place.joints`."""
         state = self.robot.fresh(now_ns)
-        if state is None:
-            return None
-        at = self.links.pose(self.mounting.link, dict(zip(state.joint_names, state.q, strict=False)))
+        return None if state is None else dict(zip(state.joint_names, state.q, strict=False))
+
+    def pose(self, joints: Joints) -> Pose:
+        """See `Place.pose`."""
+        at = self.links.pose(self.mounting.link, joints)
         return self.mounting.on(at.position, at.orientation)
 
 

@@ -197,7 +197,7 @@ def test_a_camera_that_is_not_there_keeps_no_other_from_going_on(tmp_path, caplo
 
 
 @pytest.mark.sim
-def test_a_camera_on_a_link_is_where_the_measured_joints_have_it_and_its_depth_is_a_cloud(monkeypatch):
+def test_a_camera_on_a_link_is_where_the_joints_had_it_when_its_picture_came_and_its_depth_is_a_cloud(monkeypatch):
     from services.camera import sources
     from services.camera.service import build
     from sim.robots.description import prepare
@@ -217,10 +217,13 @@ def test_a_camera_on_a_link_is_where_the_measured_joints_have_it_and_its_depth_i
         eventually(lambda: device.asked == 2)
         camera.step(clock.now_ns())
         assert sent.latest() is None, "nobody knows yet where it is"
-        state = RobotState(joint_names=arm.joint_names, q=arm.home, measured=HERE, reference=HERE, phase=Phase.IDLE)
+        known = {"joint_names": arm.joint_names, "measured": HERE, "reference": HERE, "phase": Phase.IDLE}
+        state = RobotState(q=arm.home, **known)
+        clock.advance(0.2)
         robot.publish(ROBOT_STATE, state)
-        clock.advance(0.1)
-        robot.publish(ROBOT_STATE, state)
+        device.take()
+        eventually(lambda: device.asked == 3)
+        robot.publish(ROBOT_STATE, RobotState(q=(1.0,) * len(arm.home), **known))
         camera.step(clock.now_ns())
         device.pull()
     at = Links(DISHWASHER, prepare()).pose("arm_7_link", dict(zip(arm.joint_names, arm.home, strict=True)))
