@@ -32,6 +32,7 @@ class Phase(enum.Enum):
     RAMP = "ramp"
     EXECUTE = "execute"
     HOLD = "hold"
+    HOMING = "homing"
     STOPPED = "stopped"
 
     @property

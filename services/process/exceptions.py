@@ -29,6 +29,7 @@ ServiceError
 ├── Unreachable              a pose that the robot does not reach (services.robot.mechanism)
 ├── NotReady                 an arm that follows no commands now (services.robot.backends.backend)
 ├── Jump                     a first command that does not begin where the arm is (services.robot.backends.backend)
+├── WayBlocked               the arm would touch something on its way to the start (services.robot.homing)
 ├── Blocked                  something stands where the arm is to be put (services.robot.backends.backend)
 ├── NoSuchEntry              nothing of that number in a skill's history (services.model.history)
 ├── SkillError               (services.model.exceptions)

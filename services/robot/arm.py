@@ -12,7 +12,7 @@ from lfd.motion.part import WHOLE, Part
 from lfd.motion.trajectory import Trajectory
 from protocol.messages import Cut
 from services.robot import safety
-from services.robot.backends.backend import CONTROL_PERIOD, Backend, Blocked, NotReady
+from services.robot.backends.backend import CONTROL_PERIOD, Backend, NotReady
 from services.robot.correction import UNCORRECTED, Correction
 from services.robot.drive import Drive
 from services.robot.episode import Episode, EpisodeOutcome
@@ -21,7 +21,7 @@ from services.robot.fingers import Fingers
 from services.robot.mechanism import InverseFailed, Mechanism
 from services.robot.reach import check_reach, shortfall
 from services.robot.refusal import Refusal
-from services.robot.starts import StartImpossible, Starts
+from services.robot.starts import Starts
 from services.robot.teleoperation import Teleoperation
 from services.robot.tick import Tick, phase_of
 from services.robot.verdict import Criteria, Verdict
@@ -96,7 +96,7 @@ class Arm:
         return self._episode
 
     def reset(self, place: Array, variant: str, start: Pose | None = None) -> None:
-        """Back to the start, the target and the scene put in place; the episode that runs is dropped.
+        """Back to the start, the target and the scene put in place once it is there; see `Drive.reset`.
 
         Args:
             place: of the target, see `Backend.reset`, shape (d,) [m].
@@ -107,10 +107,9 @@ class Arm:
             StartImpossible: no motion can start there; nothing has changed.
         """
         start = self.start if start is None else start
-        try:
-            self._backend.reset(place, variant, self._starts.joints(start))
-        except Blocked as error:
-            raise StartImpossible(start.position, str(error)) from error
+        self.drive.reset(start, place, variant, self._starts.joints(start), lambda: self._begin_at(start))
+
+    def _begin_at(self, start: Pose) -> None:
         self.start = start
         self._episode = None
         self.fingers.tell(self.fingers.wide_open)
@@ -198,7 +197,8 @@ class Arm:
         fault = ""
         try:
             previous_q, clamped = self._decide(episode, wanted, leeway, holding=holding)
-            self.drive.period(self._q, (self._q - previous_q) / CONTROL_PERIOD, self.fingers.told, given)
+            qd, held = (self._q - previous_q) / CONTROL_PERIOD, bool(hold_reason)
+            self._q = self.drive.period(self._q, qd, self.fingers.told, given, held=held)
             self._observe()
         except Exception as error:  # noqa: BLE001 (whatever hardware and solvers raise: the arm stands and says so)
             fault = self.drive.fault(error)

@@ -1,5 +1,10 @@
 """What stands in a scene, put together: backend, kinematics, criteria, starts."""
 
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
 from services.process.clock import Clock
 from services.process.config import RobotSection
 from services.process.exceptions import UnusableSetting
@@ -7,6 +12,7 @@ from services.robot.arm import Arm
 from services.robot.backends.backend import Backend, Blocked
 from services.robot.backends.hardware import Hardware, driver_of
 from services.robot.backends.particle import ParticleBackend, ParticleKinematics
+from services.robot.homing import Homing
 from services.robot.mechanism import Mechanism
 from services.robot.starts import StartImpossible, Starts
 from services.robot.verdict import Criteria, ReachingCriteria
@@ -15,6 +21,8 @@ from sim.robots.description import RobotDescription
 from sim.tasks import AnyScene
 from sim.tasks.particle import ParticleScene
 from sim.tasks.reaching import ReachingScene
+
+Array = NDArray[np.float64]
 
 
 def kinematics_of(scene: AnyScene, description: RobotDescription) -> Mechanism:
@@ -77,12 +85,15 @@ def simulated_arm(
     )
 
 
-def hardware_arm(scene: AnyScene, section: RobotSection, kinematics: Mechanism, clock: Clock) -> Arm:
-    """An arm of hardware, connected, that stands where it is.
+def hardware_arm(
+    scene: AnyScene, section: RobotSection, description: RobotDescription, kinematics: Mechanism, clock: Clock
+) -> Arm:
+    """An arm of hardware, connected, that stands where it is, and is led to where motions start.
 
     Args:
         scene: that people have set up around it.
         section: of the configuration; its backend is not the simulated one.
+        description: of the robot.
         kinematics: of the robot.
         clock: by which it is judged whether it is heard.
 
@@ -105,7 +116,7 @@ def hardware_arm(scene: AnyScene, section: RobotSection, kinematics: Mechanism, 
     )
     starts = Starts(kinematics, scene.start, scene.posture, section.self_distance_stop)
     backend.connect()
-    return Arm(
+    arm = Arm(
         backend,
         kinematics,
         _criteria(scene),
@@ -115,6 +126,29 @@ def hardware_arm(scene: AnyScene, section: RobotSection, kinematics: Mechanism, 
         wide_open=scene.manipulator.gripper.opening,
         grips=scene.gripper,
     )
+    touches = _touches(scene, description, kinematics, backend, section.self_distance_stop)
+    arm.drive.homing = Homing(np.minimum(kinematics.velocity_limit, backend.limits.speed), touches)
+    return arm
+
+
+def _touches(
+    scene: ReachingScene, description: RobotDescription, kinematics: Mechanism, backend: Backend, self_distance: float
+) -> Callable[[Array], str]:
+    """What an arm would touch, in words, were its joints somewhere: itself, or what the scene says stands around it."""
+    from sim.world.physics import World  # noqa: PLC0415 (as above)
+
+    world, place = World(scene, backend.variant, description), scene.training_positions[0]
+
+    def touches(q: Array) -> str:
+        if kinematics.self_distance(q) < self_distance:
+            return "the robot would come too close to itself"
+        world.reset(place, backend.variant, q)
+        contacts = world.observe().contacts
+        if not contacts:
+            return ""
+        return f"the robot's {contacts[0].robot_geom} would touch {contacts[0].environment_geom}"
+
+    return touches
 
 
 def _criteria(scene: ReachingScene) -> Criteria:

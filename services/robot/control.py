@@ -141,7 +141,7 @@ class Control:
         self._hold.ask(request.epoch)
 
     def reset(self, request: Reset) -> None:
-        """Put arm, target and scene back."""
+        """Put arm, target and scene back, or begin to."""
         self._check(request.epoch)
         variant = self.arm.variant if request.variant is None else request.variant
         place = self._place if (asked := admit_target(self.scene, request)) is None else asked
@@ -151,6 +151,7 @@ class Control:
             self.arm.reset(place, variant, start)
         except StartImpossible as error:
             raise Refusal(f"{error}: give another start") from error
+        self._hold.ask(request.epoch)
         self._place = place
 
     def press(self, by: str, reason: str) -> None:
@@ -222,7 +223,9 @@ class Control:
 
     def phase(self, tick: Tick) -> Phase:
         """What the robot is doing, the emergency stop before all."""
-        return Phase.STOPPED if self.latch.latched else tick.phase
+        if self.latch.latched:
+            return Phase.STOPPED
+        return Phase.HOMING if self.arm.drive.goes_home else tick.phase
 
     def _ordered(self, request: Execute | Teleoperate, mode: Mode, prediction: int = 0) -> int:
         number = self.order.episode + 1 if self.order is not None else 1
@@ -235,7 +238,7 @@ class Control:
     def _hold_reason(self, now_ns: int, sample: Received[MasterState] | None, way_s: float) -> str:
         """Why a motion may not go on in this period; empty where it may."""
         cause = self._watchdog.presence(self.lease.holder, self.lease.silence_s(now_ns))
-        if self.mode is not Mode.AUTONOMOUS and not cause:
+        if self.mode is not Mode.AUTONOMOUS and not (cause or self.arm.drive.goes_home):
             age_s = sample.age_s(now_ns) if sample is not None else None
             # Where the hand leads alone the robot stands without it, and nothing is left undone.
             free = self.mode is Mode.TEACH
@@ -278,6 +281,8 @@ class Control:
         self.lease.check(epoch)
         if self.arm.episode is not None:
             raise Refusal("an episode is running: wait for its end, or finish it")
+        if self.arm.drive.goes_home:
+            raise Refusal("the arm is on its way to the start: wait until it is there")
 
     def _check_stop(self) -> None:
         if self.latch.latched:

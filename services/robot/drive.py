@@ -7,7 +7,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from services.robot.backends.backend import Backend, NotReady, Observation, Status
+from services.robot.backends.backend import CONTROL_PERIOD, Backend, Blocked, NotReady, Observation, Status
+from services.robot.homing import Homing, WayBlocked
+from services.robot.starts import StartImpossible
 from sim.pose import Pose
 
 log = logging.getLogger(__name__)
@@ -20,6 +22,10 @@ LONGEST_FAULT = 200  # [characters]
 class Drive:
     """Takes a backend through one control period after another; one that was stopped gets no command.
 
+    Attributes:
+        seen_object: where a camera saw the object last: what hardware is judged by, which does not know.
+        homing: leads the arm to where motions start; None where it is put there at once, as a simulator can.
+
     Args:
         backend: what moves.
     """
@@ -29,9 +35,43 @@ class Drive:
         self._stopped = False
         self._said = ""
         self.seen_object: Pose | None = None
-        """Where the camera saw the object last: what hardware is judged by, which does not know."""
+        self.homing: Homing | None = None
 
-    def period(self, q: Array, qd: Array, opening: float, given: Callable[[], None]) -> None:
+    @property
+    def goes_home(self) -> bool:
+        """The arm is on its way to where motions start."""
+        return self.homing is not None and self.homing.under_way
+
+    def reset(self, start: Pose, place: Array, variant: str, q: Array, then: Callable[[], None]) -> None:
+        """Put the arm at a start and everything in its place, at once or once it is there.
+
+        Args:
+            start: pose of the grasping frame at q, for whoever is told that no motion can start there.
+            place: see `Backend.reset`.
+            variant: see there.
+            q: see there.
+            then: what is done when all is in its place.
+
+        Raises:
+            StartImpossible: no motion can start there; nothing has changed.
+        """
+
+        def put_back() -> None:
+            try:
+                self._backend.reset(place, variant, q)
+            except Blocked as error:
+                raise StartImpossible(start.position, str(error)) from error
+            then()
+
+        if self.homing is None:
+            put_back()
+            return
+        try:
+            self.homing.begin(self._backend.observe().q, q, put_back)
+        except WayBlocked as error:
+            raise StartImpossible(start.position, str(error)) from error
+
+    def period(self, q: Array, qd: Array, opening: float, given: Callable[[], None], *, held: bool = False) -> Array:
         """Command, and let the period pass; see `Backend.command`.
 
         Args:
@@ -39,10 +79,20 @@ class Drive:
             qd: see there.
             opening: see there.
             given: called when the command has been handed over.
+            held: nobody is present: an arm on its way to the start is led no further.
+
+        Returns:
+            The positions that were commanded: q, or those of the way to the start.
 
         Raises:
             NotReady: what moves has stopped by itself, or is not there any more.
         """
+        if self.homing is not None and self.homing.under_way:
+            if held:
+                self.homing.stop()
+            else:
+                before, q = q, self.homing.advance()
+                qd = (q - before) / CONTROL_PERIOD
         if not self._stopped:
             self._backend.command(q, qd, opening)
         given()
@@ -50,6 +100,7 @@ class Drive:
         status = self._backend.status()
         if not (self._stopped or status.works):
             raise NotReady(status)
+        return q
 
     def status(self) -> Status:
         """See `Backend.status`."""
@@ -67,6 +118,8 @@ class Drive:
     def stop(self, reason: str) -> None:
         """See `Backend.stop`; what is broken stands as well as it can."""
         self._stopped = True
+        if self.homing is not None:
+            self.homing.stop()
         try:
             self._backend.stop(reason)
         except Exception as error:  # noqa: BLE001 (whatever a driver raises: nothing more is commanded anyway)

@@ -68,7 +68,7 @@ def build(bus: Bus, clock: Clock, configuration: Configuration, memory: Memory |
             self_distance_stop=section.self_distance_stop,
         )
     else:
-        arm = hardware_arm(scene, section, kinematics, clock)
+        arm = hardware_arm(scene, section, description, kinematics, clock)
     control = Control(
         arm,
         scene,

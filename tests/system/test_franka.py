@@ -13,7 +13,7 @@ import pytest
 
 from protocol import messages, queries, topics
 from protocol.messages import Mode, Phase
-from protocol.queries import EpisodeStarted
+from protocol.queries import Accepted, EpisodeStarted
 from services.bus.arrays import motion_to_wire
 from services.bus.memory import MemoryNetwork
 from services.process.backend import BackendSection
@@ -158,6 +158,24 @@ def test_a_stop_stops_it_within_a_tenth_of_a_second(desk, arm):
     desk.run(0.5, (0.0, 0.06, 0.0))
     assert desk.heard[-1].phase is Phase.STOPPED
     assert arm.stood_after(since) < 0.1
+
+
+def test_a_reset_leads_it_back_to_its_start_slowly(desk, arm):
+    lead(desk)
+    desk.ask(queries.FINISH, queries.Finish(desk.epoch))
+    desk.run(1.0, (0.0, 0.0, 0.0))
+    away = np.abs(np.array(desk.heard[-1].q) - start()[1]).max()
+    assert away > 0.05
+    since = arm.now
+    assert isinstance(desk.ask(queries.RESET, queries.Reset(desk.epoch)), Accepted)
+    desk.run(0.5)
+    assert desk.heard[-1].phase is Phase.HOMING
+    desk.run(4.0)
+    assert desk.heard[-1].phase is Phase.IDLE
+    assert np.abs(np.array(desk.heard[-1].q) - start()[1]).max() < 0.01
+    rows = arm.seen[arm.seen[:, 0] >= since]
+    speeds = np.abs(rows[5:, 1:] - rows[:-5, 1:]) / (rows[5:, :1] - rows[:-5, :1])
+    assert speeds.max() < 1.0, "less than half of what its slowest joint can do"
 
 
 def test_when_the_robots_process_is_killed_in_a_motion_the_arm_stands(arm, router, bus, tmp_path):

@@ -89,6 +89,8 @@ def _reset(state: Workflow, view: View, settings: Settings, intent: int) -> quer
 def looking(state: Workflow, view: View, settings: Settings) -> Step:
     """See where the target stands; without a press the operator is asked then, and nothing has moved."""
     del settings
+    if view.robot is not None and view.robot.phase is RobotPhase.HOMING:
+        return Step(replace(state, since_s=view.now_s))  # what is seen counts once the arm is out of the way
     onward, guide = _onward(state), state.guide.looked(put=state.placed is not None)
     if view.scene is not None and view.scene.condition:
         # Nothing to look for: the robot says where it stands, once it has been reset.

@@ -36,6 +36,16 @@ def test_after_the_reset_it_looks_until_the_object_is_seen():
     site.run_to(Phase.EXECUTING)
 
 
+def test_nothing_that_is_seen_counts_while_the_arm_is_on_its_way_to_the_start():
+    site = Site(BY_HAND)
+    site.press(Action.EXECUTE, Phase.LOOKING)
+    site.robot(phase=messages.Phase.HOMING)
+    site.stay(60)
+    assert site.state.phase is Phase.LOOKING, "however long it takes, and the object in view"
+    site.robot(phase=IDLE)
+    site.run_to(Phase.EXECUTING)
+
+
 def test_a_scene_without_variants_is_reset_as_it_stands():
     site = Site(BY_HAND)
     site.sees(scene=msgspec.structs.replace(site.view.scene, variants=()))
