@@ -16,6 +16,8 @@ class Sender:
     def __init__(self, name: str) -> None:
         self._next: Call | None = None
         self._given = Event()
+        self._made = Event()
+        self._made.set()
         self._ended = False
         self._error: Exception | None = None
         self._thread = Thread(target=self._run, name=name, daemon=True)
@@ -23,8 +25,13 @@ class Sender:
 
     def give(self, call: Call) -> None:
         """Let it be made; returns at once."""
+        self._made.clear()
         self._next = call
         self._given.set()
+
+    def wait(self, seconds: float) -> bool:
+        """Wait until what was given last has been made; whether it was."""
+        return self._made.wait(seconds)
 
     def check(self) -> None:
         """Raise what a call since the last check raised."""
@@ -49,5 +56,7 @@ class Sender:
                     call()
                 except Exception as error:  # noqa: BLE001 (whatever a maker's library raises is told by `check`)
                     self._error = error
+            if not self._given.is_set():
+                self._made.set()
             if self._ended and self._next is None:
                 return

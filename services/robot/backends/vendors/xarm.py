@@ -36,13 +36,15 @@ class Driver:
 
     Args:
         open_arm: an `XArmAPI` in radians with the 100 Hz report, by host; the installed library's by default.
+        seconds: what reports are stamped with, as they carry no time of their own [s].
     """
 
     maker = "UFACTORY"
     joints = 7
 
-    def __init__(self, open_arm: Open | None = None) -> None:
+    def __init__(self, open_arm: Open | None = None, seconds: Callable[[], float] = time.monotonic) -> None:
         self._open = open_arm
+        self._seconds = seconds
         self._arm: Any = None
         self._sender: Sender | None = None
         self._hand: Hand | None = None

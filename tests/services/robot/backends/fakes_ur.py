@@ -1,7 +1,7 @@
 # ruff: noqa: N802, PLR0917 (the library's own names)
 """A stand-in for ur_rtde's interfaces, as its documentation says them: no robot, and not the library's code.
 
-A first-order arm follows what `servoJ` says; time is the clock's.
+A first-order arm follows what `servoJ` says; time is that of the clock that it is given.
 """
 
 import time
@@ -15,7 +15,8 @@ FASTEST = 3.0
 class FakeUr:
     """One arm; it is its own control, receive and dashboard interface."""
 
-    def __init__(self):
+    def __init__(self, clock):
+        self._clock = clock
         self.q = np.array([0.0, -1.9, 2.0, -1.67, -1.57, 0.0])
         self.qd = np.zeros(6)
         self.target = None
@@ -23,7 +24,7 @@ class FakeUr:
         self.running = False
         self.mode, self.safety = 7, 1
         self.watchdog = 0.0
-        self._then = time.monotonic()
+        self._then = self._now
 
     def control(self, host):
         self.running = True
@@ -85,7 +86,7 @@ class FakeUr:
         return self.qd.tolist()
 
     def getTimestamp(self):
-        return time.monotonic()
+        return self._now
 
     def getActualTCPForce(self):
         return [0.0] * 6
@@ -109,13 +110,20 @@ class FakeUr:
 
     # The arm
 
+    def tick(self):
+        """A control period has passed."""
+
     def protect(self):
         """Its controller stops it, and ends the program."""
         self._go_on()
         self.protective, self.running, self.target = True, False, None
 
+    @property
+    def _now(self):
+        return self._clock.now_ns() / 1e9
+
     def _go_on(self):
-        now = time.monotonic()
+        now = self._now
         elapsed, self._then = now - self._then, now
         if self.target is None:
             self.qd = np.zeros(6)

@@ -6,10 +6,7 @@ import numpy as np
 import pytest
 
 from services.robot.backends.backend import CONTROL_PERIOD, SILENCE_S, Jump, NotReady, State
-from services.robot.backends.vendors import ur, xarm
 from tests.services.robot.backends import rigs
-from tests.services.robot.backends.fakes_ur import FakeUr
-from tests.services.robot.backends.fakes_xarm import FakeXArm
 from tests.services.robot.backends.franka_arm import FrankaArm
 
 JOINT = 1  # that is led
@@ -32,8 +29,8 @@ def franka(request):
     params=[
         pytest.param(lambda request: rigs.simulation(), id="simulation", marks=pytest.mark.sim),
         pytest.param(lambda request: rigs.particle(), id="particle"),
-        pytest.param(lambda request: rigs.Real(ur.Driver(FakeUr()), "ur5"), id="ur, its library faked"),
-        pytest.param(lambda request: rigs.Real(xarm.Driver(FakeXArm()), "xarm7"), id="xarm, its library faked"),
+        pytest.param(lambda request: rigs.faked_ur(), id="ur, its library faked"),
+        pytest.param(lambda request: rigs.faked_xarm(), id="xarm, its library faked"),
         pytest.param(franka, id="franka", marks=[pytest.mark.sim, pytest.mark.system]),
     ]
 )
