@@ -10,6 +10,7 @@ COMMANDS: tuple[Command, ...] = (
     Command("up", "services.commands.up.command", "start everything and watch over it", needs="process"),
     *(Command(p.name, _MODULES.get(p.name, "services.commands.process"), p.about) for p in PROCESSES),
     Command("router", "services.commands.router", "where the processes of a site meet", needs="process"),
+    Command("task", "services.commands.task.command", "tasks: list, make, check and draw them", needs="robot"),
     Command("teach", "services.commands.teach", "give a model its first demonstrations, or a motion", needs="robot"),
     Command("history", "services.commands.history", "what a model has learnt; undo and redo of any", needs="station"),
     Command("skill", "services.commands.skill.command", "what a robot has learnt, by name", needs="station"),

@@ -70,6 +70,11 @@ class PlanningArm:
         select(self._model, self.scene, variant)
         self._data.qpos[self._object] = [*place, *NO_ROTATION]
 
+    def state(self, q: Array) -> Array:
+        """Return all positions of the model, shape (nq,), of joint positions of shape (m,)."""
+        self._place(q)
+        return np.asarray(self._data.qpos.copy())
+
     def pose(self, q: Array) -> Pose:
         """Return where the grasping frame is, of joint positions of shape (m,)."""
         self._place(q)

@@ -30,6 +30,7 @@ class ReachingScene(Scene):
         arrangement: What stands around the robot.
         ways: That somebody drew, by variant; where there are none they are found, see `sim.planning.ways`.
         bases: Where robots stand in it, by their kind, "" for any other; as the robot says where it says nothing.
+        about: What it is, a line.
         file: That it was read from; None for one that ships.
     """
 
@@ -41,6 +42,7 @@ class ReachingScene(Scene):
     arrangement: Arrangement
     ways: Mapping[str, Way] = field(default_factory=dict)
     bases: Mapping[str, Base] = field(default_factory=dict)
+    about: str = ""
     file: Path | None = None
 
     @property

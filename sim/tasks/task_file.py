@@ -2,6 +2,7 @@
 
 import math
 import tomllib
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -53,6 +54,28 @@ def load_task(path: Path, *, ships: bool = False) -> ReachingScene:
         raise TaskUnfit(path, "it is nested too deeply for a task") from None
 
 
+def faults(path: Path) -> list[str]:
+    """Return what is wrong in a file, a line each; nothing where it can be used.
+
+    Raises:
+        TaskUnfit: It is not there, or cannot be parsed.
+    """
+    try:
+        said = read(written.WrittenTask, tomllib.loads(_text(path)))
+        return list(task_faults.found(said)) or [str(error) for error in _raised(said, path)]
+    except tomllib.TOMLDecodeError as error:
+        raise TaskUnfit(path, f"it is no TOML: {error}") from None
+    except Unfit as error:
+        return [str(error)]
+
+
+def _raised(said: written.WrittenTask, path: Path) -> Iterator[Exception]:
+    try:
+        _task(said, path)
+    except (Unfit, DescriptionInvalid) as error:
+        yield error
+
+
 def _text(path: Path) -> str:
     try:
         if path.is_dir():
@@ -76,6 +99,7 @@ def _task(said: written.WrittenTask, path: Path) -> ReachingScene:
     )
     return ReachingScene(
         name=said.name,
+        about=said.about,
         variants=said.variants,
         start=_start(said.start),
         region=things[0].region,

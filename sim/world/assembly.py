@@ -44,14 +44,20 @@ def assemble(scene: AnyScene, description: RobotDescription, cameras: tuple[Came
     """
     match scene:
         case ReachingScene():
-            spec = _arm_and_object(scene, description)
+            spec = assembled(scene, description)
         case ParticleScene():
             spec = particle(scene)
     add_cameras(spec, cameras)
     return spec.compile()
 
 
-def _arm_and_object(scene: ReachingScene, description: RobotDescription) -> mujoco.MjSpec:
+def assembled(scene: ReachingScene, description: RobotDescription) -> mujoco.MjSpec:
+    """Put together what `assemble` compiles, of a task of an arm.
+
+    Args:
+        scene: The task.
+        description: Of the arm.
+    """
     spec = mujoco.MjSpec.from_file(str(description.urdf))
     _set_physics(spec)
     _fit_robot(spec, scene.manipulator)

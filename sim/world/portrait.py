@@ -1,5 +1,6 @@
-"""A robot by itself, in its home posture: what its frames are, and where it can grasp."""
+"""Pictures for people: a robot by itself with its frames, or in a task, and places that are marked."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -7,12 +8,16 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from sim.planning.arm import PlanningArm
 from sim.robots.description import prepare
 from sim.robots.gripper import GRASPING_FRAME
 from sim.robots.robot import Base, Manipulator
+from sim.tasks import described
+from sim.tasks.reaching import ReachingScene
 from sim.tasks.scene import Vector
+from sim.world.assembly import assembled
 from sim.world.drawing import Canvas, Image
-from sim.world.staging import add_stage
+from sim.world.staging import add_stage, select
 
 _AXES = ((0.85, 0.15, 0.12, 1.0), (0.15, 0.65, 0.20, 1.0), (0.15, 0.30, 0.85, 1.0))  # x, y, z
 _LENGTH, _SLIM = 0.14, 0.03  # of a frame's axes: share of the robot's reach; half their width, a share of that
@@ -72,6 +77,43 @@ def portrait(
     canvas = Canvas(model, width, height)
     try:
         return canvas.draw(data, _eye(robot, data, near=not dots))
+    finally:
+        canvas.close()
+
+
+def scenery(scene: ReachingScene, variant: str, dots: Sequence[Dot] = (), width: int = 960, height: int = 720) -> Image:
+    """Draw a task as it begins, its robot in it.
+
+    Args:
+        scene: The task.
+        variant: Of it.
+        dots: Places that are marked, in the task's frame.
+        width: Of the picture [px].
+        height: The same.
+
+    Raises:
+        DrawingLibraryMissing: Nothing on this machine draws without a display.
+        SimError: The robot has no description; see `prepare`.
+    """
+    arm = PlanningArm(scene)
+    arm.arrange(variant, scene.training_positions[0])
+    q = arm.solve(scene.start, arm.seeds())
+    spec = assembled(scene, described(scene))
+    for dot in dots:
+        _add_dot(spec.worldbody, dot)
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    select(model, scene, variant)
+    data.qpos[:] = arm.state(arm.posture if q is None else q)
+    mujoco.mj_forward(model, data)
+    camera = mujoco.MjvCamera()
+    towards = np.subtract(scene.eye.target, scene.eye.position)
+    camera.lookat, camera.distance = scene.eye.target, 1.3 * float(np.linalg.norm(towards))
+    camera.azimuth = math.degrees(math.atan2(towards[1], towards[0]))
+    camera.elevation = math.degrees(math.asin(towards[2] / np.linalg.norm(towards)))
+    canvas = Canvas(model, width, height)
+    try:
+        return canvas.draw(data, camera)
     finally:
         canvas.close()
 
