@@ -18,8 +18,9 @@ from services.robot.drive import Drive
 from services.robot.episode import Episode, EpisodeOutcome
 from services.robot.execution import Execution
 from services.robot.fingers import Fingers
-from services.robot.mechanism import InverseFailed, Mechanism
-from services.robot.reach import check_reach, shortfall
+from services.robot.joints import Joints, combined
+from services.robot.mechanism import Mechanism
+from services.robot.reach import check_reach
 from services.robot.refusal import Refusal
 from services.robot.starts import Starts
 from services.robot.teleoperation import Teleoperation
@@ -62,17 +63,18 @@ class Arm:
         self._criteria = criteria
         self._starts = starts
         self.start = starts.home
-        native = backend.limits
-        lower, upper = np.maximum(kinematics.lower, native.lower), np.minimum(kinematics.upper, native.upper)
-        speed = velocity_scale * np.minimum(kinematics.velocity_limit, native.speed)
-        self._limits = safety.JointLimits(backend.joint_names, lower, upper, speed)
-        self._velocity_scale = velocity_scale
-        self._self_distance_stop = self_distance_stop
+        self.observation = self.drive.observe()
+        self._joints = Joints(
+            backend.joint_names,
+            kinematics,
+            combined(kinematics, backend.limits, velocity_scale),
+            self.observation.q,
+            velocity_scale=velocity_scale,
+            self_distance_stop=self_distance_stop,
+        )
         self._episode: Episode | None = None
-        self._fault = ""
-        self._self_distance = 0.0
         self._grips = grips
-        self.fingers = Fingers(wide_open, self.drive.observe().opening)
+        self.fingers = Fingers(wide_open, self.observation.opening)
         self._stand()
 
     @property
@@ -132,7 +134,7 @@ class Arm:
             part: of the prediction in which the operator's correction counts.
         """
         self._stand()
-        execution = Execution(self.measured, prediction, look_ahead, CONTROL_PERIOD, part)
+        execution = Execution(self.measured, prediction, look_ahead, CONTROL_PERIOD, part, inert=self._joints.inert)
         self._episode = Episode(execution, CONTROL_PERIOD, grips=self._grips)
 
     def teleoperate(self) -> None:
@@ -147,7 +149,9 @@ class Arm:
             self._episode.cut_short(cut, reason, self.measured)
 
     def stop(self, reason: str = "") -> EpisodeOutcome | None:
-        """Stand still where the arm is measured to be, at once; the gripper keeps what it holds.
+        """Stand still: at once where the arm is measured to be, or as a motion that has come to its end does.
+
+        The gripper keeps what it holds.
 
         Args:
             reason: why the episode did not come to its end, empty where it did.
@@ -156,7 +160,8 @@ class Arm:
             The outcome of the episode that ran.
         """
         episode, self._episode = self._episode, None
-        self._q = self.observation.q
+        if reason or episode is None:
+            self._joints.stand(self.observation.q)
         return episode.outcome(self._verdict, self.measured, reason, self.fingers.now) if episode is not None else None
 
     def halt(self, reason: str) -> EpisodeOutcome | None:
@@ -196,9 +201,13 @@ class Arm:
         clamped: tuple[str, ...] = ()
         fault = ""
         try:
-            previous_q, clamped = self._decide(episode, wanted, leeway, holding=holding)
-            qd, held = (self._q - previous_q) / CONTROL_PERIOD, bool(hold_reason)
-            self._q = self.drive.period(self._q, qd, self.fingers.told, given, held=held)
+            before = self._joints.q
+            clamped = self._decide(episode, wanted, leeway, holding=holding)
+            q = self._joints.q
+            qd, held = (q - before) / CONTROL_PERIOD, bool(hold_reason)
+            told = self.drive.period(q, qd, self.fingers.told, given, held=held)
+            if told is not q:
+                self._joints.stand(told)  # another leads them, to where motions start
             self._observe()
         except Exception as error:  # noqa: BLE001 (whatever hardware and solvers raise: the arm stands and says so)
             fault = self.drive.fault(error)
@@ -206,7 +215,7 @@ class Arm:
         if episode is not None:
             episode.judged(self._verdict)
             if not (holding or fault):
-                commanded = self._kinematics.forward(self._q)
+                commanded = self._kinematics.forward(self._joints.q)
                 episode.record(
                     self._reference,
                     commanded,
@@ -225,69 +234,48 @@ class Arm:
             correction=episode.execution.correction if episode is not None else UNCORRECTED,
             hold_reason=hold_reason if holding else "",
             clamped=clamped,
-            self_distance=self._self_distance,
+            self_distance=self._joints.self_distance,
             verdict=self._verdict,
             outcome=outcome,
             fault=fault,
         )
 
-    def _decide(
-        self, episode: Episode | None, wanted: Correction, leeway: float, *, holding: bool
-    ) -> tuple[Array, tuple[str, ...]]:
-        """Choose the next command; the joints that it starts from, and what was clamped."""
+    def _decide(self, episode: Episode | None, wanted: Correction, leeway: float, *, holding: bool) -> tuple[str, ...]:
+        """Choose the next command; what was clamped."""
         if episode is None:
-            return self._q, ()
+            self._joints.rest()
+            return ()
         if not holding:
             return self._follow(episode, wanted, leeway)
-        if not episode.holding:
-            # A blocked arm's command lies ahead of it: the arm must not creep there while it holds.
-            self._q = self.observation.q
+        self._joints.hold(self.observation.q, begins=not episode.holding)
         episode.hold()
-        return self._q, ()
+        return ()
 
-    def _follow(self, episode: Episode, wanted: Correction, leeway: float) -> tuple[Array, tuple[str, ...]]:
-        """Command the next reference; the joints that it started from, and what was clamped."""
+    def _follow(self, episode: Episode, wanted: Correction, leeway: float) -> tuple[str, ...]:
+        """Command the next reference; what was clamped."""
         within, too_far = safety.clamp_correction(self._kinematics.admitted(wanted))
         if episode.holding:
-            self._q, self._reference = self.observation.q, self.measured
-        reference = episode.advance(within, self.measured, leeway)
+            self._joints.resume(self.observation.q)
+            self._reference = self.measured
+        reference = episode.advance(within, self.measured, leeway, self._joints.share)
         self.fingers.tell(episode.execution.opening)
         self._reference, too_fast = safety.clamp_reference(self._reference, reference, CONTROL_PERIOD)
-        clamped = [*too_far, *too_fast]
-        q, target = self._q, self._reference
-        # The limits allow a shorter step in a shorter period: the solver then keeps to the scaled speeds.
-        period = self._velocity_scale * CONTROL_PERIOD
-        try:
-            solved, _ = self._kinematics.solve_step(q, target.position, target.orientation, period)
-        except InverseFailed as error:
-            return q, (*clamped, str(error))
-        if not np.isfinite(solved).all():
-            return q, (*clamped, "inverse kinematics gave no number")
-        q_next, joints = self._limits.clamp(q, solved, CONTROL_PERIOD)
-        clamped.extend(joints)
-        distance = self._kinematics.self_distance(q_next)
-        if safety.self_collision(distance, self._self_distance, self._self_distance_stop):
-            self._fault = f"the robot comes within {distance * 1e3:.0f} mm of itself"
-            return q, tuple(clamped)
-        self._q, self._self_distance = q_next, distance
-        clamped.extend(shortfall(self._kinematics.forward(q_next), target, self._kinematics.turn_slack))
-        return q, tuple(clamped)
+        return (*too_far, *too_fast, *self._joints.follow(self._reference))
 
     def _conclude(self, episode: Episode) -> EpisodeOutcome | None:
         touch = self.observation.touch
+        fault = self._joints.fault
         if touch is not None and safety.too_forceful(touch.force):
-            self._fault = f"{touch.between[0]} pressed against {touch.between[1]} with {touch.force:.0f} N"
-        if self._fault:
+            fault = f"{touch.between[0]} pressed against {touch.between[1]} with {touch.force:.0f} N"
+        if fault:
             x, y, z = self.measured.position
-            return self.stop(f"{self._fault}, with the gripper at ({x:.2f}, {y:.2f}, {z:.2f}) m")
+            return self.stop(f"{fault}, with the gripper at ({x:.2f}, {y:.2f}, {z:.2f}) m")
         return self.stop() if episode.over else None
 
     def _stand(self) -> None:
         """Start afresh from what is measured."""
         self.observation = self.drive.observe()
-        self._q = self.observation.q
-        self._fault = ""
-        self._self_distance = self._kinematics.self_distance(self._q)
+        self._joints.stand(self.observation.q)
         self._judge, self._began = self._criteria.begin(self.observation), self.observation.time
         self._observe()
         self._reference = self.measured

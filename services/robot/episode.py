@@ -75,8 +75,14 @@ class Course(Protocol):
         """What is wanted is more than a device's noise."""
         ...
 
-    def advance(self, wanted: Correction, leeway: float = 1.0) -> Pose:
-        """Go on by one control period as the operator wants, within the watchdog's leeway; the reference at its end."""
+    def advance(self, wanted: Correction, leeway: float = 1.0, share: float = 1.0) -> Pose:
+        """Go on by one control period as the operator wants; the reference at its end.
+
+        Args:
+            wanted: by the operator.
+            leeway: see `Watchdog.leeway`.
+            share: of its pace at which the joints let it go on.
+        """
         ...
 
     def rejoin(self, measured: Pose, *, at_once: bool) -> None:
@@ -178,13 +184,14 @@ class Episode:
         self._held += 1
         self._settled += self.settling
 
-    def advance(self, wanted: Correction, measured: Pose, leeway: float = 1.0) -> Pose:
+    def advance(self, wanted: Correction, measured: Pose, leeway: float = 1.0, share: float = 1.0) -> Pose:
         """Go on by one control period.
 
         Args:
             wanted: the correction that the operator asks for.
             measured: pose of the grasping frame, from where a hold is left.
             leeway: see `Watchdog.leeway`.
+            share: of its pace at which the joints let the motion go on.
 
         Returns:
             The reference at the end of the period.
@@ -199,7 +206,7 @@ class Episode:
             self.execution.rejoin(measured, at_once=duration <= LONG_HOLD_S)
         if self.execution.corrects:
             self._input |= self.execution.is_input(wanted)
-        return self.execution.advance(wanted, leeway)
+        return self.execution.advance(wanted, leeway, share)
 
     def record(
         self, reference: Pose, commanded: Pose, measured: Pose, openings: Openings = NO_GRIPPER, *, clamped: bool

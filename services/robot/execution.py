@@ -69,12 +69,23 @@ class Execution:
         look_ahead: L, after which the correction is to equal the operator's [s]; 0 moves the current way-point.
         period: of the control [s].
         part: of the prediction in which the operator's correction counts; elsewhere none is asked for.
+        inert: what follows it needs time to gain and to lose its speed: a motion that begins or ends at speed is begun
+            from rest and brought to rest.
     """
 
     def __init__(
-        self, measured: Pose, prediction: Trajectory, look_ahead: float, period: float, part: Part = WHOLE
+        self,
+        measured: Pose,
+        prediction: Trajectory,
+        look_ahead: float,
+        period: float,
+        part: Part = WHOLE,
+        *,
+        inert: bool = False,
     ) -> None:
         self._path = Path(prediction, period)
+        self._begins_fast = inert and self._path.begins_fast
+        self._ends_fast = inert and self._path.ends_fast
         self._passage = Passage()
         self._period = period
         self._at = 0.0  # [control periods]
@@ -146,26 +157,29 @@ class Execution:
         """
         self.pace.ask(rate, None if until is None else until * self._path.end)
 
-    def advance(self, wanted: Correction, leeway: float = 1.0) -> Pose:
+    def advance(self, wanted: Correction, leeway: float = 1.0, share: float = 1.0) -> Pose:
         """Go on by one control period.
 
         Args:
             wanted: the correction that the operator asks for; ignored on the ramp, on the way back, and outside the
                 part that is corrected.
             leeway: see `Watchdog.leeway`.
+            share: of its pace at which the joints let it go on.
 
         Returns:
             The reference at the end of the period.
         """
         if self.finished:
             return self.reference
-        paced = self.pace.step(self._at)
+        paced = share * self.pace.step(self._at)
         step = paced * self._easing.share(leeway)
         if self.ramping:
             self._ramp.advance(min(1.0, abs(step)))
-            if not self.ramping and self._at > 0.0:
+            if not self.ramping and (self._at > 0.0 or self._begins_fast):
                 self._easing.rest()
         elif step > 0.0:
+            if self._ends_fast:
+                step = min(step, self.pace.stopping(self._path.end - self._at))
             self._go_on(step, wanted, paced * eased(leeway))
         elif step < 0.0:
             self._at = max(0.0, self._at + step)

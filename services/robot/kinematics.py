@@ -11,11 +11,12 @@ import pink
 import pinocchio as pin
 from numpy.typing import NDArray
 from pink.exceptions import PinkError
-from pink.limits import ConfigurationLimit, VelocityLimit
+from pink.limits import Limit
 from pink.tasks import FrameTask, PostureTask
 from qpsolvers.exceptions import QPError
 
 from services.robot.correction import Correction
+from services.robot.limiter import braking_speed
 from services.robot.mechanism import InverseFailed, JointsInOtherOrder, Unreachable
 from sim.pose import Pose
 from sim.robots.catalogue import DEFAULT
@@ -29,6 +30,7 @@ _POSITION_COST = 1.0  # [cost] / [m]
 _ORIENTATION_COST = 0.1  # [cost] / [rad]: at a joint limit the orientation gives way first
 _SOFT_ORIENTATION_COST = 0.005  # [cost] / [rad]: of an arm that cannot have any: it takes no millimetre of the position
 _POSTURE_COST = 1e-3  # [cost] / [rad]: only what the frame leaves free
+_POSTURE_S = 0.25  # [s] in which the posture is drawn to where it is to be
 _LM_DAMPING = 1e-6
 _SOLVE_DT = 0.5  # [s]: long enough that the speed limits do not bind in a search
 _SOLVE_ITERATIONS = 60
@@ -65,14 +67,18 @@ class Kinematics:
         self.lower: Array = self._model.lowerPositionLimit.copy()
         self.upper: Array = self._model.upperPositionLimit.copy()
         self.velocity_limit: Array = self._model.velocityLimit.copy()
+        self.acceleration_limit: Array = np.array([joint.acceleration for joint in robot.joints])
+        self.jerk_limit: Array = np.array([joint.jerk for joint in robot.joints])
 
         self._configuration = pink.Configuration(self._model, self._data, (self.lower + self.upper) / 2)
         self.turn_slack = robot.turn_slack
         cost = _SOFT_ORIENTATION_COST if robot.turn_slack else _ORIENTATION_COST
         self._pose_task = FrameTask(GRASPING_FRAME, _POSITION_COST, cost, _LM_DAMPING)
-        self._posture_task = PostureTask(_POSTURE_COST)
+        # A joint that gains speed slowly is moved less.
+        slow = np.sqrt(self.acceleration_limit.max() / self.acceleration_limit)
+        self._posture_task = PostureTask((_POSTURE_COST * slow).tolist())
         self._posture_task.set_target((self.lower + self.upper) / 2 if posture is None else posture)
-        self._limits = (ConfigurationLimit(self._model, config_limit_gain=1.0), VelocityLimit(self._model))
+        self._limits = (_Steps(self),)
         self._geometry_data = _pair_up(self._model, self._geometry, robot)
 
     def forward(self, q: Array) -> Pose:
@@ -104,6 +110,7 @@ class Kinematics:
             InverseFailed: The solver found no step.
         """
         self._pose_task.set_target(_placement(position, orientation))
+        self._posture_task.gain = min(1.0, dt / _POSTURE_S)
         try:
             self._configuration.update(np.clip(q, self.lower, self.upper))
             velocity = pink.solve_ik(
@@ -168,6 +175,23 @@ class Kinematics:
         """
         nearest = pin.computeDistances(self._model, self._data, self._geometry, self._geometry_data, q)
         return float(self._geometry_data.distanceResults[nearest].min_distance)
+
+
+class _Steps(Limit):  # type: ignore[misc] # pink tells no types
+    """How far each joint may go in a step: as fast as it may, and no faster than it can brake before its range ends."""
+
+    def __init__(self, kinematics: Kinematics) -> None:
+        self._of = kinematics
+        joints = len(kinematics.lower)
+        self._sides = np.vstack([np.eye(joints), -np.eye(joints)])
+
+    def compute_qp_inequalities(self, configuration: pink.Configuration, dt: float) -> tuple[Array, Array]:
+        """Of a step from a configuration in dt [s]: G step <= h, shapes (2m, m) and (2m,)."""
+        of, q = self._of, configuration.q
+        ways = np.concatenate([of.upper - q, q - of.lower])
+        fastest = np.tile(of.velocity_limit, 2)
+        fastest = np.minimum(fastest, braking_speed(ways, np.tile(of.acceleration_limit, 2), np.tile(of.jerk_limit, 2)))
+        return self._sides, np.minimum(ways, dt * fastest)
 
 
 def _load(urdf: Path) -> tuple[pin.Model, pin.GeometryModel]:

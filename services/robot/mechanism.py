@@ -46,12 +46,16 @@ class Mechanism(Protocol):
         lower: least joint positions, shape (m,).
         upper: greatest joint positions, shape (m,).
         velocity_limit: greatest joint speeds, shape (m,).
+        acceleration_limit: greatest joint accelerations, shape (m,).
+        jerk_limit: greatest joint jerks, shape (m,).
         turn_slack: by how much it may leave an orientation that it is asked for, with nothing wrong [rad].
     """
 
     lower: Array
     upper: Array
     velocity_limit: Array
+    acceleration_limit: Array
+    jerk_limit: Array
     turn_slack: float
 
     def forward(self, q: Array) -> Pose:

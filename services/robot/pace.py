@@ -49,10 +49,13 @@ class Pace:
             return self.rate
         left = self._until - now
         if left * self.rate > 0.0:
-            self.rate = math.copysign(min(abs(self.rate), self._stopping(abs(left))), left)
+            self.rate = math.copysign(min(abs(self.rate), self.stopping(abs(left))), left)
         return self.rate
 
-    def _stopping(self, left: float) -> float:
-        """The greatest rate from which the way that is left suffices: v, v - a, v - 2 a and so on add up to it."""
+    def stopping(self, left: float) -> float:
+        """The greatest rate from which the time that is left suffices to come to rest [control periods].
+
+        Rates v, v - a, v - 2 a and so on add up to it.
+        """
         braking = 0.5 * self._slew * (math.sqrt(1.0 + 8.0 * left / self._slew) - 1.0)
         return min(left, braking)

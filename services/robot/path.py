@@ -14,6 +14,9 @@ from sim.pose import Pose
 
 Array = NDArray[np.float64]
 
+AT_REST, AT_REST_TURN = 0.05, 0.2
+"""[m/s, rad/s] up to which a motion counts as one that begins or ends at rest: an arm loses that within millimetres."""
+
 _NODES = 4
 _SLACK = 1e-9
 """Of a control period: where a duration is a multiple of it but for rounding, it is one."""
@@ -34,6 +37,16 @@ class Path:
         self._times = np.minimum(np.arange(self.end + 1) * period, prediction.duration)
         path = at_phases(prediction, self._times / prediction.duration, Interpolation.CUBIC)
         self._positions, self._orientations, self._opening = path.positions, path.orientations, path.opening
+        self.begins_fast = self._is_fast(0)
+        """It is no motion from rest: who follows it has to gain its speed first."""
+        self.ends_fast = self._is_fast(max(0, self.end - 2))
+        """It does not come to rest by itself; the last period may be a shorter one, the one before it counts."""
+
+    def _is_fast(self, tick: int) -> bool:
+        before, after = self.pose(float(tick)), self.pose(float(min(tick + 1, self.end)))
+        far = float(np.linalg.norm(after.position - before.position))
+        wide = 2.0 * math.acos(min(1.0, abs(float(before.orientation @ after.orientation))))
+        return far > AT_REST * self._period or wide > AT_REST_TURN * self._period
 
     def time(self, at: float) -> float:
         """Of the prediction [s].

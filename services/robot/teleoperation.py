@@ -113,17 +113,18 @@ class Teleoperation:
         """The hand moves, or asks something of the gripper."""
         return bool(wanted.offset.any() or wanted.turn.any()) or wanted.opening is not None
 
-    def advance(self, wanted: Correction, leeway: float = 1.0) -> Pose:
+    def advance(self, wanted: Correction, leeway: float = 1.0, share: float = 1.0) -> Pose:
         """Go on by one control period.
 
         Args:
             wanted: by how much the hand moves the reference, see `Coupling.step`.
             leeway: see `Watchdog.leeway`; a hand that is not heard moves nothing anyway.
+            share: of its pace at which the joints let it go on; a hand that is faster is on a leash.
 
         Returns:
             The reference at the end of the period.
         """
-        del leeway
+        del leeway, share
         if not self.finished:
             self._ticks += 1
             self.opening = self.opening if wanted.opening is None else wanted.opening

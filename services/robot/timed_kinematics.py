@@ -26,6 +26,7 @@ class TimedKinematics:
     def __init__(self, clock: Clock, kinematics: Mechanism) -> None:
         self.lower, self.upper = kinematics.lower, kinematics.upper
         self.velocity_limit, self.admitted = kinematics.velocity_limit, kinematics.admitted
+        self.acceleration_limit, self.jerk_limit = kinematics.acceleration_limit, kinematics.jerk_limit
         self.turn_slack = kinematics.turn_slack
         self.forward, self.solve, self.self_distance = kinematics.forward, kinematics.solve, kinematics.self_distance
         self._clock = clock

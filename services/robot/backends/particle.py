@@ -20,6 +20,7 @@ JOINTS = ("particle_x", "particle_y", "particle_z")
 
 _REACH = 0.5  # [m] of each slide, to both sides
 _SPEED = 1.0  # [m/s] of each slide
+_ACCELERATION, _JERK = 1e3, 1e6  # [m/s^2, m/s^3] no limits: from speed to speed in any period, as what has no mass
 _FLAT = 1e-6  # [m, or of a quaternion] that a start may lie beside the plane
 _STEPS = 5  # of a control period, at which it is looked whether the particle touches something
 _SHARES = np.linspace(0.0, 1.0, _STEPS + 1)[1:, None]  # of a period's way, after each of them
@@ -37,6 +38,8 @@ class ParticleKinematics:
         self.lower: Array = np.full(3, -_REACH)
         self.upper: Array = np.full(3, _REACH)
         self.velocity_limit: Array = np.full(3, _SPEED)
+        self.acceleration_limit: Array = np.full(3, _ACCELERATION)
+        self.jerk_limit: Array = np.full(3, _JERK)
         self.turn_slack = 0.0
         self._axes: Array = np.array(axes)
 

@@ -70,7 +70,7 @@ def _pressed(energy):
     site = ArmSite()
     site.acquire()
     site.refine(motion=site.lift(height=0.0, duration=8.0))
-    for k in range(250):
+    for k in range(300):
         site.run(PERIOD, master=(INTO_THE_BASKET * min(1.0, k / 200), 0.0, 0.0), contact_energy=energy)
     return site
 

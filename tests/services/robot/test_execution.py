@@ -262,3 +262,28 @@ def test_the_ramp_begins_at_the_measured_pose_and_is_smooth():
     assert positions[0] == 0.0
     assert max(speeds[0], speeds[-1]) < 1e-3
     assert np.max(speeds) == pytest.approx(1.875 * RAMP_SPEED, rel=1e-3)
+
+
+def test_what_needs_time_to_gain_its_speed_begins_from_rest_and_comes_to_rest():
+    motion = prediction()  # it begins slowly, and would end at speed
+    execution = Execution(at_start(motion), motion, look_ahead(motion), PERIOD, inert=True)
+    while execution.ramping:
+        execution.advance(UNCORRECTED)
+    steps, before = [], execution.reference
+    while not execution.finished:
+        reference = execution.advance(UNCORRECTED)
+        steps.append(np.linalg.norm(reference.position - before.position))
+        before = reference
+        assert len(steps) < 1000
+    np.testing.assert_allclose(before.position, motion.positions[-1], atol=1e-12)
+    assert max(steps[0], steps[-1]) < 0.1 * max(steps)
+
+
+def test_a_share_of_the_pace_slows_the_motion_down_and_leads_the_same_way():
+    motion = prediction()
+    whole, half = past_the_ramp(motion), past_the_ramp(motion)
+    for _ in range(100):
+        one = whole.advance(UNCORRECTED)
+        half.advance(UNCORRECTED, share=0.5)
+        other = half.advance(UNCORRECTED, share=0.5)
+        np.testing.assert_allclose(other.position, one.position, atol=1e-9)

@@ -100,7 +100,7 @@ def test_after_a_long_absence_the_robot_waits_to_be_asked(site, mode):
 def test_going_on_ramps_from_the_measured_pose(site):
     going(site)
     site.run(1.0, renew=False)
-    site.arm._q = site.arm._q + np.array([0.0, 0.05, 0.0])  # somebody moved it
+    site.arm._joints.stand(site.arm._joints.q + np.array([0.0, 0.05, 0.0]))  # somebody moved it
     site.run(0.1)
     resume(site)
     assert site.state.phase is Phase.RAMP

@@ -39,7 +39,7 @@ def test_the_operators_rotation_becomes_the_refinement_s_orientation(site, adapt
     site.refine(motion=site.lift(duration=3.0), adapt=adapt)
     site.run(1.4, master=(0.0, 0.0, 0.0), rotation=tuple(turn.tolist()))
     np.testing.assert_allclose(site.state.turn, turn, atol=1e-6)
-    site.run(2.5, master=(0.0, 0.0, 0.0), rotation=tuple(turn.tolist()))
+    site.run(3.5, master=(0.0, 0.0, 0.0), rotation=tuple(turn.tolist()))
     result = site.take_results()[0]
     assert result.operator_input, "turning alone is input too"
     assert result.completed
@@ -49,7 +49,7 @@ def test_the_operators_rotation_becomes_the_refinement_s_orientation(site, adapt
         np.testing.assert_allclose(np.linalg.norm(orientations, axis=1), 1.0, atol=1e-12)
         assert abs(orientations[-1] @ wanted) == pytest.approx(1.0, abs=1e-5)
     moved = from_wire(result.commanded.positions) - from_wire(site.predicted.positions)
-    np.testing.assert_allclose(moved, 0.0, atol=3e-3)
+    np.testing.assert_allclose(moved, 0.0, atol=0.02)  # the hand turns in no time, the joints within their limits
     np.testing.assert_allclose(moved[-1], 0.0, atol=1e-4)
 
 

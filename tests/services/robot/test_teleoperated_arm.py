@@ -72,7 +72,7 @@ def test_position_and_orientation_follow_the_hand(site):
 @given(st.lists(st.tuples(hands, st.floats(0.0, 0.04), st.sampled_from([-1, 1])), min_size=1, max_size=4))
 def test_a_hand_that_couples_anew_moves_the_arm_by_less_than_a_millimetre(site, pauses):
     for (displacement, rotation), stroke, sign in pauses:
-        be(site, (displacement, rotation), 0.3, engaged=False)
+        be(site, (displacement, rotation), 0.45, engaged=False)
         before = site.state
         be(site, (displacement, rotation), 0.02)
         after = site.state
