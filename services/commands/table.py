@@ -14,6 +14,7 @@ COMMANDS: tuple[Command, ...] = (
     Command("teach", "services.commands.teach", "give a model its first demonstrations, or a motion", needs="robot"),
     Command("history", "services.commands.history", "what a model has learnt; undo and redo of any", needs="station"),
     Command("skill", "services.commands.skill.command", "what a robot has learnt, by name", needs="station"),
+    Command("run", "services.commands.run", "execute a skill, and see how often it succeeds", needs="station"),
     Command("prepare", "services.commands.prepare", "make and keep what every simulated run needs", needs="robot"),
     Command("echo", "services.commands.echo", "print what passes on a key expression", needs="process"),
     Command("device", "services.commands.device.command", "input devices: there, live, calibrated", needs="master"),

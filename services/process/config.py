@@ -163,6 +163,7 @@ class StationSection(Section, frozen=True):
         scripted: the workflow's buttons are pressed by a script; there is no page.
         untaught: a script shows an empty skill its first motion; else it waits for whoever does.
         once: finish when the loop has closed, instead of going on with another object position.
+        executions: a script executes so often, each time at another place, and teaches nothing; 0 where it teaches.
     """
 
     host: str = "127.0.0.1"
@@ -188,6 +189,7 @@ class StationSection(Section, frozen=True):
     scripted: bool = False
     untaught: bool = False
     once: bool = False
+    executions: Annotated[int, msgspec.Meta(ge=0, le=10_000)] = 0
 
     @property
     def scheme(self) -> str:

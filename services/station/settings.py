@@ -27,6 +27,7 @@ def settings(section: StationSection, operator: str) -> Settings:
         fixed=section.fixed,
         scripted=section.scripted,
         once=section.once,
+        executions=section.executions,
         untaught=section.untaught,
         points=section.demonstration_points,
         keeps_tempo=section.demonstration_tempo,

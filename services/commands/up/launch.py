@@ -82,12 +82,8 @@ class Launch:
         for name in names:
             if name not in PROCESS_NAMES:
                 raise CommandFailed(f"--only: unknown process {name!r}; {right(name, PROCESS_NAMES)}")
-        if arguments.json is not None and not arguments.json.parent.is_dir():
-            raise CommandFailed(f"--json: the folder {arguments.json.parent} does not exist")
-        if arguments.json is not None and arguments.json.is_dir():
-            raise CommandFailed(f"--json: {arguments.json} is a folder; name a file in it")
-        if arguments.json is not None and arguments.json.exists() and not arguments.json.is_file():
-            raise CommandFailed(f"--json: {arguments.json} is a device or pipe; name a file")
+        if arguments.json is not None:
+            check_report(arguments.json)
         page = not arguments.headless and "station" in names
         at = placed(configuration, side) if side is not None else None
         return cls(
@@ -102,6 +98,20 @@ class Launch:
             page=page,
             browser=page and not arguments.no_browser,
         )
+
+
+def check_report(path: Path) -> None:
+    """Let pass where a report can be written.
+
+    Raises:
+        CommandFailed: it cannot.
+    """
+    if not path.parent.is_dir():
+        raise CommandFailed(f"--json: the folder {path.parent} does not exist")
+    if path.is_dir():
+        raise CommandFailed(f"--json: {path} is a folder; name a file in it")
+    if path.exists() and not path.is_file():
+        raise CommandFailed(f"--json: {path} is a device or pipe; name a file")
 
 
 def launch(configuration: Configuration, options: Launch) -> int:
@@ -185,7 +195,7 @@ def check_ports(configuration: Configuration, options: Launch) -> None:
             check_port("the router", endpoint.host, endpoint.port, "--listen")
         except PortInUse:
             raise EndpointInUse(configuration.listen) from None
-    if "station" in options.processes:
+    if "station" in options.processes and not options.headless:
         check_port("the operator's page", station.host, station.port, "[station] port")
     if "viewer" in options.processes:
         check_port("the viewer's page", viewer.host, viewer.web_port, "[viewer] web_port")

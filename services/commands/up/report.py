@@ -8,6 +8,7 @@ from pathlib import Path
 import msgspec
 
 from protocol.messages import Attempt, Mode, Vector3
+from services.commands.up.tally import Tally
 from services.process.exceptions import CannotWrite
 from services.process.files import write_whole
 
@@ -46,6 +47,7 @@ class Report(msgspec.Struct, frozen=True):
         recording_fault: why it broke off last; empty where it never did.
         attempts: every episode in order.
         first_motion_s: from the command to the robot's first motion; negative where it never moved.
+        executions: what came of those of a skill; None where it was taught.
     """
 
     loop_closed: bool
@@ -56,6 +58,7 @@ class Report(msgspec.Struct, frozen=True):
     recording_fault: str
     attempts: list[AttemptReport]
     first_motion_s: float
+    executions: Tally | None = None
 
 
 def attempt_reports(attempts: Iterable[Attempt]) -> list[AttemptReport]:
@@ -90,20 +93,23 @@ def write(report: Report, path: Path) -> None:
 
 def attempt_line(number: int, attempt: Attempt) -> str:
     """An episode in one line."""
+    faults = faults_of(attempt)
     who = "refinement" if attempt.mode is Mode.REFINE else "prediction"
     target, values = ("condition", attempt.condition) if attempt.condition else ("object at", attempt.object_position)
-    faults = [
-        word
-        for word, happened in (
-            ("collision", attempt.verdict.collision),
-            ("kicked over", attempt.verdict.kicked_over),
-            ("not reached", not attempt.verdict.reached),
-        )
-        if happened
-    ]
-    what = ", ".join(faults) or "reached"
+    what = faults or "reached"
     place = f"{attempt.scene} {attempt.variant}".strip()
     return (
         f"{number}. {who} of model version {attempt.model_version} in {place},"
         f" {target} ({', '.join(f'{value:.3f}' for value in values)}) m: {what}, {attempt.duration_s:.1f} s"
     )
+
+
+def faults_of(attempt: Attempt) -> str:
+    """What went wrong in an episode, in a few words; empty where nothing did."""
+    verdict = attempt.verdict
+    faults = (
+        ("collision", verdict.collision),
+        ("kicked over", verdict.kicked_over),
+        ("not reached", not verdict.reached),
+    )
+    return ", ".join(word for word, happened in faults if happened)

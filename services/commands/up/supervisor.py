@@ -12,9 +12,10 @@ from services.bus.zenoh import Lanes, ZenohBus, open_session
 from services.certificates.credentials import credentials
 from services.commands.up.child import Child
 from services.commands.up.network import Narrator, Page, Watch
-from services.commands.up.report import Report, attempt_reports, write
+from services.commands.up.report import Report, attempt_reports, faults_of, write
 from services.commands.up.retries import End
 from services.commands.up.status import status_table
+from services.commands.up.tally import Tally
 from services.commands.up.voice import Voice
 from services.process.clock import SystemClock
 from services.process.config import Configuration
@@ -132,12 +133,26 @@ class Supervisor:
             return
 
     def _finished(self, teaching: TeachingState) -> End:
+        tally = self._tally(teaching.reason)
+        if tally is not None:
+            for line in tally.lines():
+                self._voice.say("retouch", line)
+            self._write_report(teaching.reason)
+            return End("", Exit.DONE if tally.complete else Exit.CRASHED)
         if teaching.loop_closed:
             self._voice.say("retouch", f"the loop has closed in {len(self._narrator.attempts)} episodes")
         else:
             self._voice.say("retouch", f"the loop did not close: {teaching.reason}")
         self._write_report(teaching.reason)
         return End("", Exit.DONE if teaching.loop_closed else Exit.CRASHED)
+
+    def _tally(self, reason: str) -> Tally | None:
+        """Of a skill's executions, where it is executed and not taught."""
+        asked = self._configuration.station.executions
+        if not asked:
+            return None
+        attempts = [(attempt, faults_of(attempt)) for attempt in self._narrator.attempts.values()]
+        return Tally.of(self._configuration.model.skill, asked, attempts, reason)
 
     def _write_report(self, reason: str) -> None:
         if self._report is None:
@@ -154,5 +169,6 @@ class Supervisor:
             recording_fault=self._watch.recording_fault if self._watch is not None else "",
             attempts=attempt_reports(self._narrator.attempts.values()),
             first_motion_s=self._narrator.first_motion_s,
+            executions=self._tally(reason),
         )
         write(report, self._report)

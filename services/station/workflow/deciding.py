@@ -125,7 +125,7 @@ def _take(state: Workflow, view: View, settings: Settings, chosen: Action) -> St
         case Action.SKILL | Action.NEW_SKILL:
             return choose(state, view, chosen)
         case _:
-            taken = _end(state, view, say("event.ended_before"))
+            taken = _end(state, view, say("event.executed" if settings.executions else "event.ended_before"))
     return Step(taken)
 
 
@@ -158,12 +158,21 @@ def recommended(state: Workflow, settings: Settings) -> Action:
     """
     if is_unseen(state):
         return Action.LOOK
+    if settings.executions:
+        return _recommended_alone(state, settings)
     if state.guide.open:
         return guiding.recommended(state)
     if state.taught is not None and state.taught.whole:
         return Action.TEACH
     online = state.approach.method is Method.REFINE
     return (_recommended_online if online else _recommended_offline)(state, settings)
+
+
+def _recommended_alone(state: Workflow, settings: Settings) -> Action:
+    """As often as was asked for, each time at another place, whatever comes of it."""
+    if state.attempts and state.attempts[-1].number >= settings.executions:
+        return Action.END
+    return Action.EXECUTE if state.last is None else Action.NEXT
 
 
 def _recommended_online(state: Workflow, settings: Settings) -> Action:

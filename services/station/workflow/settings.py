@@ -32,6 +32,7 @@ class Settings:
         method: the only one; `UNKNOWN` where the operator chooses.
         basis: the only one that a refinement starts from, by its name; empty where the operator chooses.
         fixed: the operator changes neither a motion's pace nor the confidence, nor takes anything back.
+        executions: a script executes so often, each time at another place, and teaches nothing; 0 where it teaches.
         arrangement: what every reset asks for, its epoch aside; drawn at random where there is none.
     """
 
@@ -53,6 +54,7 @@ class Settings:
     method: Method = Method.UNKNOWN
     basis: str = ""
     fixed: bool = False
+    executions: int = 0
     arrangement: Reset | None = None
 
     @property
@@ -66,7 +68,8 @@ class Settings:
     @property
     def guides(self) -> bool:
         """Whoever operates shows an empty skill its first motions; nobody does where all is set beforehand."""
-        return (self.untaught or not self.scripted) and not self.place and self.arrangement is None
+        operates = self.untaught or not self.scripted
+        return operates and not self.executions and not self.place and self.arrangement is None
 
     def duration_s(self, mode: Mode) -> float:
         """Of an execution [s]."""
