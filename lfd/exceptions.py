@@ -19,6 +19,7 @@ LfdError
 ├── TableError              a table cannot be read, or its numbers cannot be meant
 └── StorageError            the store's file cannot be used
     ├── StorageUnavailable  it cannot be opened or written now, through no fault of its own
+    ├── ForeignFile         it is another program's
     ├── BoundElsewhere      what it holds was learnt for another scene or robot
     ├── NothingToUndo       it holds no such demonstration in use
     └── NothingToRedo       it holds no such demonstration that was taken back
@@ -226,6 +227,13 @@ class StorageUnavailable(StorageError):
     def __init__(self, path: Path, reason: str, remedy: str, *, passes: bool) -> None:
         self.passes = passes
         super().__init__(path, reason, remedy)
+
+
+class ForeignFile(StorageError):
+    """The file is a database of another program's."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(path, "this is not a file of demonstrations", "choose another file name")
 
 
 class BoundElsewhere(StorageError):

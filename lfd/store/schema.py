@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from lfd.exceptions import StorageError
+from lfd.exceptions import ForeignFile, StorageError
 from lfd.store.connection import Connection
 
 SCHEMA_VERSION = 7
@@ -81,7 +81,7 @@ def prepare(connection: Connection) -> None:
     application, schema = value("PRAGMA application_id"), value("PRAGMA user_version")
     empty = value("SELECT count(*) FROM sqlite_schema") == 0
     if application != APPLICATION_ID and not (empty and application == 0 and schema == 0):
-        raise StorageError(path, "this is not a file of demonstrations", "choose another file name")
+        raise ForeignFile(path)
     if schema > SCHEMA_VERSION:
         raise StorageError(path, f"its schema {schema} is newer than {SCHEMA_VERSION}", "update Retouch")
     connection.use_log()

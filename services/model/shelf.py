@@ -14,7 +14,7 @@ from lfd.store.database import DemonstrationStore
 from lfd.store.stored import About, Binding
 from services.model.alone import alone, unfinished
 from services.model.exceptions import NoSuchSkill, SkillMisfit, SkillNameBad, SkillOpen, SkillThere
-from services.model.skill_file import Skill, described, is_database
+from services.model.skill_file import Skill, described
 from services.process.exceptions import CannotWrite
 from services.process.files import make_folder, settle_names
 
@@ -24,6 +24,9 @@ DROPPED = ".dropped"
 
 Filler = Callable[[DemonstrationStore], None]
 """Puts into an empty file what a new skill is to hold."""
+
+_BESIDE = ("-wal", "-shm", "-journal")
+"""What SQLite keeps beside a file is called so."""
 
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,63}")
 
@@ -65,12 +68,14 @@ class Shelf:
     def names(self) -> list[str]:
         """Of all skills, in the order of the alphabet."""
         files = (path for path in self.folder.iterdir() if path.suffix == self._suffix and path.is_file())
-        told = (path for path in files if self._suffix or is_database(path))  # without a suffix it may be anything
-        return sorted(self._name(path) for path in told if not path.name.startswith("."))
+        told = (path for path in files if not path.name.startswith(".") and not path.name.endswith(_BESIDE))
+        return sorted(map(self._name, told))
 
     def all(self) -> list[Skill]:
         """What is known of each; files of other programs are left out."""
-        return [skill for skill in (described(name, self.path(name)) for name in self.names()) if skill is not None]
+        found = (described(name, self.path(name)) for name in self.names())
+        # Without a suffix a file that is no database may be anything.
+        return [skill for skill in found if skill is not None and (self._suffix or not skill.fault)]
 
     def find(self, name: str) -> Skill:
         """What is known of one.

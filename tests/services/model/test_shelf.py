@@ -200,3 +200,25 @@ def test_a_file_of_todays_schema_is_taken_over_in_place_as_a_skill_of_its_scene(
     store.close()
     assert (shelf.folder / "table.sqlite.schema-6").is_file()
     assert shelf.names() == ["table"]
+
+
+_RENAMES = """
+import sys
+from pathlib import Path
+from services.model.exceptions import SkillOpen
+from services.model.shelf import Shelf
+
+try:
+    Shelf(Path(sys.argv[1]), "robot1").rename("cups", "mugs")
+except SkillOpen:
+    sys.exit(7)
+"""
+
+
+def test_whoever_lists_the_skills_keeps_the_one_that_it_has_open(shelf, cups):
+    """A process that closes a file it has opened beside SQLite gives up all of its locks on it."""
+    store = shelf.take(cups, TABLE, 5.0)
+    shelf.all()
+    tried = subprocess.run([sys.executable, "-c", _RENAMES, str(shelf.folder)], check=False, env={**os.environ})
+    assert (tried.returncode, shelf.names()) == (7, [cups])
+    store.close()
