@@ -75,19 +75,23 @@ POINT_BYTES = 9
 """A point of a cloud takes: three coordinates of two bytes, three colours of one."""
 
 
+MOST_PACKING = 256
+"""By so many bytes at most a stream is longer than what is packed into it."""
+
+
 class PointCloud(Message, frozen=True, kw_only=True):
     """Points on the surfaces that a camera sees.
 
     Attributes:
         camera: that sees them.
-        data: the coordinates of all points, then the colours of all of them, little endian. A coordinate is an int16 in
-            the base frame [mm], a colour red, green and blue as uint8. What is left of the bytes when every point has
-            had its `POINT_BYTES` means nothing.
+        data: a zlib stream of the coordinates of all points, then the colours of all of them, little endian. A
+            coordinate is an int16 in the base frame [mm], a colour red, green and blue as uint8. What is left of the
+            bytes when every point has had its `POINT_BYTES` means nothing.
         captured_ns: stamp of the state that it shows, in the robot's monotonic clock [ns].
     """
 
     camera: Name
-    data: Annotated[bytes, msgspec.Meta(max_length=MOST_POINTS * POINT_BYTES)]
+    data: Annotated[bytes, msgspec.Meta(max_length=MOST_POINTS * POINT_BYTES + MOST_PACKING)]
     captured_ns: Count = 0
 
 

@@ -6,11 +6,13 @@ import math
 from collections.abc import Iterable
 from typing import NamedTuple, TypeVar
 
+import msgspec
 import numpy as np
 
 from lfd.motion.rotations import rotate
 from protocol import messages, topics
 from protocol.messages import Message
+from services.bus.arrays import points_unpacked
 from services.bus.bus import Bus
 from services.bus.identity import same_clock
 from services.bus.picture_queue import QueueReport
@@ -21,8 +23,6 @@ from services.station.page.view import Picture
 from sim.robots.robot import USUAL_CAMERAS
 
 M = TypeVar("M", bound=Message)
-Camera = PictureStream | Subscription[messages.PointCloud]
-
 _FORWARD, _UP = (0.0, 0.0, 1.0), (0.0, -1.0, 0.0)
 """Of an optical frame."""
 
@@ -31,6 +31,31 @@ PICTURES_WITHIN_S = 2.0
 
 HEARD_S = 0.3
 """Age at which the robot's state is not shown as its present one any more, on a busy machine too."""
+
+
+class Clouds:
+    """A camera's point clouds, each unpacked once, as browsers draw them.
+
+    Args:
+        subscription: to them.
+    """
+
+    def __init__(self, subscription: Subscription[messages.PointCloud]) -> None:
+        self._subscription = subscription
+        self._packed: Received[messages.PointCloud] | None = None
+        self._newest: Received[messages.PointCloud] | None = None
+
+    def latest(self) -> Received[messages.PointCloud] | None:
+        """The newest, however old it has become since."""
+        packed = self._subscription.latest()
+        if packed is not None and packed is not self._packed:
+            data = points_unpacked(packed.message.data)
+            self._packed = packed
+            self._newest = Received(msgspec.structs.replace(packed.message, data=data), packed.received_ns)
+        return self._newest
+
+
+Camera = PictureStream | Clouds
 
 
 class RobotClock(NamedTuple):
@@ -68,7 +93,7 @@ class Ears:
         self.predictions = Predictions(bus)
         self.cameras = {name: PictureStream(bus.subscribe(topics.CAMERA_IMAGE.of(name))) for name in cameras}
         self.queue = QueueReport(bus, *self.cameras.values())
-        self.cloud = bus.subscribe(topics.POINT_CLOUD)
+        self.cloud = Clouds(bus.subscribe(topics.POINT_CLOUD))
 
     def robot_clock(self, own: int) -> RobotClock | None:
         """What is known of it: at once on one machine, else while a master of this machine commands the robot.

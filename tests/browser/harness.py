@@ -19,7 +19,7 @@ from lessons import history, skills
 from lfd.motion.rotations import rotate
 from protocol import messages
 from protocol.messages import Box, Light, Mode, Phase, Pose
-from services.bus.arrays import motion_to_wire, points_to_wire, to_wire
+from services.bus.arrays import motion_to_wire, points_to_wire, points_unpacked, to_wire
 from services.bus.stages import Stages
 from services.process.clock import SystemClock
 from services.process.config import StationSection
@@ -71,7 +71,8 @@ def cloud() -> bytes:
         within[np.arange(POINTS_A_BOX), random.integers(0, 3, POINTS_A_BOX)] = random.choice((-1.0, 1.0), POINTS_A_BOX)
         positions.append(rotate(np.array(box.orientation), within * box.half_sizes) + box.centre)
         colours.append(np.tile(np.round(255 * np.array(box.rgba[:3])), (POINTS_A_BOX, 1)))
-    return points_to_wire(np.concatenate(positions), np.concatenate(colours).astype(np.uint8))
+    packed = points_to_wire(np.concatenate(positions), np.concatenate(colours).astype(np.uint8))
+    return points_unpacked(packed)
 
 
 def rows(array):

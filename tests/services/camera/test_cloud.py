@@ -1,5 +1,6 @@
 """The point cloud: what a depth picture shows, where it is."""
 
+import zlib
 from contextlib import closing
 
 import mujoco
@@ -8,7 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from protocol.messages import MOST_POINTS, Pose
+from protocol.codec import decode, encode
+from protocol.messages import MOST_POINTS, PointCloud, Pose
+from protocol.topics import POINT_CLOUD
 from services.bus.arrays import points_from_wire, points_to_wire, quaternion, vector3
 from services.camera.cloud import FARTHEST_M, cloud, stride
 
@@ -56,6 +59,23 @@ def test_points_come_over_the_wire_to_half_a_millimetre_and_what_is_left_over_is
     told, painted = points_from_wire(points_to_wire(positions, colours) + bytes(left))
     np.testing.assert_allclose(told, positions, atol=0.000501)
     np.testing.assert_array_equal(painted, colours)
+
+
+def test_a_cloud_that_cannot_be_packed_fits_its_message_too():
+    rng = np.random.default_rng(3)
+    colours = rng.integers(0, 256, (MOST_POINTS, 3), dtype=np.uint8)
+    data = points_to_wire(rng.uniform(-32.0, 32.0, (MOST_POINTS, 3)), colours)
+    message = PointCloud(camera="head", data=data)
+    assert decode(POINT_CLOUD, encode(POINT_CLOUD, message)) == message
+
+
+@pytest.mark.parametrize("data", [b"", b"no stream", zlib.compress(b"")])
+def test_what_is_no_stream_of_points_has_none(data):
+    assert len(points_from_wire(data)[0]) == 0
+
+
+def test_a_stream_that_unpacks_to_more_than_a_message_holds_is_cut_there():
+    assert len(points_from_wire(zlib.compress(bytes(100_000_000)))[0]) == MOST_POINTS
 
 
 @pytest.mark.sim
