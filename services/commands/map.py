@@ -200,7 +200,7 @@ def draw_map(request: Request) -> SuccessMap:
     learnt = [Learnt(tuple(stored), ())] if stored else _first(request, scene, variant, jobs, console)
     stages = [_stages(request, one.stored) for one in learnt]
     settings = _settings(request, scene)
-    task = Tried(scene.name, variant, tuple(models for _, models in stages), settings)
+    task = Tried(scene.reference, variant, tuple(models for _, models in stages), settings)
     with bar(console, len(settings)) as advance:
         tried = conditions(task, jobs, advance)
     corrections = max(counts for counts, _ in stages)
@@ -258,7 +258,9 @@ def _first(request: Request, scene: AnyScene, variant: str, jobs: int, console: 
     demonstrations = first_demonstrations(scene)  # half a minute, where they are not kept
     scatter = Scripted().scatter if request.scatter is None else request.scatter
     lessons = [
-        Lesson(scene.name, variant, request.kind, tuple(demonstrations), tuple(targets), corrections, seed, scatter)
+        Lesson(
+            scene.reference, variant, request.kind, tuple(demonstrations), tuple(targets), corrections, seed, scatter
+        )
         for seed in range(request.seed, request.seed + (request.people or 1))
     ]
     with console.status("the scripted operator corrects"):

@@ -76,7 +76,7 @@ def _key(scene: AnyScene) -> str:
     """
     digest = hashlib.sha256(SCHEMA_VERSION.to_bytes(2))
     if isinstance(scene, ReachingScene):
-        digest.update(repr((scene.manipulator, scene.stance)).encode())
+        digest.update(scene.told)
         if not scene.manipulator.source.package:
             digest.update(source_of(scene.manipulator).read_bytes())
     for package in (sim, robot, offline):

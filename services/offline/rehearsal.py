@@ -143,7 +143,7 @@ class Rehearsal:
         Raises:
             CommandFailed: it does not take it.
         """
-        give(self._stage, self._plan.scene, demonstrations)
+        give(self._stage, self._scene.name, demonstrations)
 
     def course(self, arrangement: Arrangement, refinements_allowed: int) -> Course:
         """Algorithm 1 under one condition.

@@ -103,9 +103,7 @@ def ways(scene: ReachingScene, cache: Path | None = None) -> dict[str, Way]:
 def _key(scene: ReachingScene) -> str:
     modules = (planning_arm, sampling, inspect.getmodule(_key))
     texts = b"".join(Path(str(module.__file__)).read_bytes() for module in modules if module)
-    told = (scene.arrangement, scene.things, scene.start.position.tolist(), scene.start.orientation.tolist())
-    of_robot = (scene.manipulator, scene.stance, scene.variants, scene.training_positions.tolist())
-    return hashlib.sha256(texts + repr((told, of_robot)).encode()).hexdigest()[:16]
+    return hashlib.sha256(texts + scene.told).hexdigest()[:16]
 
 
 def _write(scene: ReachingScene, scratch: Path, target: Path) -> None:

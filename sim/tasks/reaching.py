@@ -51,6 +51,15 @@ class ReachingScene(Scene):
         return self.name if self.file is None else str(self.file)
 
     @property
+    def told(self) -> bytes:
+        """All that its file says of it, and how its robot stands there: whoever keeps something for it goes by this."""
+        numbers = (self.start.position, self.start.orientation, self.training_positions)
+        said = (self.name, self.variants, self.region, self.things, self.success, self.arrangement, self.ways)
+        meshes = (mesh.file.read_bytes() for mesh in self.arrangement.meshes)
+        exact = [one.tolist() for one in numbers]
+        return b"".join((repr((said, exact, self.manipulator, self.stance)).encode(), *meshes))
+
+    @property
     def target(self) -> Thing:
         """The object that motions are relative to."""
         return self.things[0]

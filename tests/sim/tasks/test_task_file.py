@@ -170,3 +170,17 @@ def test_a_fault_is_one_line_with_its_place_and_what_would_be_right(
 def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:
     with pytest.raises(TaskUnfit, match=r"gone\.toml: No such file"):
         scene(str(tmp_path / "gone.toml"))
+
+
+def test_what_is_kept_for_a_task_is_told_apart_by_all_that_its_file_says(tmp_path: Path) -> None:
+    """What was taught in one arrangement is no good in another of the same name."""
+    first = task(tmp_path).told
+    assert task(tmp_path).told == first
+    for before, after in (("0.5, 0.0, 0.55", "0.5, 0.1, 0.55"), ("pitch = 40.0", "pitch = 41.0"), ("0.10]", "0.11]")):
+        assert before in SMALL
+        assert task(tmp_path, SMALL.replace(before, after)).told != first
+    write_stl(tmp_path / "ball.stl", ball())
+    text = SMALL + '[[meshes]]\nname = "bowl"\nfile = "ball.stl"\nposition = [0.8, 0.1, 0.6]\n'
+    whole = task(tmp_path, text).told
+    write_stl(tmp_path / "ball.stl", ball()[:-4])
+    assert task(tmp_path, text).told != whole
