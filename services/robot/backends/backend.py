@@ -161,7 +161,7 @@ class RobotNotAnswering(EnvironmentFault):
         self.robot = robot
         self.host = host
         self.reason = reason
-        super().__init__(f"no {robot} can be commanded at {host}: {reason}")
+        super().__init__(f"no {robot} arm can be commanded at {host}: {reason}")
 
 
 def check_first(joint_names: Sequence[str], commanded: Array, measured: Array) -> None:

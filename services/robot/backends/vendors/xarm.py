@@ -4,6 +4,7 @@ Tried against a stand-in for the library's interface only.
 """
 
 import importlib
+import logging
 import math
 import time
 from collections.abc import Callable
@@ -162,6 +163,8 @@ def _installed() -> Open:
     """
     try:
         api = importlib.import_module(MODULE).XArmAPI
+        # It writes a line for each call that fails, over whatever else is said.
+        importlib.import_module("xarm.core.utils.log").logger.setLevel(logging.CRITICAL)
     except ImportError:
         raise RoomMissing(KIND, MODULE.partition(".")[0]) from None
     return lambda host: api(host, is_radian=True, report_type="real")

@@ -169,7 +169,7 @@ def test_of_hardware_that_nobody_has_a_file_for_the_known_ones_are_named():
 def test_a_robot_that_does_not_answer_is_told_in_a_line_within_seconds():
     with pytest.raises(RobotNotAnswering) as told:
         reached("test", "192.0.2.1", lambda: time.sleep(5.0), within_s=0.05)
-    assert "no test can be commanded at 192.0.2.1: no answer within" in str(told.value)
+    assert "no test arm can be commanded at 192.0.2.1: no answer within" in str(told.value)
     assert "\n" not in str(told.value)
 
     def refuse():

@@ -104,5 +104,5 @@ def test_an_xarm_that_reports_nothing_is_not_there(monkeypatch):
     monkeypatch.setattr(vendors.xarm, "FIRST_REPORT_S", 0.05)
     rig = rigs.faked_xarm()
     monkeypatch.setattr(rig.fake, "register_report_callback", lambda callback: True)
-    with pytest.raises(RobotNotAnswering, match=r"no UFACTORY can be commanded at 192.*: it reports nothing"):
+    with pytest.raises(RobotNotAnswering, match=r"no UFACTORY arm can be commanded at 192.*: it reports nothing"):
         rig.backend.connect()
