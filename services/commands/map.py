@@ -257,10 +257,9 @@ def _first(request: Request, scene: AnyScene, variant: str, jobs: int, console: 
         scene.check_place(np.array(target), scene.margin)
     demonstrations = first_demonstrations(scene)  # half a minute, where they are not kept
     scatter = Scripted().scatter if request.scatter is None else request.scatter
+    where = scene.reference
     lessons = [
-        Lesson(
-            scene.reference, variant, request.kind, tuple(demonstrations), tuple(targets), corrections, seed, scatter
-        )
+        Lesson(where, variant, request.kind, tuple(demonstrations), tuple(targets), corrections, seed, scatter)
         for seed in range(request.seed, request.seed + (request.people or 1))
     ]
     with console.status("the scripted operator corrects"):

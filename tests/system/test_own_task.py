@@ -1,4 +1,4 @@
-"""A task file of a person's own, outside the project, by its path: the loop closes in it, whichever robot stands there."""
+"""A task file of a person's own, outside the project, by its path: the loop closes in it with any robot."""
 
 import pytest
 
