@@ -65,10 +65,14 @@ def run(arguments: Namespace) -> int:
         raise CommandFailed(f"--times {arguments.times}: give {MOST} at most")
     if arguments.json is not None:
         check_report(arguments.json)
+    # Which variants there are, the skill's task says, which is not known before.
+    variant, arguments.variant = arguments.variant, None
     settings = configuration(arguments)
     here = arguments.connect is None
     if here:
         settings = fitted(settings, arguments.skill, task=arguments.task, model=arguments.robot_model)
+        if variant is not None:
+            scene_of(settings.robot).check(variant)
     else:
         use(settings, arguments.skill)
     executing = Launch(
@@ -81,7 +85,7 @@ def run(arguments: Namespace) -> int:
         page=False,
         browser=False,
     )
-    return launch(executed(settings, arguments.skill, arguments.times), executing)
+    return launch(executed(settings, arguments.skill, arguments.times, variant or ""), executing)
 
 
 def fitted(settings: Configuration, name: str, *, task: str | None, model: str | None) -> Configuration:
@@ -115,11 +119,13 @@ def fitted(settings: Configuration, name: str, *, task: str | None, model: str |
     return msgspec.structs.replace(settings, robot=robot)
 
 
-def executed(settings: Configuration, name: str, times: int) -> Configuration:
+def executed(settings: Configuration, name: str, times: int, variant: str) -> Configuration:
     """The configuration of a run that executes a skill and teaches nothing."""
+    station = settings.station
+    chosen = variant or station.variant
     return msgspec.structs.replace(
         settings,
         model=msgspec.structs.replace(settings.model, skill=name),
         master=msgspec.structs.replace(settings.master, device=Scripted()),
-        station=msgspec.structs.replace(settings.station, scripted=True, once=True, executions=times),
+        station=msgspec.structs.replace(station, scripted=True, once=True, executions=times, variant=chosen),
     )

@@ -44,6 +44,14 @@ def test_a_skill_is_executed_by_a_script_for_its_own_task_and_robot_and_nothing_
     assert (launch.headless, launch.untaught, launch.page, launch.router) == (True, True, False, True)
 
 
+def test_the_variants_are_those_of_the_skills_task(shelf, launched, capsys):
+    skill(shelf, "dots", Binding("particle", "particle"))
+    assert main(["run", "dots", "--variant", "free"]) == 0
+    assert launched[0][0].station.variant == "free"
+    assert main(["run", "dots", "--variant", "b1"]) == 2
+    assert "'particle' has no variant 'b1'" in capsys.readouterr().err
+
+
 def test_where_another_machine_is_joined_its_model_is_asked_for_the_skill_and_only_a_station_starts(
     launched, monkeypatch
 ):
