@@ -146,7 +146,8 @@ def _taken(chosen: Configuration, eye: Eye, board: Board, arguments: Namespace) 
 def _eye(chosen: Configuration, name: str | None) -> Eye:
     known = eyes(chosen)
     if name not in known:
-        raise CommandFailed(f"there is no camera {name or ''}: name one of {', '.join(known)}".replace("  ", " "))
+        what = "which camera is meant is not said" if name is None else f"there is no camera {name}"
+        raise CommandFailed(f"{what}: name one of {', '.join(known)}")
     return known[name]
 
 

@@ -99,6 +99,7 @@ def test_what_is_not_enough_is_one_line_that_says_what_to_add(film, tmp_path, ca
     for arguments, told in (
         (("calibrate", "wrist", "--from", few), "3 pictures show the board: take 5 more"),
         (("calibrate", "elbow", "--from", few), "there is no camera elbow: name one of head, wrist"),
+        (("calibrate",), "which camera is meant is not said: name one of head, wrist"),
         (("calibrate", "wrist", "--from", tmp_path / "nowhere"), "there is no picture in it"),
     ):
         code, line = said(capsys, *arguments)
