@@ -257,7 +257,9 @@ class Arm:
         if episode.holding:
             self._joints.resume(self.observation.q)
             self._reference = self.measured
-        reference = episode.advance(within, self.measured, leeway, self._joints.share)
+        # A hand is on a leash; only what the arm is near to slows it down.
+        share = self._joints.near if isinstance(episode.execution, Teleoperation) else self._joints.share
+        reference = episode.advance(within, self.measured, leeway, share)
         self.fingers.tell(episode.execution.opening)
         self._reference, too_fast = safety.clamp_reference(self._reference, reference, CONTROL_PERIOD)
         return (*too_far, *too_fast, *self._joints.follow(self._reference))

@@ -13,10 +13,12 @@ from services.robot import safety
 from services.robot.backends.backend import CONTROL_PERIOD, NativeLimits
 from services.robot.easing import eased
 from services.robot.execution import angle_between
-from services.robot.limiter import Dynamics, Limiter
+from services.robot.limiter import Dynamics, Limiter, braking_speed
 from services.robot.mechanism import InverseFailed, Mechanism
 from services.robot.pace import SLEW
 from services.robot.reach import shortfall
+from services.robot.slowing import TOLD as SLOW
+from services.robot.slowing import Approach, Zone
 from sim.pose import Pose
 
 Array = NDArray[np.float64]
@@ -36,9 +38,17 @@ LEFT_BEHIND = 0.005
 SOLVED = 0.9
 """Share of their speed at which the joints are wanted at most, so that one that is behind can catch up."""
 
+ITSELF_M, ITSELF_CREEP = 0.025, 0.01
+"""[m, m/s] before the distance to itself at which the robot stops, the zone in which it slows down, and its end."""
+
+SINGULAR = Zone(0.0, 0.03, 0.02)
+"""Of the dexterity; motions that ship stay above 0.04."""
+
 _SLEW = SLEW * CONTROL_PERIOD
 
-_SATURATED = 0.999 * SOLVED
+_AT_BOUND = 0.999
+_SATURATED = _AT_BOUND * SOLVED
+_STANDS = 1e-4  # [rad] of a step: a joint that has come to the end of its range slows nothing down any more
 
 
 def combined(kinematics: Mechanism, native: NativeLimits, velocity_scale: float) -> Dynamics:
@@ -74,6 +84,7 @@ class Joints:
         self_distance: between the robot's parts, where they are nearest [m].
         fault: why the arm may not go on; empty where it may.
         share: of its pace at which the reference is to go on.
+        near: the same by what the arm is near to alone, whatever its joints can follow.
     """
 
     def __init__(
@@ -94,6 +105,8 @@ class Joints:
         # The limits allow a shorter step in a shorter period: the solver then keeps to the scaled speeds.
         self._solver_period = SOLVED * velocity_scale * CONTROL_PERIOD
         self._self_distance_stop = self_distance_stop
+        self._itself = Zone(self_distance_stop, self_distance_stop + ITSELF_M, ITSELF_CREEP)
+        self._braking = dynamics.acceleration, dynamics.jerk
         self.stand(q)
 
     @property
@@ -111,7 +124,9 @@ class Joints:
         self._wanted = q
         self.self_distance = self._kinematics.self_distance(q)
         self.fault = ""
-        self.share = 1.0
+        self.share = self.near = 1.0
+        self._to_itself = Approach(self._itself, CONTROL_PERIOD, self.self_distance)
+        self._to_singular = Approach(SINGULAR, CONTROL_PERIOD, self._kinematics.dexterity(q))
 
     def hold(self, q: Array, *, begins: bool) -> None:
         """Come to rest, one period of it, as fast as the limits allow.
@@ -124,7 +139,7 @@ class Joints:
             self.stand(q)
         self._limiter.brake()
         self._wanted = self.q
-        self.share = 1.0
+        self.share = self.near = 1.0
 
     def rest(self) -> None:
         """Nothing leads: come to where the last motion led, one period of it."""
@@ -154,7 +169,8 @@ class Joints:
             self.fault = f"the robot comes within {distance * 1e3:.0f} mm of itself"
             return beyond
         self.self_distance = distance
-        return (*beyond, *self._judged(target, self._wanted - before, behind))
+        slow = self._approached()
+        return (*beyond, *self._judged(target, before, behind), *slow)
 
     def _without(self, reason: str) -> tuple[str, ...]:
         """A period in which nothing is known to go to."""
@@ -162,23 +178,41 @@ class Joints:
         self._wanted = self.q
         return (reason,)
 
-    def _judged(self, target: Pose, step: Array, behind: NDArray[np.bool_]) -> tuple[str, ...]:
+    def _approached(self) -> tuple[str, ...]:
+        """What the arm slows down for, and by how much."""
+        itself = self._to_itself.share(self.self_distance, self.near)
+        singular = self._to_singular.share(self._kinematics.dexterity(self.q), self.near)
+        self.near = _slewed(self.near, max(SLOWEST, min(itself, singular)))
+        if self.near > SLOW:
+            return ()
+        return (
+            f"slow: {self.self_distance * 1e3:.0f} mm from itself" if itself < singular else "slow: nearly singular",
+        )
+
+    def _judged(self, target: Pose, before: Array, behind: NDArray[np.bool_]) -> tuple[str, ...]:
         """How far the arm is from its reference, and why; with it how fast the reference may go on."""
         pose = self._kinematics.forward(self.q)
         best = self._kinematics.forward(self._wanted) if behind.any() else pose
-        fast = np.abs(step) >= _SATURATED * CONTROL_PERIOD * self._limits.speed
-        clamped = []
+        fast, braking = self._bound(before)
+        bound = fast.any() or braking.any()
+        gap = _far(pose, target, self._kinematics.turn_slack) if bound else _far(pose, best)
+        self.share = min(self.near, _slewed(self.share, max(SLOWEST, 1.0 - eased(min(1.0, gap)))))
+        said = []
         if _far(pose, best) > TOLD:
-            clamped.append(
-                f"acceleration {self._names[int(np.argmax(np.abs(self._limiter.lag) / self._limits.speed))]}"
-            )
-        gap = _far(pose, target, self._kinematics.turn_slack) if fast.any() else _far(pose, best)
-        wanted = max(SLOWEST, 1.0 - eased(min(1.0, gap)))
-        # A reference that stopped at once would ask for more than one that goes on.
-        self.share += min(max(wanted - self.share, -_SLEW), _SLEW)
-        if fast.any() and gap > TOLD:
-            clamped.extend(f"speed {self._names[i]}" for i in np.flatnonzero(fast))
-        return (*clamped, *shortfall(best, target, self._kinematics.turn_slack))
+            last = int(np.argmax(np.abs(self._limiter.lag) / self._limits.speed))
+            said.append(f"acceleration {self._names[last]}")
+        if bound and gap > TOLD:
+            said += [f"speed {self._names[i]}" for i in np.flatnonzero(fast)]
+            said += [f"slow: near the limit of {self._names[i]}" for i in np.flatnonzero(braking)]
+        return (*said, *shortfall(best, target, self._kinematics.turn_slack))
+
+    def _bound(self, before: Array) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """Which joints are wanted as fast as they may be, and which as fast as they can still brake."""
+        step, limits = self._wanted - before, self._limits
+        fast = np.abs(step) >= _SATURATED * CONTROL_PERIOD * limits.speed
+        way = np.where(step > 0.0, limits.upper - before, before - limits.lower)
+        fastest = self._solver_period * braking_speed(np.maximum(way, 0.0), *self._braking)
+        return fast, (np.abs(step) >= _AT_BOUND * fastest) & (np.abs(step) > _STANDS) & ~fast
 
     def _distance(self, q: Array, other: Array) -> float:
         """Between the grasping frames of two postures [m]."""
@@ -190,3 +224,8 @@ def _far(one: Pose, other: Pose, turn_slack: float = 0.0) -> float:
     """How far two poses are from each other, as shares of `BEHIND` and `BEHIND_TURN`, the larger of them."""
     apart = float(np.linalg.norm(one.position - other.position)) / BEHIND
     return max(apart, angle_between(one.orientation, other.orientation) / (BEHIND_TURN + turn_slack))
+
+
+def _slewed(share: float, wanted: float) -> float:
+    """The share in the next period: a reference that stopped at once would ask for more than one that goes on."""
+    return share + min(max(wanted - share, -_SLEW), _SLEW)

@@ -42,6 +42,7 @@ _SETTLED = 1e-4  # [rad] by which a step still turns an arm of few joints once i
 _TRUNK_JOINTS = 1  # that carry a part of the trunk, at most
 _LIMB_JOINTS, _FEWER = 4, 3  # that carry a limb, at least; of an arm of less than six joints
 _SIX = 6
+_WEIGHTS = np.array([[1.0], [1.0], [1.0], [0.2], [0.2], [0.2]])  # of metres and radians [m]
 
 
 class Kinematics:
@@ -164,6 +165,19 @@ class Kinematics:
             except InverseFailed:
                 return None
         return None
+
+    def dexterity(self, q: Array) -> float:
+        """Return the ratio of the least to the greatest singular value of the grasping frame's Jacobian.
+
+        A radian of the frame counts as 0.2 m; of an arm of less than six joints its position alone counts.
+
+        Args:
+            q: Joint positions, shape (m,).
+        """
+        jacobian = pin.computeFrameJacobian(self._model, self._data, q, self._frame, pin.LOCAL)
+        rows = jacobian * _WEIGHTS if len(q) >= _SIX else jacobian[:3]
+        values = np.linalg.svd(rows, compute_uv=False)
+        return float(values[-1] / values[0])
 
     def self_distance(self, q: Array) -> float:
         """Return the smallest distance between two links that do not touch by design [m].

@@ -100,3 +100,11 @@ class Mechanism(Protocol):
     def self_distance(self, q: Array) -> float:
         """The smallest distance between two parts of the robot at joint positions q, shape (m,) [m]."""
         ...
+
+    def dexterity(self, q: Array) -> float:
+        """How far the arm is from a posture in which it cannot move one way, at joint positions q, shape (m,).
+
+        Returns:
+            From 0, where it is stretched out or two of its axes line up, to 1.
+        """
+        ...

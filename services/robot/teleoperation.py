@@ -119,16 +119,17 @@ class Teleoperation:
         Args:
             wanted: by how much the hand moves the reference, see `Coupling.step`.
             leeway: see `Watchdog.leeway`; a hand that is not heard moves nothing anyway.
-            share: of its pace at which the joints let it go on; a hand that is faster is on a leash.
+            share: of what the hand does that is done: less where the arm is near to where it must not be.
 
         Returns:
             The reference at the end of the period.
         """
-        del leeway, share
+        del leeway
         if not self.finished:
             self._ticks += 1
             self.opening = self.opening if wanted.opening is None else wanted.opening
-            self.reference = _leashed(self.reference, wanted.of(self.reference), self._measured())
+            moved = wanted if share == 1.0 else Correction(share * wanted.offset, share * wanted.turn, wanted.opening)
+            self.reference = _leashed(self.reference, moved.of(self.reference), self._measured())
         return self.reference
 
     def rejoin(self, measured: Pose, *, at_once: bool) -> None:

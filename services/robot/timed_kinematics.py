@@ -29,6 +29,7 @@ class TimedKinematics:
         self.acceleration_limit, self.jerk_limit = kinematics.acceleration_limit, kinematics.jerk_limit
         self.turn_slack = kinematics.turn_slack
         self.forward, self.solve, self.self_distance = kinematics.forward, kinematics.solve, kinematics.self_distance
+        self.dexterity = kinematics.dexterity
         self._clock = clock
         self._solve_step = kinematics.solve_step
         self.steps_ns: deque[int] = deque(maxlen=STEPS_KEPT)

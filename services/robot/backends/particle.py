@@ -67,6 +67,11 @@ class ParticleKinematics:
             raise Unreachable(position)
         return position.copy()
 
+    def dexterity(self, q: Array) -> float:
+        """It moves every way as well as any other."""
+        del q
+        return 1.0
+
     def self_distance(self, q: Array) -> float:
         """As far as can be said."""
         del q
