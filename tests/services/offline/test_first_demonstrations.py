@@ -11,7 +11,9 @@ from lfd.motion.demonstration import Demonstration
 from lfd.motion.trajectory import Trajectory
 from services.offline import first_demonstrations as module
 from services.offline.first_demonstrations import first_demonstrations
+from sim import tasks
 from sim.tasks import SCENES
+from sim.tasks.task_file import load_task
 
 SCENE = next(iter(SCENES.values()))
 
@@ -59,3 +61,12 @@ def test_a_full_disk_costs_no_second_lesson(tmp_path, monkeypatch, teaching):
     monkeypatch.setattr("sim.cache.tempfile.gettempdir", lambda: str(tmp_path / "tmp"))
     assert len(first_demonstrations(SCENE)) == 1
     assert teaching == [SCENE.name]
+
+
+def test_another_text_of_a_persons_task_is_taught_anew(tmp_path, teaching):
+    file = tmp_path / "mine.toml"
+    text = Path(str(tasks.__file__)).with_name("table.toml").read_text().replace('name = "table"', 'name = "mine"')
+    for reached in ("0.05", "0.04", "0.04"):
+        file.write_text(text.replace("reached = [0.05", f"reached = [{reached}"))
+        first_demonstrations(load_task(file), tmp_path / "cache")
+    assert teaching == ["mine", "mine"]
