@@ -11,7 +11,7 @@ import pink
 import pinocchio as pin
 from numpy.typing import NDArray
 from pink.exceptions import PinkError
-from pink.limits import Limit
+from pink.limits import ConfigurationLimit, Limit, VelocityLimit
 from pink.tasks import FrameTask, PostureTask
 from qpsolvers.exceptions import QPError
 
@@ -78,8 +78,12 @@ class Kinematics:
         # A joint that gains speed slowly is moved less.
         slow = np.sqrt(self.acceleration_limit.max() / self.acceleration_limit)
         self._posture_task = PostureTask((_POSTURE_COST * slow).tolist())
-        self._posture_task.set_target((self.lower + self.upper) / 2 if posture is None else posture)
         self._limits = (_Steps(self),)
+        # A search goes nowhere that has to be braked from: what a motion keeps to would only keep it from arriving.
+        self._search_task = PostureTask(_POSTURE_COST)
+        self._search_limits = (ConfigurationLimit(self._model, config_limit_gain=1.0), VelocityLimit(self._model))
+        for task in (self._posture_task, self._search_task):
+            task.set_target((self.lower + self.upper) / 2 if posture is None else posture)
         self._geometry_data = _pair_up(self._model, self._geometry, robot)
 
     def forward(self, q: Array) -> Pose:
@@ -110,17 +114,19 @@ class Kinematics:
         Raises:
             InverseFailed: The solver found no step.
         """
-        self._pose_task.set_target(_placement(position, orientation))
         self._posture_task.gain = min(1.0, dt / _POSTURE_S)
+        q_next = self._step(q, _placement(position, orientation), dt, self._posture_task, self._limits)
+        return q_next, (q_next - q) / dt
+
+    def _step(self, q: Array, target: pin.SE3, dt: float, posture: PostureTask, limits: tuple[Limit, ...]) -> Array:
+        self._pose_task.set_target(target)
         try:
             self._configuration.update(np.clip(q, self.lower, self.upper))
-            velocity = pink.solve_ik(
-                self._configuration, (self._pose_task, self._posture_task), dt, _SOLVER, limits=self._limits
-            )
+            velocity = pink.solve_ik(self._configuration, (self._pose_task, posture), dt, _SOLVER, limits=limits)
         except (PinkError, QPError) as error:
             raise InverseFailed(str(error).splitlines()[0]) from error
-        q_next = np.clip(q + velocity * dt, self.lower, self.upper)
-        return q_next, (q_next - q) / dt
+        q_next: Array = np.clip(q + velocity * dt, self.lower, self.upper)
+        return q_next
 
     def solve(self, position: Array, orientation: Array, seeds: Sequence[Array], rng: np.random.Generator) -> Array:
         """Find joint positions for a pose, from several starts.
@@ -161,7 +167,7 @@ class Kinematics:
                 return q
             before = turn
             try:
-                q, _ = self.solve_step(q, position, orientation, _SOLVE_DT)
+                q = self._step(q, target, _SOLVE_DT, self._search_task, self._search_limits)
             except InverseFailed:
                 return None
         return None

@@ -7,7 +7,7 @@ from services.robot.kinematics import Kinematics
 from services.robot.starts import StartImpossible, Starts
 from sim.pose import Pose
 from sim.robots.description import prepare
-from sim.tasks import THESIS
+from sim.tasks import REACHING, THESIS
 
 pytestmark = pytest.mark.sim
 SCENE = pytest.mark.parametrize("place", THESIS.values(), ids=THESIS)
@@ -25,6 +25,12 @@ def test_the_arm_stands_where_the_motion_is_to_start(place):
         stands = kinematics.forward(starts(place).joints(pose))
         np.testing.assert_allclose(stands.position, pose.position, atol=1e-4)
         assert abs(stands.orientation @ pose.orientation) == pytest.approx(1.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("place", REACHING.values(), ids=REACHING)
+def test_the_start_of_every_task_is_found_however_near_to_the_joints_ends_it_is(place):
+    stands = Kinematics(prepare().urdf).forward(starts(place).joints(place.start))
+    np.testing.assert_allclose(stands.position, place.start.position, atol=1e-4)
 
 
 @SCENE
