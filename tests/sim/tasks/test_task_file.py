@@ -167,6 +167,14 @@ def test_a_fault_is_one_line_with_its_place_and_what_would_be_right(
     assert "task.toml" in str(caught.value)
 
 
+def test_the_example_of_a_small_arm_stands_where_that_reaches_it() -> None:
+    desk = scene(str(Path(__file__).parents[3] / "deploy/examples/desk.toml"), robot("so101"))
+    assert isinstance(desk, ReachingScene)
+    low, high = np.array(desk.robot.reach.lower), np.array(desk.robot.reach.upper)
+    for place in (desk.start.position, np.array(desk.region.lower), np.array(desk.region.upper)):
+        assert np.all((low < place) & (place < high))
+
+
 def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:
     with pytest.raises(TaskUnfit, match=r"gone\.toml: No such file"):
         scene(str(tmp_path / "gone.toml"))
