@@ -38,7 +38,7 @@ class Attempt(msgspec.Struct, frozen=True):
     """One episode of a teaching run.
 
     The motion was relative to the object's position, and right or wrong for the condition; that is empty where it is
-    the object relative to the start. Attempts of a run are numbered from 1.
+    the object relative to the start. Attempts of a run are numbered from 1. One that is not completed was cut short.
     """
 
     scene: Name
@@ -51,6 +51,7 @@ class Attempt(msgspec.Struct, frozen=True):
     mode: Mode
     condition: Condition = ()
     number: Count = 0
+    completed: bool = True
 
 
 class ShowStep(enum.Enum):

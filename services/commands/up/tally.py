@@ -18,7 +18,8 @@ class Tally(msgspec.Struct, frozen=True):
     Attributes:
         skill: by its name.
         asked: how many were asked for.
-        executed: how many there were.
+        executed: how many came to their end.
+        cut_short: how many were stopped or ended before; they say nothing of the skill.
         successes: of these.
         interval: 95 % interval of the probability of a success (Wilson).
         failures: how many failed by what.
@@ -31,6 +32,7 @@ class Tally(msgspec.Struct, frozen=True):
     skill: str
     asked: int
     executed: int
+    cut_short: int
     successes: int
     interval: tuple[float, float]
     failures: dict[str, int]
@@ -49,20 +51,22 @@ class Tally(msgspec.Struct, frozen=True):
             attempts: each with what went wrong in it; empty where nothing did.
             reason: why it ended.
         """
-        failures = Counter(fault for _, fault in attempts if fault)
-        durations = [attempt.duration_s for attempt, _ in attempts] or [0.0]
-        successes = len(attempts) - failures.total()
+        whole = [(attempt, fault) for attempt, fault in attempts if attempt.completed]
+        failures = Counter(fault for _, fault in whole if fault)
+        durations = [attempt.duration_s for attempt, _ in whole] or [0.0]
+        successes = len(whole) - failures.total()
         return cls(
             skill=skill,
             asked=asked,
-            executed=len(attempts),
+            executed=len(whole),
+            cut_short=len(attempts) - len(whole),
             successes=successes,
-            interval=Proportion(successes, len(attempts)).interval,
+            interval=Proportion(successes, len(whole)).interval,
             failures=dict(failures.most_common()),
             shortest_s=min(durations),
             mean_s=sum(durations) / len(durations),
             longest_s=max(durations),
-            reason="" if len(attempts) >= asked else reason or "it was ended",
+            reason="" if len(whole) >= asked else reason or "it was ended",
         )
 
     @property
@@ -78,5 +82,7 @@ class Tally(msgspec.Struct, frozen=True):
             yield f"{count} failed: {fault}"
         if self.executed:
             yield f"each took {self.shortest_s:.1f} to {self.longest_s:.1f} s, {self.mean_s:.1f} s on average"
+        if self.cut_short:
+            yield f"{self.cut_short} cut short: that says nothing of the skill"
         if not self.complete:
             yield f"{self.executed} of {self.asked} were executed: {self.reason}"

@@ -57,6 +57,7 @@ def judged(state: Workflow, view: View, settings: Settings) -> Workflow:
         mode=Mode.TEACH if shown(state) else result.mode,
         condition=state.condition,
         number=state.attempts[-1].number + 1 if state.attempts else 1,
+        completed=result.completed,
     )
     taught = _kept(state, _taught(state, result, outcome, episode, settings))
     known = replace(

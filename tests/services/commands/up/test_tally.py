@@ -1,5 +1,6 @@
 """What executions of a skill come to: how many succeeded, how sure that is, why others failed, how long they took."""
 
+import msgspec
 import pytest
 
 from protocol.messages import Attempt, Mode, Outcome
@@ -38,6 +39,14 @@ def test_fewer_than_asked_for_say_why():
     found = tally(REACHED, asked=3, reason="stopped by anna")
     assert not found.complete
     assert list(found.lines())[-1] == "1 of 3 were executed: stopped by anna"
+
+
+def test_one_that_was_cut_short_is_no_failure_of_the_skill():
+    cut = Attempt("table", (0.8, 0.0, 0.5), 3, False, MISSED, 3.4, "moved", Mode.AUTONOMOUS, completed=False)
+    whole = msgspec.structs.replace(cut, verdict=REACHED, completed=True)
+    found = Tally.of("cups", 5, [(one, faults_of(one)) for one in (whole, cut)], "stopped by anna")
+    assert (found.executed, found.cut_short, found.successes, found.failures) == (1, 1, 1, {})
+    assert "1 cut short" in "\n".join(found.lines())
 
 
 def test_none_at_all_is_told_without_a_figure_that_nobody_measured():
