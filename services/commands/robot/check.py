@@ -60,11 +60,14 @@ def check(which: str, folder: Path) -> int:
         return Exit.BAD_INPUT
     wrong = _measure(one)
     _write(folder / f"{one.kind}.png", one)
+    if wrong:
+        return Exit.BAD_INPUT
+    _look_round(one)
     found = grasps(one)
     _say(f"grasps forward and down at {found.share:.0%} of the places that it reaches at all")
     pairs = zip(found.places, found.fine.tolist(), strict=True)
     _write(folder / f"{one.kind}-reach.png", one, [Dot(vector3(place), _COLOURS[fine]) for place, fine in pairs])
-    return Exit.BAD_INPUT if wrong else Exit.DONE
+    return Exit.DONE
 
 
 def draw(which: str, folder: Path) -> int:
@@ -79,7 +82,7 @@ def _robot(which: str) -> Manipulator:
 
 
 def _measure(one: Manipulator) -> bool:
-    """Say how it stands at home, how far it reaches and which scenes it can start in; whether home is wrong."""
+    """Say how it stands at home and how far it reaches; whether home or the box of the reach is wrong."""
     home = np.array(one.home)
     arm = Kinematics(prepare(robot=replace(one, base=Base())).urdf, home, one)
     wrong = False
@@ -99,9 +102,13 @@ def _measure(one: Manipulator) -> bool:
     if not (np.all(box.lower <= places) and np.all(places <= box.upper)):
         _say(f"reach: it goes beyond {list(box.lower)} to {list(box.upper)} m: write what was measured")
         wrong = True
+    return wrong
+
+
+def _look_round(one: Manipulator) -> None:
+    """Say which scenes it can start in."""
     for name in REACHING:
         _say(f"scene {name}: {_start(one, name)}")
-    return wrong
 
 
 def _start(one: Manipulator, name: str) -> str:

@@ -43,22 +43,23 @@ class Grasps:
         return float(self.fine.mean()) if len(self.fine) else 0.0
 
 
-def grasps(robot: Manipulator) -> Grasps:
+def grasps(robot: Manipulator, cell: float = CELL) -> Grasps:
     """Try the places of two planes: upright, straight ahead, and level, at the height of the home posture.
 
     Args:
         robot: that reaches.
+        cell: between two places [m].
     """
     home, rng = np.array(robot.home), np.random.default_rng(0)
     arm = Kinematics(prepare(robot=replace(robot, base=Base())).urdf, home, robot)
     postures = rng.uniform(arm.lower, arm.upper, (_SAMPLES, len(home)))
-    cells = np.round(np.array([arm.forward(q).position for q in postures]) / CELL).astype(int)
-    level = int(np.round(arm.forward(home).position[2] / CELL))
+    cells = np.round(np.array([arm.forward(q).position for q in postures]) / cell).astype(int)
+    level = int(np.round(arm.forward(home).position[2] / cell))
     seeds: dict[tuple[int, ...], Array] = {}
-    for q, cell in zip(postures, cells, strict=True):
-        if cell[1] == 0 or cell[2] == level:
-            seeds.setdefault(tuple(cell.tolist()), q)
-    places = CELL * np.array(list(seeds), dtype=np.float64).reshape(-1, 3)
+    for q, place in zip(postures, cells, strict=True):
+        if place[1] == 0 or place[2] == level:
+            seeds.setdefault(tuple(place.tolist()), q)
+    places = cell * np.array(list(seeds), dtype=np.float64).reshape(-1, 3)
     fine = [_reached(arm, place, (home, q)) for place, q in zip(places, seeds.values(), strict=True)]
     return Grasps(places, np.array(fine, dtype=bool))
 

@@ -1,12 +1,14 @@
 """`retouch robot list`, `check` and `draw`: what a person reads, and which pictures lie there."""
 
 import struct
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from services.cli import main
+from services.commands.robot import check
 from services.commands.robot.grasps import CELL, grasps
 from sim.robots.catalogue import NAMES, robot
 from sim.world.pictures import png
@@ -65,7 +67,8 @@ def test_the_list_has_every_robot_on_a_line(capsys) -> None:
     assert lines[0].startswith("tiago (default): 8 joints")
 
 
-def test_a_robot_of_a_persons_own_is_measured_and_drawn(file: Path, tmp_path: Path, capsys) -> None:
+def test_a_robot_of_a_persons_own_is_measured_and_drawn(file: Path, tmp_path: Path, capsys, monkeypatch) -> None:
+    monkeypatch.setattr(check, "grasps", partial(grasps, cell=0.3))
     assert main(["robot", "check", str(file), "--out", str(tmp_path / "pictures")]) == 0
     said = capsys.readouterr().out
     assert "reach: lower = " in said
@@ -87,6 +90,8 @@ def test_a_home_that_is_no_posture_is_said(file: Path, tmp_path: Path, capsys) -
     file.write_text(FILE.replace("[0.0, 0.5, 1.0, 0.6]", "[4.0, 0.5, 1.0, 0.6]"))
     assert main(["robot", "check", str(file), "--out", str(tmp_path)]) == 2
     assert "home: joint turn at 4 is outside its limits, -3 to 3" in capsys.readouterr().out
+    assert pictured(tmp_path / "mine.png")
+    assert not (tmp_path / "mine-reach.png").exists(), "a map from there would tell nothing"
 
 
 def test_a_box_that_is_smaller_than_the_reach_is_said(file: Path, tmp_path: Path, capsys) -> None:
@@ -118,8 +123,9 @@ def test_a_run_with_such_a_robot_does_not_begin(file: Path, capsys) -> None:
 
 
 def test_where_it_can_grasp_lies_in_two_planes_through_home() -> None:
-    found = grasps(robot("so101"))
-    cells = np.round(found.places / CELL).astype(int)
+    cell = 2.0 * CELL
+    found = grasps(robot("so101"), cell)
+    cells = np.round(found.places / cell).astype(int)
     assert len(set(map(tuple, cells.tolist()))) == len(cells)
     level = set(cells[cells[:, 1] != 0, 2].tolist())
     assert len(level) == 1
