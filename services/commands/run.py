@@ -74,7 +74,12 @@ def run(arguments: Namespace) -> int:
         if variant is not None:
             scene_of(settings.robot).check(variant)
     else:
-        use(settings, arguments.skill)
+        held = use(settings, arguments.skill)
+        if arguments.task is None:
+            robot = msgspec.structs.replace(settings.robot, scene=held.scene)
+            settings = msgspec.structs.replace(settings, robot=robot)
+        if not (held.demonstrations or held.updates):
+            raise CommandFailed(f"skill {arguments.skill} has learnt nothing yet: teach it first")
     executing = Launch(
         processes=PROCESS_NAMES if here else ("station",),
         router=here,

@@ -8,6 +8,7 @@ from datetime import UTC, datetime
 from lfd.store.database import DemonstrationStore
 from lfd.store.stored import About, Purpose
 from protocol import messages, queries
+from protocol.messages import ModelState
 from protocol.queries import ChooseSkill, Undo
 from services.bus.identity import new_number
 from services.commands.model_process import model_process
@@ -29,12 +30,13 @@ def new(shelf: Shelf, settings: Configuration, name: str, notes: str) -> None:
     _say(f"skill {name} is there, for task {binding.scene} on {binding.robot}, and has learnt nothing yet")
 
 
-def use(settings: Configuration, name: str) -> None:
-    """Have the running model process use a skill."""
+def use(settings: Configuration, name: str) -> ModelState:
+    """Have the running model process use a skill; what that is."""
     with model_process(settings, "history") as model:
         wanted = ChooseSkill(name, operator=settings.operator, request=new_number())
         state = model.ask(queries.CHOOSE_SKILL, wanted, f"use skill {name}").state
     _say(f"robot {settings.name} uses skill {state.skill}, version {state.version}")
+    return state
 
 
 def note(shelf: Shelf, name: str, notes: str) -> None:

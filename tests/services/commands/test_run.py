@@ -8,6 +8,7 @@ import pytest
 from lfd.motion.demonstration import Demonstration
 from lfd.motion.trajectory import Trajectory
 from lfd.store.stored import About, Binding, Purpose
+from protocol.messages import ModelState
 from services.cli import main
 from services.commands import run
 from services.model.shelf import Shelf
@@ -56,11 +57,13 @@ def test_where_another_machine_is_joined_its_model_is_asked_for_the_skill_and_on
     launched, monkeypatch
 ):
     asked = []
-    monkeypatch.setattr(run, "use", lambda settings, name: asked.append(name))
+    held = ModelState(kind="adaptive", version=2, demonstrations=1, updates=1, scene="table", skill="cups")
+    monkeypatch.setattr(run, "use", lambda settings, name: asked.append(name) or held)
     assert main(["run", "cups", "--connect", "tcp/127.0.0.1:7447"]) == 0
     ((settings, launch),) = launched
     assert asked == ["cups"]
     assert (launch.processes, launch.router, settings.station.executions) == (("station",), False, 10)
+    assert settings.robot.scene == "table"
 
 
 @pytest.mark.parametrize(
