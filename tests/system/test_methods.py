@@ -1,5 +1,7 @@
 """Each method from an empty skill to a model that can: a person leads the robot with the keyboard, on the page."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -11,6 +13,12 @@ from tests.system.harness import START_S, Command, Witness, configured, free_end
 from tests.system.teacher import Teacher
 
 pytest.importorskip("playwright.sync_api")
+
+APART_M = 0.03
+"""A hand on the keys goes along one axis at a time: so far it leads before it looks where the way is."""
+
+OTHER_PLACES = 3
+"""That a hand takes which has touched something on the way."""
 
 pytestmark = [pytest.mark.system, pytest.mark.browser, pytest.mark.zenoh, pytest.mark.sim, pytest.mark.alone]
 
@@ -42,6 +50,17 @@ def put(teacher, number):
     asked = teacher.decides()
     assert asked.showing == Showing(ShowStep.PLACE, number, 2), asked
     teacher.press("put")
+    return teacher.decides()
+
+
+def lead_there(teacher):
+    """Lead the gripper to the object in one go; what the page says then."""
+    teacher.take_up()
+    led = np.array(way(teacher))
+    for begin, end in pairwise(led):
+        for share in np.linspace(0.0, 1.0, 1 + max(1, round(np.linalg.norm(end - begin) / APART_M)))[1:]:
+            teacher.lead_to(begin + share * (end - begin))
+    teacher.done()
     return teacher.decides()
 
 
@@ -92,11 +111,14 @@ def test_a_demonstration_teaches_an_empty_skill_at_two_places(teacher):
     teacher.choose("demonstrate")
     for number in (1, 2):
         put(teacher, number)
-        teacher.take_up()
-        for place in np.array(way(teacher))[1:]:
-            teacher.lead_to(place)
-        teacher.done()
-        shown = teacher.decides()
+        shown = lead_there(teacher)
+        for _ in range(OTHER_PLACES):
+            if shown.attempts[-1].verdict.success:
+                break
+            assert "teach" not in shown.actions, "what touched something on the way cannot be kept"
+            teacher.press("other_place")
+            teacher.decides()
+            shown = lead_there(teacher)
         assert shown.attempts[-1].verdict.success
         assert shown.recommended == "execute", "it is seen before it is kept"
         replay(teacher)

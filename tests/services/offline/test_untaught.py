@@ -30,7 +30,11 @@ def taught(folder, robot, scene, method):
 @pytest.mark.parametrize(
     ("robot", "scene", "method"),
     [
-        ("ur5", "table", Method.WAYPOINTS),
+        ("panda", "pick", Method.WAYPOINTS),
+        pytest.param("panda", "pick", Method.DEMONSTRATE, marks=pytest.mark.long),
+        pytest.param("tiago", "pick", Method.WAYPOINTS, marks=pytest.mark.long),
+        pytest.param("panda", "place", Method.WAYPOINTS, marks=pytest.mark.long),
+        pytest.param("ur5", "table", Method.WAYPOINTS, marks=pytest.mark.long),
         pytest.param("panda", "table", Method.WAYPOINTS, marks=pytest.mark.long),
         pytest.param("panda", "table", Method.DEMONSTRATE, marks=pytest.mark.long),
         pytest.param("tiago", "table", Method.DEMONSTRATE, marks=pytest.mark.long),
