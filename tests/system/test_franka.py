@@ -102,7 +102,7 @@ class Desk:
                     displacement=displacement, rotation=(0.0, 0.0, 0.0), engaged=True, holder="ann", epoch=self.epoch
                 )
                 self.bus.publish(topics.MASTER_STATE, state)
-            commanded = self.service._control.arm._q
+            commanded = self.service._control.arm._joints.q
             self.service.step(self.clock.now_ns())
             heard = [received.message for received in self.states.take()]
             self.heard += heard
@@ -176,6 +176,7 @@ def test_a_reset_leads_it_back_to_its_start_slowly(desk, arm):
     assert desk.heard[-1].phase is Phase.IDLE
     assert np.abs(np.array(desk.heard[-1].q) - start()[1]).max() < 0.01
     rows = arm.seen[arm.seen[:, 0] >= since]
+    rows = rows[np.unique(rows[:, 0], return_index=True)[1]]  # a busy machine tells the same twice
     speeds = np.abs(rows[5:, 1:] - rows[:-5, 1:]) / (rows[5:, :1] - rows[:-5, :1])
     assert speeds.max() < 1.0, "less than half of what its slowest joint can do"
 
