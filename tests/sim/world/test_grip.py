@@ -139,8 +139,10 @@ def test_fingers_on_the_thing_are_no_collision_and_on_the_table_they_are() -> No
     hand = hand_of("tiago")
     hand.opening = 0.0
     hand.wait(1.5)
+    assert hand.world.observe().grasped
     assert hand.world.observe().contacts == ()
-    hand.go((0.0, 0.0, -0.06), 1.0)
+    hand.world.reset(PLACE + np.array([0.3, 0.0, 0.0]), q=hand.q)
+    hand.go((0.0, 0.0, -0.07), 1.0)
     assert {contact.robot_geom for contact in hand.world.observe().contacts} <= {
         "gripper_left_finger_link",
         "gripper_right_finger_link",
