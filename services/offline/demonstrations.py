@@ -12,6 +12,7 @@ from services.offline.steering import steered
 from services.process.exceptions import CommandFailed
 from services.robot.arm import Arm
 from services.robot.assembly import simulated_arm
+from sim.person.scatter import CAREFUL
 from sim.pose import Pose
 from sim.tasks import AnyScene, described
 
@@ -68,7 +69,9 @@ def demonstrate(
     variant = variant or scene.variants[0]
     start = scene.start if start is None else start
     for _ in range(TRIES):
-        trajectory = steered(scene.corridor(variant, place, start), rng, scene.freedom)
+        trajectory = steered(
+            scene.corridor(variant, place, start), rng, scene.freedom, scatter=CAREFUL * scene.unsteadiness
+        )
         outcome = rollout(arm, trajectory, place, variant=variant, start=start)
         if outcome.verdict.success:
             # What the gripper was told, not what it measured: fingers that hold something would not press on it else.

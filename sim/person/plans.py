@@ -1,6 +1,6 @@
 """What a person has in mind before a motion: the way that they mean, and the correction that leads a robot along it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,6 +40,7 @@ class Outlook:
         """
         ways = self.scene.corridors(self.variant, self.place, self.start)
         foreseen = ways[0].positions if motion is None else motion
+        scatter *= self.scene.unsteadiness
         return imagined(chosen(ways, foreseen, rng), foreseen, scatter, rng, self.scene.freedom)
 
     def correction(
@@ -68,4 +69,12 @@ class Outlook:
         known = [
             way for variant in self.scene.variants for way in self.scene.corridors(variant, self.place, self.start)
         ]
-        return plan(positions, orientations, meant, known, exaggeration, opening=opening)
+        planned = plan(positions, orientations, meant, known, exaggeration, opening=opening)
+        slack = self.scene.turn_slack
+        return replace(planned, rotations=_beyond(planned.rotations, slack)) if slack > 0.0 else planned
+
+
+def _beyond(rotations: Array, slack: float) -> Array:
+    """What is left of rotations, shape (n, 3), of a robot of which nobody asks for a turn that it may leave anyway."""
+    angles = np.linalg.norm(rotations, axis=1, keepdims=True)
+    return np.asarray(rotations * np.maximum(0.0, 1.0 - slack / np.maximum(angles, slack)), dtype=np.float64)

@@ -18,6 +18,8 @@ from sim.tasks.success import Success
 from sim.tasks.thing import Thing
 from sim.tasks.way import Way
 
+_LONG = 0.9  # [m] to which arms reach to either side that people's scatter was measured with, or longer ones
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ReachingScene(Scene):
@@ -73,6 +75,17 @@ class ReachingScene(Scene):
     def wide_open(self) -> float:
         """See `Scene.wide_open`."""
         return self.manipulator.gripper.opening if self.gripper else 0.0
+
+    @property
+    def unsteadiness(self) -> float:
+        """See `Scene.unsteadiness`: motions are as wide as the arm is long, and people scatter in proportion."""
+        low, high = self.manipulator.reach.lower[1], self.manipulator.reach.upper[1]
+        return min(1.0, (high - low) / 2 / _LONG)
+
+    @property
+    def turn_slack(self) -> float:
+        """See `Scene.turn_slack`."""
+        return self.manipulator.turn_slack
 
     @property
     def is_drawn(self) -> bool:

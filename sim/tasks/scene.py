@@ -131,6 +131,16 @@ class Scene(ABC):
         return 0.0
 
     @property
+    def unsteadiness(self) -> float:
+        """By how many times as much as usual a person's motions scatter who leads this robot."""
+        return 1.0
+
+    @property
+    def turn_slack(self) -> float:
+        """By how much the robot may leave an orientation that it is asked for [rad]."""
+        return 0.0
+
+    @property
     @abstractmethod
     def robot(self) -> Robot:
         """Return what moves in it, as it stands there."""
