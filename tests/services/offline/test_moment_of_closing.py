@@ -15,7 +15,7 @@ from sim.tasks import described, scene
 pytestmark = pytest.mark.sim
 
 TOO_EARLY = 0.4  # of a motion, by which its gripper closes before it is at the object
-HERE, BESIDE = np.array([0.68, 0.14, 0.56]), np.array([0.68, 0.12, 0.56])
+HERE, BESIDE = np.array([0.64, 0.09, 0.56]), np.array([0.64, 0.07, 0.56])
 
 
 @pytest.fixture(scope="module")

@@ -46,5 +46,5 @@ def test_a_script_shows_an_empty_skill_two_places_and_the_loop_closes(tmp_path, 
     assert ended.loop_closed, ended.reason
     shown = [one for one in ended.attempts if one.mode is Mode.TEACH and one.verdict.success]
     first, last = (np.array(one.object_position) for one in (shown[0], shown[-1]))
-    assert np.linalg.norm(first - last) > 0.1
+    assert np.linalg.norm(first - last) > 0.05
     assert (ended.attempts[-1].mode, ended.attempts[-1].operator_input) == (Mode.AUTONOMOUS, False)
