@@ -216,7 +216,13 @@ class _Steps(Limit):  # type: ignore[misc] # pink tells no types
 
 def _load(urdf: Path) -> tuple[pin.Model, pin.GeometryModel]:
     model = pin.buildModelFromUrdf(str(urdf))
-    return model, pin.buildGeomFromUrdf(model, str(urdf), pin.GeometryType.COLLISION)
+    geometry = pin.buildGeomFromUrdf(model, str(urdf), pin.GeometryType.COLLISION)
+    # A joint and a link may have one name, which Pinocchio reads and cannot reduce.
+    links = {frame.name for frame in model.frames if frame.type == pin.FrameType.BODY}
+    for frame in model.frames:
+        if frame.type != pin.FrameType.BODY and frame.name in links:
+            frame.name = f"joint:{frame.name}"
+    return model, geometry
 
 
 def _at_rest(model: pin.Model, robot: Manipulator) -> Array:

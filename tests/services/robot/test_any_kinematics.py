@@ -136,3 +136,18 @@ def test_joints_that_are_named_in_another_order_are_refused() -> None:
     swapped = replace(arm, joints=arm.joints[::-1])
     with pytest.raises(JointsInOtherOrder, match="name them in that order"):
         Kinematics(prepare(robot=arm).urdf, robot=swapped)
+
+
+@pytest.mark.parametrize(
+    ("link", "joint"), [("gripper_frame_link", "gripper_frame_joint"), ("wrist_link", "wrist_flex")]
+)
+def test_a_joint_may_be_called_as_a_link_is(link: str, joint: str, tmp_path) -> None:
+    """One that is fixed, and one that moves."""
+    arm = robot("so101")
+    described = prepare(robot=arm).urdf.read_text(encoding="utf-8")
+    assert described.count(f'"{joint}"')
+    path = tmp_path / "robot.urdf"
+    path.write_text(described.replace(f'"{link}"', f'"{joint}"'), encoding="utf-8")
+    home = np.array(arm.home)
+    same = Kinematics(path, home, arm)
+    np.testing.assert_array_equal(same.forward(home).position, kinematics("so101").forward(home).position)
