@@ -37,6 +37,7 @@ from protocol.messages.state import (
     ObjectPose,
     Phase,
     RobotState,
+    Unmet,
     Verdict,
     WorldState,
 )
@@ -131,6 +132,7 @@ __all__ = [
     "Text",
     "TopicFigures",
     "Trouble",
+    "Unmet",
     "Vector3",
     "Verdict",
     "Way",

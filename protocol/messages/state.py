@@ -133,11 +133,21 @@ class WorldState(Message, frozen=True, kw_only=True):
     object_pose: Pose
 
 
+class Unmet(enum.Enum):
+    """What a task asks for beside reaching its target, and is not so."""
+
+    GRASPED = "grasped"
+    LIFTED = "lifted"
+    PLACED = "placed"
+    IN_TIME = "in_time"
+
+
 class Verdict(Message, frozen=True, kw_only=True):
     """The success criteria (thesis, Appendix E), judged now; a collision stays until the next episode.
 
     Attributes:
-        reached: the object's centre lies in the gripper's ellipsoid, or all via-points were passed through.
+        reached: the object's centre lies in the gripper's ellipsoid, or all via-points were passed through; and nothing
+            else that the task asks for is unmet.
         kicked_over: the object moved further than its threshold on some axis, or has toppled.
         collision: the robot touched the environment.
         collision_position: where first, base frame [m].
@@ -148,6 +158,7 @@ class Verdict(Message, frozen=True, kw_only=True):
         object_tilt: angle between the object's upright axis and the vertical [rad].
         missed: distance from the grasping frame to the object's centre, or the greatest at a via-point [m]; negative
             where it is not told.
+        unmet: what else the task asks for and is not so.
     """
 
     reached: bool
@@ -160,6 +171,7 @@ class Verdict(Message, frozen=True, kw_only=True):
     object_displacement: Vector3 = (0.0, 0.0, 0.0)
     object_tilt: Real = 0.0
     missed: Real = -1.0
+    unmet: Annotated[tuple[Unmet, ...], msgspec.Meta(max_length=len(Unmet))] = ()
 
 
 class ExecutionState(Message, frozen=True, kw_only=True):

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lfd.motion.rotations import conjugate, rotate
+from protocol.messages import Unmet
 from services.robot.backends.backend import Observation, Touch
 from sim.pose import Pose
 from sim.tasks.success import Success
@@ -32,7 +33,7 @@ class Verdict:
         tilt: of the object's upright axis from the vertical [rad].
         missed: distance from the grasping frame to the object's centre, or the greatest one at a via-point; negative
             where nobody has seen the object [m].
-        unmet: what else the task asks for and is not so: "not grasped", "not lifted", "not placed", "too late".
+        unmet: what else the task asks for and is not so.
     """
 
     reached: bool
@@ -42,7 +43,7 @@ class Verdict:
     displacement: Array
     tilt: float = 0.0
     missed: float = 0.0
-    unmet: tuple[str, ...] = ()
+    unmet: tuple[Unmet, ...] = ()
 
     @property
     def success(self) -> bool:
@@ -159,17 +160,17 @@ class ReachingJudge:
             unmet=unmet,
         )
 
-    def _unmet(self, goals: Success, position: Array, up: float, grasped: bool, time: float) -> Iterator[str]:
+    def _unmet(self, goals: Success, position: Array, up: float, grasped: bool, time: float) -> Iterator[Unmet]:
         """What the task asks for beside reaching its object, and is not so now."""
         if goals.grasped and not grasped:
-            yield "not grasped"
+            yield Unmet.GRASPED
         if goals.placed is not None:
             if grasped or not self._held or not goals.placed.contains(position):
-                yield "not placed"
+                yield Unmet.PLACED
         elif goals.lifted is not None and not (grasped and up >= goals.lifted):
-            yield "not lifted"
+            yield Unmet.LIFTED
         if goals.time is not None and time > goals.time:
-            yield "too late"
+            yield Unmet.IN_TIME
 
 
 def tilt_of(orientation: Array) -> float:

@@ -49,6 +49,7 @@ def verdict(value: Verdict) -> messages.Verdict:
         object_displacement=vector3(value.displacement),
         object_tilt=value.tilt,
         missed=value.missed,
+        unmet=value.unmet,
     )
 
 

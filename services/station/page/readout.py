@@ -93,7 +93,9 @@ def _has_moved(shown: Shown) -> bool:
 
 
 def _miss(verdict: Verdict) -> str:
-    return say("verdict.missed", distance=length(verdict.missed)) if verdict.missed >= 0.0 else ""
+    """How far off the target is, and what else the task asks for that is not so."""
+    far = [say("verdict.missed", distance=length(verdict.missed))] if verdict.missed >= 0.0 else []
+    return say("verdict.also").join([*far, *(say(f"verdict.not_{unmet.value}") for unmet in verdict.unmet)])
 
 
 def _moved(verdict: Verdict) -> str:

@@ -259,15 +259,20 @@ def outcome_text(outcome: Outcome, view: View) -> str:
     """A verdict as a sentence, with how far the target was missed where that is still told."""
     if outcome.success:
         return say("outcome.success")
-    missed = view.verdict.missed if view.verdict is not None and not view.verdict.reached else -1.0
-    faults = [
-        fault
-        for fault, happened in (
-            (say("outcome.collided"), outcome.collision),
-            (say("outcome.kicked_over"), outcome.kicked_over),
-            (say("outcome.missed"), not outcome.reached and missed < 0.0),
-            (say("outcome.missed_by", distance=f"{missed * 1e3:.0f}"), not outcome.reached and missed >= 0.0),
-        )
-        if happened
-    ]
+    happened = ((say("outcome.collided"), outcome.collision), (say("outcome.kicked_over"), outcome.kicked_over))
+    faults = [fault for fault, has in happened if has]
+    if not outcome.reached:
+        faults += _misses(view)
     return say("outcome.failed", faults=say("outcome.also").join(faults))
+
+
+def _misses(view: View) -> list[str]:
+    """What was not reached: what else the task asks for says more than the distance."""
+    verdict = view.verdict
+    if verdict is None or verdict.reached:
+        return [say("outcome.missed")]
+    if verdict.unmet:
+        return [say(f"outcome.not_{unmet.value}") for unmet in verdict.unmet]
+    if verdict.missed < 0.0:
+        return [say("outcome.missed")]
+    return [say("outcome.missed_by", distance=f"{verdict.missed * 1e3:.0f}")]

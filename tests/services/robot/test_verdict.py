@@ -4,6 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lfd.motion.rotations import exp_map, multiply, rotate
+from protocol.messages import Unmet
 from services.robot.backends.backend import Touch
 from services.robot.verdict import ReachingCriteria, ReachingJudge, ellipsoid_value, tilt_of
 from sim.pose import Pose
@@ -103,13 +104,13 @@ def at(*position):
 
 def test_an_object_is_lifted_when_it_is_held_so_far_above_where_it_stood():
     judge = ReachingJudge(HELD, np.zeros(3))
-    assert judge.judge(at(0.0, 0.0, 0.0), at(0.0, 0.0, 0.0), None).unmet == ("not grasped", "not lifted")
-    assert judge.judge(at(0.0, 0.0, 0.0), at(0.0, 0.0, 0.0), None, grasped=True).unmet == ("not lifted",)
+    assert judge.judge(at(0.0, 0.0, 0.0), at(0.0, 0.0, 0.0), None).unmet == (Unmet.GRASPED, Unmet.LIFTED)
+    assert judge.judge(at(0.0, 0.0, 0.0), at(0.0, 0.0, 0.0), None, grasped=True).unmet == (Unmet.LIFTED,)
     lifted = judge.judge(at(0.0, 0.0, 0.12), at(0.0, 0.0, 0.12), None, grasped=True)
     assert lifted.success
     assert not lifted.kicked_over, "further than one that is not held may move"
     dropped = judge.judge(at(0.0, 0.0, 0.12), at(0.0, 0.0, 0.0), None)
-    assert (dropped.success, dropped.unmet) == (False, ("not grasped", "not lifted"))
+    assert (dropped.success, dropped.unmet) == (False, (Unmet.GRASPED, Unmet.LIFTED))
 
 
 def test_what_was_never_held_is_kicked_over_by_being_moved():
@@ -118,8 +119,8 @@ def test_what_was_never_held_is_kicked_over_by_being_moved():
 
 def test_an_object_is_placed_when_it_was_carried_there_and_let_go_of_wherever_the_hand_is_then():
     judge = ReachingJudge(PUT, np.zeros(3))
-    assert judge.judge(at(0.3, 0.0, 0.0), at(0.3, 0.0, 0.0), None).unmet == ("not placed",), "nobody carried it"
-    assert judge.judge(at(0.3, 0.0, 0.0), at(0.3, 0.0, 0.0), None, grasped=True).unmet == ("not placed",)
+    assert judge.judge(at(0.3, 0.0, 0.0), at(0.3, 0.0, 0.0), None).unmet == (Unmet.PLACED,), "nobody carried it"
+    assert judge.judge(at(0.3, 0.0, 0.0), at(0.3, 0.0, 0.0), None, grasped=True).unmet == (Unmet.PLACED,)
     assert judge.judge(at(0.0, 0.0, 0.4), at(0.3, 0.0, 0.0), None).success
     assert not judge.judge(at(0.0, 0.0, 0.4), at(0.5, 0.0, 0.0), None).success
 
@@ -128,7 +129,7 @@ def test_what_takes_longer_than_it_may_is_no_success():
     criteria = ReachingCriteria(RADII, np.full(3, 0.1), 0.4, Success((0.05,) * 3, (0.1,) * 3, time=8.0))
     judge = ReachingJudge(criteria, np.zeros(3))
     assert judge.judge(UPRIGHT, UPRIGHT, None, time=8.0).success
-    assert judge.judge(UPRIGHT, UPRIGHT, None, time=8.1).unmet == ("too late",)
+    assert judge.judge(UPRIGHT, UPRIGHT, None, time=8.1).unmet == (Unmet.IN_TIME,)
 
 
 def test_some_things_may_be_touched_but_not_too_hard():

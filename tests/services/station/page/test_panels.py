@@ -5,7 +5,19 @@ from dataclasses import replace
 import pytest
 from views import SEATED, robot, shown, teaching
 
-from protocol.messages import Light, Mode, Phase, Pose, Recording, RobotState, Role, SafetyState, TeachingState, Verdict
+from protocol.messages import (
+    Light,
+    Mode,
+    Phase,
+    Pose,
+    Recording,
+    RobotState,
+    Role,
+    SafetyState,
+    TeachingState,
+    Unmet,
+    Verdict,
+)
 from services.station.page.identity import Identity
 from services.station.page.panels import counters, scene, traffic_light, verdict
 from services.station.words.table import say
@@ -99,6 +111,11 @@ def test_a_motion_that_was_only_led_has_no_verdict():
     values = verdict(shown(verdict=missed, robot=robot(Phase.IDLE), teaching=teaching(led=True)))
     assert (values["verdict@data-tone"], values["reached@data-tone"]) == ("none", "none")
     assert values["outcome"].startswith("No verdict")
+
+
+def test_what_else_the_task_asks_for_stands_beside_how_far_the_target_was_missed():
+    judged = Verdict(reached=False, kicked_over=False, collision=False, missed=0.0314, unmet=(Unmet.LIFTED,))
+    assert verdict(shown(verdict=judged))["reached-evidence"] == "31 mm from the target, not lifted"
 
 
 def test_a_robot_that_does_not_tell_how_far_the_target_was_missed_is_not_spoken_for():

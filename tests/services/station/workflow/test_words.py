@@ -5,7 +5,7 @@ from dataclasses import replace
 import msgspec
 import pytest
 
-from protocol.messages import ExecutionState, Light, Mode, Outcome, Part, RobotState, SafetyState, Verdict, Way
+from protocol.messages import ExecutionState, Light, Mode, Outcome, Part, RobotState, SafetyState, Unmet, Verdict, Way
 from services.robot.hold import ANOTHER_AUTHORITY, TOO_LONG
 from services.robot.safety import Watchdog
 from services.station.words.table import speech
@@ -274,3 +274,11 @@ def test_every_reason_of_the_robot_s_to_hold_has_words_for_whoever_stands_at_the
         assert text.endswith(". Press Go on, or Done.") is waiting
         assert reason not in text
         assert "held for more" not in text
+
+
+def test_what_else_a_task_asks_for_is_told_where_it_is_not_so():
+    fallen = Verdict(
+        reached=False, kicked_over=False, collision=False, missed=0.01, unmet=(Unmet.GRASPED, Unmet.LIFTED)
+    )
+    text = outcome_text(Outcome(reached=False, kicked_over=False, collision=False), View(1.0, 1, verdict=fallen))
+    assert text == "The robot did not grasp the object, did not lift it."
