@@ -162,6 +162,8 @@ class Arm:
         episode, self._episode = self._episode, None
         if reason or episode is None:
             self._joints.stand(self.observation.q)
+        else:
+            self._joints.end(self.observation.q)
         return episode.outcome(self._verdict, self.measured, reason, self.fingers.now) if episode is not None else None
 
     def halt(self, reason: str) -> EpisodeOutcome | None:

@@ -128,15 +128,24 @@ class Joints:
         self._to_itself = Approach(self._itself, CONTROL_PERIOD, self.self_distance)
         self._to_singular = Approach(SINGULAR, CONTROL_PERIOD, self._kinematics.dexterity(q))
 
+    def end(self, q: Array) -> None:
+        """The motion is over. A blocked arm's command lies ahead of it: it must not creep there.
+
+        Args:
+            q: where the joints are measured to be, shape (m,).
+        """
+        if self._distance(self.q, q) > LEFT_BEHIND:
+            self.stand(q)
+
     def hold(self, q: Array, *, begins: bool) -> None:
         """Come to rest, one period of it, as fast as the limits allow.
 
         Args:
             q: where the joints are measured to be, shape (m,).
-            begins: the arm was on its way before. A blocked arm's command lies ahead of it: it must not creep there.
+            begins: the arm was on its way before; see `end`.
         """
-        if begins and self._distance(self.q, q) > LEFT_BEHIND:
-            self.stand(q)
+        if begins:
+            self.end(q)
         self._limiter.brake()
         self._wanted = self.q
         self.share = self.near = 1.0

@@ -18,8 +18,8 @@ check NAME|FILE   what is missing in it, a line each; where nothing is, whether 
 draw NAME|FILE    the picture alone: both arrangements, the region, the way
 
   retouch task new mine.toml
-  retouch task check mine.toml --robot-model panda --out pictures
-  retouch up --task mine.toml --robot-model panda
+  retouch task check mine.toml --robot-model arm.toml --out pictures
+  retouch up --task mine.toml --robot-model arm.toml
 """
 
 

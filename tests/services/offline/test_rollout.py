@@ -62,6 +62,15 @@ def test_in_the_changed_scene_it_collides_gently_and_the_operator_saves_it(arm):
     np.testing.assert_allclose(refined.refined.positions, wanted.positions, atol=0.01)
 
 
+def test_an_arm_that_something_blocks_at_the_end_of_its_motion_stands_there(arm):
+    rollout(arm, corridor("b1"), PLACE, variant="b2")
+    for _ in range(100):
+        before = arm.tick(UNCORRECTED).observation.q
+    for _ in range(1000):
+        after = arm.tick(UNCORRECTED).observation.q
+    np.testing.assert_allclose(after, before, atol=1e-3)
+
+
 def test_a_quaternion_and_its_negative_are_the_same_episode(arm):
     """Which of the two stands for the predicted rotation reaches neither the arm nor the correction."""
     motion = corridor("b1", 4.0)
