@@ -25,7 +25,9 @@ NO_WEBGL = """
 def seen(tab):
     """A function that gives the live view's picture as it is now, shape (height, width, 3), red first."""
     tab.wait(".scene[data-view=live]")
-    tab.page.evaluate("document.querySelector('.legend').style.visibility = 'hidden'")  # it has these colours too
+    # The legend has these colours too, and what cameras show grows old meanwhile.
+    hide = "document.querySelectorAll('.legend, .camera').forEach((over) => { over.style.visibility = 'hidden'; })"
+    tab.page.evaluate(hide)
 
     def look():
         picture = cv2.imdecode(np.frombuffer(tab.page.locator(".view").screenshot(), np.uint8), cv2.IMREAD_COLOR)
