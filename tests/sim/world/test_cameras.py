@@ -16,8 +16,7 @@ from sim.world.tags import bits
 pytestmark = pytest.mark.sim
 SCENE = pytest.mark.parametrize("place", REACHING.values(), ids=REACHING)
 TAG = Tag()
-HALF = TAG.size / 2
-TAG_CORNERS = np.array([[-HALF, HALF, 0.0], [HALF, HALF, 0.0], [HALF, -HALF, 0.0], [-HALF, -HALF, 0.0]])
+CORNERS = 0.5 * np.array([[-1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [-1.0, -1.0, 0.0]])  # of a tag of 1 m
 
 
 def _corners_in_picture(picture: np.ndarray) -> np.ndarray | None:
@@ -43,7 +42,9 @@ def test_the_head_sees_the_tag_from_the_start_wherever_the_object_stands(
 ) -> None:
     """Each corner is found within two pixels of where the object's pose puts it."""
     world = World(place, place.variants[0], description)
-    tag_pose = world.scene.target.tag_pose
+    tag_pose, tag = world.scene.target.tag_pose, world.scene.target.tag
+    assert tag is not None
+    tag_corners = tag.size * CORNERS
     tag_rotation = Rotation.from_quat(tag_pose.orientation, scalar_first=True)
     lower, upper = place.region.lower, place.region.upper
     with closing(Cameras(place, description)) as cameras:
@@ -53,7 +54,7 @@ def test_the_head_sees_the_tag_from_the_start_wherever_the_object_stands(
                 corners = _corners_in_picture(cameras.render("head", world.state))
                 assert corners is not None
                 camera = cameras.pose("head", world.state)
-                in_base = world.observe().object_position + tag_pose.position + tag_rotation.apply(TAG_CORNERS)
+                in_base = world.observe().object_position + tag_pose.position + tag_rotation.apply(tag_corners)
                 in_camera = (
                     Rotation.from_quat(camera.orientation, scalar_first=True).inv().apply(in_base - camera.position)
                 )
