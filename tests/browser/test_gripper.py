@@ -25,18 +25,6 @@ def takes_part(tab, station):
     return show
 
 
-@pytest.fixture
-def presses(station, eventually):
-    """A function that waits for so many presses."""
-
-    def wait(count=1):
-        taken = []
-        eventually(lambda: taken.extend(station[0].take_presses()) or len(taken) >= count)
-        return taken
-
-    return wait
-
-
 def test_where_it_takes_no_part_nothing_of_it_is_there(tab, presses):
     tab.wait(".gripper", state="hidden")
     tab.page.keyboard.press("KeyC")

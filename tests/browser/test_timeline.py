@@ -37,18 +37,6 @@ def shows(tab, station):
     return show
 
 
-@pytest.fixture
-def presses(station, eventually):
-    """A function that waits for so many presses."""
-
-    def wait(count=1):
-        taken = []
-        eventually(lambda: taken.extend(station[0].take_presses()) or len(taken) >= count)
-        return taken
-
-    return wait
-
-
 def middle(tab, selector):
     box = tab.page.locator(selector).bounding_box()
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
