@@ -79,10 +79,7 @@ def _key(scene: AnyScene) -> str:
         digest.update(scene.told)
         if not scene.manipulator.source.package:
             digest.update(source_of(scene.manipulator).read_bytes())
-        if scene.file is not None:
-            digest.update(scene.file.read_bytes())
     for package in (sim, robot, offline):
-        for path in sorted(Path(package.__path__[0]).rglob("*")):
-            if path.suffix in (".py", ".toml"):
-                digest.update(path.read_bytes())
+        for path in sorted(Path(package.__path__[0]).rglob("*.py")):
+            digest.update(path.read_bytes())
     return digest.hexdigest()[:16]
